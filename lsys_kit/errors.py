@@ -1,0 +1,130 @@
+"""What went wrong, where it went wrong, and what to try.
+
+Every mistake that a person can make in a model, an answer or a command ends in one of the classes below. Their text is
+written for the person who made the mistake: it names the place (line and column, counted from 1), shows the line with a
+caret under the place, and suggests what to try. Faults of the kit itself are never wrapped in these classes.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+
+
+class LSystemError(Exception):
+    """A mistake in a model, an answer or a command, explained to the person who made it.
+
+    Parameters
+    ----------
+    message
+        What is wrong, one sentence without its full stop.
+    source
+        The text in which the mistake stands, if there is one.
+    start, end
+        The offsets in `source` between which the mistake stands.
+    hint
+        What to try, whole sentences.
+
+    Attributes
+    ----------
+    line, column, end
+        The place, counted from 1; `end` is the column behind the mistake. None where no text is at fault.
+
+    Examples
+    --------
+    >>> print(LSystemError('A single "=" cannot be used here', "t = 1", 2, 3, 'To compare two values, type "==".'))
+    A single "=" cannot be used here (line 1, column 3). To compare two values, type "==".
+      t = 1
+        ^
+    """
+
+    def __init__(self, message: str, source: str | None = None, start: int | None = None, end: int | None = None,
+                 hint: str | None = None) -> None:
+        self.message, self.source, self.hint = message, source, hint
+        self.line: int | None = None
+        self.column: int | None = None
+        self.end: int | None = None
+        if source is not None and start is not None:
+            start = min(start, len(source))
+            line_start = source.rfind("\n", 0, start) + 1
+            line_end = source.find("\n", start)
+            line_end = len(source) if line_end < 0 else line_end
+            self.line = source.count("\n", 0, start) + 1
+            self.column = start - line_start + 1
+            self.end = max(min(line_end, end or start + 1) - line_start + 1, self.column + 1)
+        super().__init__(self._text())
+
+    def _text(self) -> str:
+        where = f" (line {self.line}, column {self.column})" if self.line else ""
+        said = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
+        return said + self._quotation()
+
+    def _quotation(self) -> str:
+        """The line at fault with a caret under the place; a window of it where the line is long."""
+        if self.source is None or self.line is None or self.column is None or self.end is None:
+            return ""
+        line = self.source.split("\n")[self.line - 1]
+        first = max(0, self.column - 60)
+        shown = "".join(map(printable, line[first:first + 100])).rstrip()
+        carets = "^" * max(1, min(self.end - self.column, len(shown) - (self.column - 1 - first)))
+        return f"\n  {shown}\n  {' ' * (self.column - 1 - first)}{carets}"
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows: the message alone, for a mistake in a model is not a fault of a program."""
+        return [f"{type(self).__name__}: {self}"]
+
+
+class ModelSyntaxError(LSystemError):
+    """The text cannot be read in its notation."""
+
+
+class ModelNameError(LSystemError):
+    """A name stands for nothing: no parameter, constant, function, system or option has it."""
+
+
+class ModelValueError(LSystemError):
+    """A value cannot be what the model makes of it: a number where a truth is asked for, a division by zero."""
+
+
+class ModelLimitError(LSystemError):
+    """Something would grow past a limit (see `limits`).
+
+    Attributes
+    ----------
+    limit, needed
+        The limit and what would have been needed, in the unit that the message names.
+    partial
+        What was finished before: the derivation of the steps that fit, or None.
+    """
+
+    def __init__(self, message: str, *, limit: float, needed: float | None = None, partial: object = None,
+                 hint: str | None = None, source: str | None = None, start: int | None = None,
+                 end: int | None = None) -> None:
+        self.limit, self.needed, self.partial = limit, needed, partial
+        super().__init__(message, source, start, end, hint)
+
+
+class ModelFileError(LSystemError):
+    """A file is not there, cannot be read, or may not be written."""
+
+
+def printable(character: str) -> str:
+    """The character, or a blank or question mark for one that would not show or would turn the text around.
+
+    >>> printable("a"), printable("\\u202e"), printable("\\t")
+    ('a', '?', ' ')
+    """
+    if character == "\t":
+        return " "
+    return character if character.isprintable() else "?"
+
+
+def named(character: str) -> str:
+    """A character as a message quotes it: itself where it shows, and its Unicode name where it may mislead.
+
+    >>> named("x"), named("\\u0445"), named("\\u202e")
+    ('"x"', '"х" (CYRILLIC SMALL LETTER HA)', 'RIGHT-TO-LEFT OVERRIDE')
+    """
+    name = unicodedata.name(character, f"U+{ord(character):04X}")
+    if not character.isprintable():
+        return name
+    return f'"{character}"' if character.isascii() else f'"{character}" ({name})'

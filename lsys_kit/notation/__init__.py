@@ -1,0 +1,1 @@
+"""Text to records and back. Knows no numbers' meaning, no pictures, no files."""

@@ -1,0 +1,58 @@
+"""Letters written together: `F -> FF` means two segments, `ar -> al br` means two cells of two letters each.
+
+Books glue one-letter symbols together; the kit's notation has symbols of several letters. A name of several letters that
+no production rewrites, and that can be parted in just one way into symbols that the system has, is read as those symbols.
+An `alphabet:` line keeps a name whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cache
+
+from lsys_kit.notation.model import LSystem, Module
+
+_ALWAYS = frozenset("Ff")
+"""The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
+
+
+def unglued(word: Iterable[Module], system: LSystem) -> tuple[tuple[Module, ...], list[str]]:
+    """A word with its glued names parted, and a note for each name that was.
+
+    >>> from lsys_kit.notation.read import read
+    >>> read("axiom: a\\na -> ab\\nb -> a").productions[0].successor
+    (Module(symbol='a', arguments=()), Module(symbol='b', arguments=()))
+    """
+    whole, parts = _symbols(system)
+    result: list[Module] = []
+    notes: list[str] = []
+    for module in word:
+        pieces = [] if len(module.symbol) < 2 or module.symbol in whole else _partings(module.symbol, parts)
+        if not pieces:
+            result.append(module)
+            continue
+        result += [Module(symbol, at=module.at) for symbol in pieces[:-1]]
+        result.append(replace(module, symbol=pieces[-1]))
+        notes.append(f'"{module.symbol}" is read as {" ".join(pieces)}.')
+    return tuple(result), notes
+
+
+@cache
+def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
+    """The names that stay whole, and the symbols of which a name may be made."""
+    rules = (*system.productions, *system.interpretation)
+    rewritten = {rule.predecessor.symbol for rule in rules}
+    shown = [m.symbol for m in (*system.axiom, *(m for rule in rules for m in rule.successor))]
+    whole = rewritten | set(system.alphabet)
+    return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
+
+
+def _partings(name: str, parts: frozenset[str]) -> list[str]:
+    """The one way to part a name into symbols, or nothing where there is none or more than one."""
+    ways: list[list[list[str]]] = [[[]]]
+    for end in range(1, len(name) + 1):
+        found = [[*way, name[start:end]] for start in range(max(0, end - 64), end) if name[start:end] in parts
+                 for way in ways[start][:2]]
+        ways.append(found[:2])
+    return ways[-1][0] if len(ways[-1]) == 1 else []

@@ -1,0 +1,233 @@
+"""Text to records: a system, a word or an expression, read in one of the notations.
+
+A text is cut into statements (a line, with the indented lines that go on with it), each is parsed by the grammar of its
+notation, and the records are checked. The grammars stand beside this file: `abop.lark`, `plant_string.lark`, and
+`expressions.lark`, which they share.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any
+
+from lark import Lark, TextSlice
+from lark.exceptions import UnexpectedInput
+from lark.visitors import merge_transformers
+
+from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
+from lsys_kit.limits import current
+from lsys_kit.notation.checks import check_constants, check_expression, check_production, check_word
+from lsys_kit.notation.expressions import Expression, Value, function_of
+from lsys_kit.notation.glued import unglued
+from lsys_kit.notation.model import Constant, LSystem, Module, Production
+from lsys_kit.notation.records import Expressions, Misread, Statements
+from lsys_kit.notation.slips import ARROW, explained
+from lsys_kit.notation.write import known
+
+_STARTS_STATEMENT = re.compile(rf"{ARROW.pattern}|^\s*[A-Za-z_]\w*\s*=(?!=)|^\s*[A-Za-zωδ]+\s*:(?!.*[<>=])")
+
+
+def read(text: str, notation: str | None = None) -> LSystem:
+    """Read a system.
+
+    Parameters
+    ----------
+    text
+        The model: constants, axiom, productions, one a line. `/* ... */` is a comment.
+    notation
+        "abop" (the default) or "plant-string".
+
+    Raises
+    ------
+    ModelSyntaxError, ModelNameError, ModelValueError
+        The text makes no sense; the error has the place and a hint.
+    ModelLimitError
+        The text is too long.
+
+    Examples
+    --------
+    >>> system = read('''
+    ...     axiom: ar
+    ...     ar -> al br
+    ...     al -> bl ar
+    ...     br -> ar
+    ...     bl -> al''')
+    >>> print(system.productions[0])
+    ar -> al br
+    """
+    if not isinstance(text, str):
+        raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
+    if len(text) > current().text:
+        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
+                              limit=current().text, needed=len(text))
+    notation = known(notation or "abop")
+    draft = _Draft(text)
+    for start, end in _statements(text):
+        draft.add(*_parse(notation, "statement", text, start, end), (start, end))
+    return draft.system(notation)
+
+
+def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:
+    """Read a word whose arguments are numbers; with a system, letters written together are parted as in its rules.
+
+    >>> [str(module) for module in read_word("A(1/2)[B]")]
+    ['A(0.5)', '[', 'B', ']']
+    """
+    if not text.strip() or text.strip() in ("ε", "*"):
+        return ()
+    word = _parse(known(notation), "word", text, 0, len(text))
+    check_word(word, (), text)
+    if system is not None and notation == "abop":
+        word, _ = unglued(word, system)
+    return tuple(replace(m, arguments=tuple(_value(a) for a in m.arguments)) for m in word)
+
+
+def read_expression(text: str) -> Expression:
+    """Read an expression; its names are checked by whoever knows them.
+
+    >>> print(read_expression("2*(t+1)"))
+    2 * (t + 1)
+    """
+    _check_length(text, 0, len(text))
+    return _parse("abop", "expression", text, 0, len(text))  # type: ignore[no-any-return]
+
+
+def read_number(text: str) -> Value:
+    """Read a number, exactly; it may be written as a calculation.
+
+    >>> read_number("14/10")
+    Fraction(7, 5)
+    """
+    expression = read_expression(text)
+    check_expression(expression, (), text)
+    return _value(expression)
+
+
+def _value(expression: Any) -> Value:
+    try:
+        return function_of(expression, {})(())  # type: ignore[no-any-return]
+    except (ArithmeticError, ValueError) as fault:
+        raise ModelValueError(f'"{expression}" has no value: {fault}') from None
+
+
+@dataclass
+class _Draft:
+    """What the statements read so far make of a system."""
+
+    source: str
+    axiom: tuple[Module, ...] | None = None
+    constants: list[Constant] = field(default_factory=list)
+    sections: dict[str, list[Production]] = field(default_factory=lambda: {"productions": [], "interpretation": []})
+    settings: dict[str, Any] = field(default_factory=dict)
+    section: str = "productions"
+
+    def add(self, kind: str, record: Any, at: tuple[int, int]) -> None:
+        if kind == "axiom":
+            if self.axiom is not None:
+                raise ModelSyntaxError("A second axiom stands here", self.source, *at, "A system has one axiom.")
+            self.axiom = record
+        elif kind == "constant":
+            self.constants.append(replace(record, at=at))
+        elif kind == "production":
+            self.sections[self.section].append(replace(record, at=at))
+            if len(self.sections[self.section]) > current().rules:
+                raise ModelLimitError(f"The model has more than {current().rules} productions", limit=current().rules)
+        elif kind == "section":
+            self.section = record
+        else:
+            self.settings[kind] = record
+
+    def system(self, notation: str) -> LSystem:
+        source = self.source
+        if self.axiom is None:
+            raise ModelSyntaxError("There is no axiom", source, len(source), None,
+                                   'Give the first word on a line of its own, as in "axiom: A".')
+        names = [constant.name for constant in self.constants]
+        check_constants(self.constants, source)
+        check_word(self.axiom, names, source)
+        for production in (*self.sections["productions"], *self.sections["interpretation"]):
+            check_production(production, names, source)
+        system = LSystem(self.axiom, tuple(self.sections["productions"]), tuple(self.constants),
+                         tuple(self.sections["interpretation"]), notation=notation, source=source, **self._settings())
+        return _with_parted_names(system) if notation == "abop" else system
+
+    def _settings(self) -> dict[str, Any]:
+        result = {}
+        for name, setting in self.settings.items():
+            if name == "alphabet":
+                result[name] = setting
+                continue
+            check_expression(setting, (), self.source)
+            result[name] = _value(setting)
+            if name == "steps" and not (isinstance(result[name], int) and result[name] >= 0):
+                raise ModelValueError(f'"{setting}" is no number of steps', self.source, *(setting.at or (None, None)))
+        return result
+
+
+def _with_parted_names(system: LSystem) -> LSystem:
+    """The system with letters that were written together parted, and a note that says so."""
+    notes: dict[str, None] = {}
+
+    def part(word: tuple[Module, ...]) -> tuple[Module, ...]:
+        parted, said = unglued(word, system)
+        notes.update(dict.fromkeys(said))
+        return parted
+
+    def parted_rules(rules: tuple[Production, ...]) -> tuple[Production, ...]:
+        return tuple(replace(rule, successor=part(rule.successor)) for rule in rules)
+
+    return replace(system, axiom=part(system.axiom), productions=parted_rules(system.productions),
+                   interpretation=parted_rules(system.interpretation), notes=tuple(notes))
+
+
+def _statements(text: str) -> Iterator[tuple[int, int]]:
+    """The offsets of the statements: a line, with the lines that go on with it."""
+    lines = [(match.start(), match.group()) for match in re.finditer(r"[^\n]+", _without_comments(text))
+             if match.group().strip()]
+    base = min((len(line) - len(line.lstrip()) for _, line in lines), default=0)
+    start: int | None = None
+    end, last = 0, ""
+    for offset, line in lines:
+        indented = len(line) - len(line.lstrip()) > base
+        goes_on = (ARROW.match(line.lstrip()) or (indented and re.search(rf"({ARROW.pattern}|&&|\|\||:)\s*$", last))
+                   or (indented and not _STARTS_STATEMENT.search(line)))
+        if start is not None and not goes_on:
+            yield start, end
+        if start is None or not goes_on:
+            start = offset + len(line) - len(line.lstrip())
+        end, last = offset + len(line.rstrip()), line
+    if start is not None:
+        yield start, end
+
+
+def _without_comments(text: str) -> str:
+    """The text with its comments blanked, every other character in its place."""
+    blanked = re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.DOTALL)
+    opened = blanked.find("/*")
+    if opened >= 0:
+        raise ModelSyntaxError("This comment is never closed", text, opened, opened + 2, 'A comment ends with "*/".')
+    return blanked
+
+
+def _parse(notation: str, rule: str, text: str, start: int, end: int) -> Any:
+    try:
+        return _parser(notation).parse(TextSlice(text, start, end), start=rule)
+    except UnexpectedInput as slip:
+        raise explained(slip, text, start, end) from None
+    except Misread as misread:
+        raise misread.kind(misread.message, text, *(misread.at or (None, None)), misread.hint) from None
+
+
+@cache
+def _parser(notation: str) -> Lark:
+    rules = ["statement", "word"] + (["expression"] if notation == "abop" else [])
+    return Lark.open(f"{notation.replace('-', '_')}.lark", rel_to=__file__, parser="lalr", start=rules, maybe_placeholders=False,
+                     transformer=merge_transformers(Statements(), expressions=Expressions()))
+
+
+def _check_length(text: str, start: int, end: int) -> None:
+    if end - start > current().expression:
+        raise ModelSyntaxError(f"This expression has more than {current().expression:,} characters", text, start, end)

@@ -1,0 +1,131 @@
+"""What the grammars name, as records: a method for each name.
+
+The parser calls these methods while it reads, so that there is no tree in between.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import Any
+
+from lark import Token, Transformer, v_args
+
+from lsys_kit.errors import ModelNameError, ModelSyntaxError
+from lsys_kit.limits import current
+from lsys_kit.notation.checks import suggestion
+from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, Place, tidy
+from lsys_kit.notation.model import Constant, Module, Production
+
+_SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*"}
+
+
+class Misread(Exception):
+    """A record that cannot be made, before the text it came from is known."""
+
+    def __init__(self, kind: type[Any], message: str, at: Place, hint: str | None = None) -> None:
+        self.kind, self.message, self.at, self.hint = kind, message, at, hint
+        super().__init__(message)
+
+
+def _around(*parts: Any) -> Place:
+    """The offsets from the first to the last of some tokens or records."""
+    places = [(p.start_pos, p.end_pos) if isinstance(p, Token) else p.at for p in parts]
+    return places[0][0], places[-1][1]
+
+
+def _check_name(token: Token) -> None:
+    if len(token) > current().name:
+        raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", _around(token))
+
+
+@v_args(inline=True)
+class Expressions(Transformer[Any, Any]):
+    """What `expressions.lark` names."""
+
+    def number(self, token: Token) -> Number:
+        exponent = re.search(r"[eE]([+-]?\d+)$", token)
+        if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
+            raise Misread(ModelSyntaxError, "This number is too long", _around(token))
+        return Number(tidy(Fraction(str(token))), _around(token))
+
+    def name(self, token: Token) -> Name:
+        _check_name(token)
+        return Name(str(token), _around(token))
+
+    def unary(self, sign: Token, operand: Expression) -> Expression:
+        operator = _SPELLINGS.get(sign, str(sign))
+        if operator == "+":
+            return operand
+        if operator == "-" and isinstance(operand, Number):
+            return Number(-operand.value, _around(sign, operand))
+        return self._applied("-x" if operator == "-" else operator, (operand,), _around(sign, operand))
+
+    def binary(self, left: Expression, sign: Token, right: Expression) -> Expression:
+        return self._applied(_SPELLINGS.get(sign, str(sign)), (left, right), _around(left, right))
+
+    def call(self, name: Token, *operands: Expression) -> Expression:
+        operator = OPERATORS.get(name)
+        functions = [known for known, entry in OPERATORS.items() if entry.precedence is None]
+        if operator is None or name not in functions:
+            raise Misread(ModelNameError, f'I do not know the function "{name}"', _around(name),
+                           suggestion(name, functions) or f"Functions are: {', '.join(sorted(functions))}.")
+        least, most = operator.arity
+        if not least <= len(operands) <= most:
+            raise Misread(ModelSyntaxError, f"{name}(...) takes {least if least == most else f'{least} or more'} "
+                           f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
+        return self._applied(str(name), operands, _around(name, operands[-1]))
+
+    def _applied(self, operator: str, operands: tuple[Expression, ...], at: Place) -> Apply:
+        applied = Apply(operator, operands, at)
+        if applied.depth > current().depth:
+            raise Misread(ModelSyntaxError, f"This expression is nested more than {current().depth} deep", at)
+        return applied
+
+
+@v_args(inline=True)
+class Statements(Transformer[Any, Any]):
+    """What the grammars of the notations name."""
+
+    def module(self, symbol: Token, *arguments: Expression) -> Module:
+        _check_name(symbol)
+        at = _around(symbol, *arguments)
+        return Module(_SPELLINGS.get(symbol, str(symbol)), arguments, at)
+
+    def word(self, *modules: Module) -> tuple[Module, ...]:
+        return modules
+
+    def successor(self, word: tuple[Module, ...]) -> tuple[Module, ...]:
+        return word
+
+    def erased(self, _: Token) -> tuple[Module, ...]:
+        return ()
+
+    def condition(self, expression: Expression) -> Expression:
+        return expression
+
+    def always(self) -> None:
+        return None
+
+    def production(self, predecessor: Module, *rest: Any) -> tuple[str, Production]:
+        condition = rest[0] if len(rest) == 3 else None
+        return "production", Production(predecessor, rest[-1], condition)
+
+    def axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, tuple[Module, ...]]:
+        return "axiom", word
+
+    def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:
+        ends = [part for part in rest if not isinstance(part, Token)]
+        step = ends[2] if len(ends) == 3 else Number(1)
+        _check_name(name)
+        return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
+
+    def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
+        name = keyword.rstrip(": \t").lower()
+        return {"δ": "angle", "delta": "angle"}.get(name, name), Number(Fraction(value), _around(value)) if isinstance(value, Token) else value
+
+    def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
+        return "alphabet", tuple(map(str, names))
+
+    def section(self, keyword: Token) -> tuple[str, str]:
+        return "section", keyword.rstrip(": \t").lower()
