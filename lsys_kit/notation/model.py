@@ -140,6 +140,16 @@ class LSystem:
         return write(self)
 
 
+def symbols(system: LSystem) -> tuple[str, ...]:
+    """All symbols of a system, in the order in which they are first read.
+
+    >>> symbols(LSystem((Module("A"),), (Production(Module("A"), (Module("A"), Module("B"))),)))
+    ('A', 'B')
+    """
+    modules = [*system.axiom, *(m for rule in system.productions for m in (rule.predecessor, *rule.successor))]
+    return tuple(dict.fromkeys(module.symbol for module in modules))
+
+
 CELLS = ("L", "R")
 """The cells of a filament, pointing left and right: `L(length, width, shade)` and `R(length, width, shade)`, the modules
 that seed 002 (L-system 7, section 7) assumes to be predefined; the shade of age, 0 to 1, is that of seed 000's figures."""

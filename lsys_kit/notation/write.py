@@ -44,7 +44,7 @@ def write(system: LSystem, notation: str | None = None) -> str:
     if lacking:
         raise ModelValueError(f"The notation {notation} has no {lacking}, which this system needs")
     axiom = "Axiom: " if notation == "plant-string" else "axiom: "
-    return "\n".join([*_head(system), axiom + joined_in(notation, system.axiom), *_productions(system, notation)]) + "\n"
+    return "\n".join([*_head(system), axiom + joined_in(notation, system.axiom), *_productions(system, notation)])
 
 
 def known(notation: str) -> str:

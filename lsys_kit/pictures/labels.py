@@ -1,0 +1,78 @@
+"""Labels: how a module's name is set in pictures, as mathematics: a letter, perhaps a subscript, and its values.
+
+A name such as `u1` or `a_r` is a letter with a subscript; so is `ar` where the system also has `al`: the last letter is the
+polarity. All text is escaped: a model's names can never become markup.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from html import escape
+
+from lsys_kit.notation.expressions import number_text
+from lsys_kit.notation.model import LSystem, Module, symbols
+
+
+@lru_cache(maxsize=64)
+def twins(system: LSystem) -> Mapping[str, tuple[str, str]]:
+    """The symbols that come in two polarities, each with the letter and the polarity, "l" or "r".
+
+    >>> from lsys_kit.notation.read import read
+    >>> twins(read("axiom: ar\\nar -> al b\\nal -> b ar"))
+    {'ar': ('a', 'r'), 'al': ('a', 'l')}
+    """
+    names = set(symbols(system))
+    return {name: (name[:-1].rstrip("_"), name[-1]) for name in symbols(system)
+            if len(name) > 1 and name[-1] in "lr" and name[:-1] + {"l": "r", "r": "l"}[name[-1]] in names}
+
+
+def parts(symbol: str, system: LSystem) -> tuple[str, str]:
+    """A symbol's letter and its subscript, which may be empty.
+
+    >>> from lsys_kit.notation.read import read
+    >>> parts("u12", read("axiom: u12"))
+    ('u', '12')
+    """
+    if symbol in twins(system):
+        return twins(system)[symbol]
+    match = re.fullmatch(r"([A-Za-z]+)_?(\d+)|([A-Za-z]+)_(\w+)", symbol)
+    if not match:
+        return symbol, ""
+    return (match[1], match[2]) if match[1] else (match[3], match[4])
+
+
+def values_text(module: Module) -> str:
+    """A module's values in parentheses, or nothing."""
+    values = ",".join(number_text(value) if abs(value) < 1e6 else f"{float(value):.3g}"  # type: ignore[arg-type]
+                      for value in module.arguments)
+    return f"({values})" if values else ""
+
+
+def svg_label(symbol: str, system: LSystem, values: str = "") -> str:
+    """A label as the content of an SVG text element: italic letter, small lowered subscript, upright values.
+
+    >>> from lsys_kit.notation.read import read
+    >>> svg_label("a_r", read("axiom: a_r"), "(2)")
+    '<tspan font-style="italic">a</tspan><tspan dy="3" font-size="70%">r</tspan><tspan dy="-3">(2)</tspan>'
+    """
+    letter, subscript = parts(symbol, system)
+    text = f'<tspan font-style="italic">{escape(letter)}</tspan>' if letter[:1].isalpha() else escape(letter)
+    if subscript:
+        text += f'<tspan dy="3" font-size="70%">{escape(subscript)}</tspan>'
+    if values:
+        text += f'<tspan dy="-3">{escape(values)}</tspan>' if subscript else escape(values)
+    return text
+
+
+def html_label(module: Module, system: LSystem) -> str:
+    """A module as HTML.
+
+    >>> from lsys_kit.notation.read import read
+    >>> html_label(Module("a_r", (2,)), read("axiom: a_r(2)"))
+    '<i>a</i><sub>r</sub>(2)'
+    """
+    letter, subscript = parts(module.symbol, system)
+    text = f"<i>{escape(letter)}</i>" if letter[:1].isalpha() else escape(letter)
+    return text + (f"<sub>{escape(subscript)}</sub>" if subscript else "") + escape(values_text(module))

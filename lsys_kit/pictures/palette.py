@@ -1,0 +1,53 @@
+"""Colours: one for each symbol, the same in the word, the stage diagram and the drawing.
+
+The colours are those of Okabe and Ito (Color Universal Design, 2008), which people with any kind of colour vision can tell
+apart. Age or another value is a colour's strength; what matters is never said by colour alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from lsys_kit.notation.model import LSystem, symbols
+from lsys_kit.pictures.labels import twins
+
+GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#D55E00", "#56B4E9"
+SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
+INK = "#22303C"
+"""Text and arrows."""
+QUIET = "#7A8794"
+"""Brackets, turns and captions: what steers the turtle and is no part of the organism."""
+PAPER = "#FFFFFF"
+MARK = "#FFF2C2"
+"""Behind what is marked: the chosen stage, the current row."""
+MARK_EDGE = "#B8860B"
+
+
+@lru_cache(maxsize=64)
+def colours(system: LSystem) -> Mapping[str, str]:
+    """A colour for each symbol that is a letter or a name; both polarities of a cell share theirs.
+
+    >>> from lsys_kit.notation.read import read
+    >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
+    {'ar': '#009E73', 'al': '#009E73', 'br': '#E69F00', 'bl': '#E69F00'}
+    """
+    pairs = twins(system)
+    found: dict[str, str] = {}
+    bases: dict[str, str] = {}
+    for symbol in symbols(system):
+        if symbol[0].isalpha():
+            base = pairs[symbol][0] if symbol in pairs else symbol
+            found[symbol] = bases.setdefault(base, SERIES[len(bases) % len(SERIES)])
+    return found
+
+
+def tinted(colour: str, strength: float) -> str:
+    """A colour mixed with white: 0 is white, 1 the colour itself.
+
+    >>> tinted("#0072B2", 0.5)
+    '#80b8d8'
+    """
+    strength = min(1.0, max(0.0, strength))
+    channels = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{int(255 - strength * (255 - channel) + 0.5):02x}" for channel in channels)
