@@ -1,0 +1,77 @@
+"""lsys_kit: a teaching kit on Lindenmayer systems.
+
+Type rules, and see them as a word, as a stage diagram and as a drawing:
+
+>>> from lsys_kit import derive, system
+>>> derive(system("J1"), 3)
+0 ar
+1 al br
+2 bl ar ar
+3 al al br al br
+
+Every public name is listed in `__all__`. A name is loaded when it is first used, so that `import lsys_kit` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lsys_kit.budget import limits
+    from lsys_kit.classroom.catalogue import system, systems
+    from lsys_kit.classroom.exercises import check
+    from lsys_kit.classroom.explorer import explore
+    from lsys_kit.derivation.derive import derive
+    from lsys_kit.derivation.growth import growth
+    from lsys_kit.derivation.stages import stages
+    from lsys_kit.errors import (
+        LSystemError,
+        ModelFileError,
+        ModelLimitError,
+        ModelNameError,
+        ModelSyntaxError,
+        ModelValueError,
+    )
+    from lsys_kit.notation.read import read
+    from lsys_kit.notation.write import write
+    from lsys_kit.pictures.draw import draw, figure
+
+_HOMES = {
+    "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
+    "ModelSyntaxError": "errors", "ModelValueError": "errors", "check": "classroom.exercises", "derive": "derivation.derive",
+    "draw": "pictures.draw", "explore": "classroom.explorer", "figure": "pictures.draw", "growth": "derivation.growth",
+    "limits": "budget", "read": "notation.read", "stages": "derivation.stages", "system": "classroom.catalogue",
+    "systems": "classroom.catalogue", "write": "notation.write",
+}
+
+__all__ = [
+    "LSystemError",
+    "ModelFileError",
+    "ModelLimitError",
+    "ModelNameError",
+    "ModelSyntaxError",
+    "ModelValueError",
+    "check",
+    "derive",
+    "draw",
+    "explore",
+    "figure",
+    "growth",
+    "limits",
+    "read",
+    "stages",
+    "system",
+    "systems",
+    "write",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"lsys_kit.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -18,7 +18,7 @@ import numpy as np
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.limits import current
+from lsys_kit.budget import current
 from lsys_kit.notation.model import LSystem
 
 PLAIN = 4_096

@@ -17,7 +17,7 @@ import numpy as np
 from lsys_kit.derivation.derive import counted
 from lsys_kit.derivation.states import States, closure
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.limits import current
+from lsys_kit.budget import current
 from lsys_kit.notation.model import LSystem, Module
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.limits import current
+from lsys_kit.budget import current
 from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, gives
 from lsys_kit.notation.model import Constant, Module, Production
 

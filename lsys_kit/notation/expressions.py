@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from lsys_kit.limits import current
+from lsys_kit.budget import current
 
 if TYPE_CHECKING:
     import sympy

@@ -18,7 +18,7 @@ from lark.exceptions import UnexpectedInput
 from lark.visitors import merge_transformers
 
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
-from lsys_kit.limits import current
+from lsys_kit.budget import current
 from lsys_kit.notation.checks import check_constants, check_expression, check_production, check_word
 from lsys_kit.notation.expressions import Expression, Value, function_of
 from lsys_kit.notation.glued import unglued

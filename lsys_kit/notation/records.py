@@ -12,7 +12,7 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
-from lsys_kit.limits import current
+from lsys_kit.budget import current
 from lsys_kit.notation.checks import suggestion
 from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, Place, tidy
 from lsys_kit.notation.model import Constant, Module, Production

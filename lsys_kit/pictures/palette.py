@@ -46,7 +46,7 @@ def tinted(colour: str, strength: float) -> str:
     """A colour mixed with white: 0 is white, 1 the colour itself.
 
     >>> tinted("#0072B2", 0.5)
-    '#80b8d8'
+    '#80b9d9'
     """
     strength = min(1.0, max(0.0, strength))
     channels = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
