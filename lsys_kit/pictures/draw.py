@@ -1,0 +1,226 @@
+"""Drawing: words and systems as pictures that a notebook shows, a file keeps, or a matplotlib figure takes in."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.interpret import is_filament
+from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.words import Word
+from lsys_kit.errors import ModelFileError, ModelValueError
+from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.notation.model import LSystem
+from lsys_kit.pictures import raster
+from lsys_kit.pictures.palette import GREEN, colours
+from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, strokes_svg
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+MOST_ROWS = 24
+"""A developmental sequence shows at most so many steps, the last ones."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture of one word, or of the steps of a filament below one another.
+
+    Attributes
+    ----------
+    rows
+        The scenes, one for each step that is shown.
+    colour_of
+        For each state its colour.
+    current
+        The step whose row is marked, or None.
+    marked
+        The states whose modules are marked.
+    """
+
+    rows: tuple[Row, ...]
+    colour_of: Mapping[int, str] = field(repr=False)
+    current: int | None = None
+    marked: Collection[int] = ()
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the last step shown."""
+        return self.rows[-1].scene
+
+    @cached_property
+    def text(self) -> str:
+        """What the picture shows, in words."""
+        steps = f"steps {self.rows[0].step} to {self.rows[-1].step}" if len(self.rows) > 1 else ""
+        return described([steps, ("the last: " if steps else "") + str(self.scene)])
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        if len(self.scene.cells):
+            body, width, height = rows_svg(self.rows, self.colour_of, self.current, self.marked)
+        else:
+            frame = frame_of(self.scene.box)
+            width, height = frame.width, frame.height
+            if len(self.scene.segments) > current().segments:
+                data = base64.b64encode(self.png).decode()
+                body = f'<image width="{width * 10}" height="{height * 10}" href="data:image/png;base64,{data}"/>'
+            else:
+                body = strokes_svg(self.scene.segments, frame, self.colour_of, self.marked)
+        return document(background(width, height) + body, width, height, self.text)
+
+    @cached_property
+    def png(self) -> bytes:
+        """The picture as PNG, without text."""
+        if len(self.scene.cells):
+            return raster.rows_png([row.scene for row in self.rows], self.colour_of)
+        return raster.strokes_png(self.scene, self.colour_of)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to a file, in the format that its name ends in: .svg, .png or .pdf.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        path = Path(path)
+        kind = path.suffix.lower()
+        if kind not in (".svg", ".png", ".pdf"):
+            raise ModelFileError(f'A picture cannot be written to "{path.name}"', hint="Let the name end in .svg, .png or .pdf.")
+        try:
+            if kind == ".svg":
+                path.write_text(self.svg + "\n", encoding="utf-8")
+            elif kind == ".png":
+                path.write_bytes(self.png)
+            else:
+                axes = figure(self)
+                axes.figure.savefig(path, bbox_inches="tight", metadata={"CreationDate": None})
+        except OSError as fault:
+            raise ModelFileError(f'"{path}" cannot be written: {fault.strerror}') from None
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": self.text}
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, arithmetic: str = "exact",
+         marked: Collection[int] = (), **constants: object) -> Picture:
+    """Draw a system, a derivation or a word.
+
+    Parameters
+    ----------
+    what
+        A system is derived first. A filament is then shown as a developmental sequence, one row a step; anything else as
+        the turtle draws its last word. A single word is shown as it is.
+    n
+        For a system how many steps; by default those that the system asks for.
+    angle
+        Degrees by which `+` and `-` turn; by default the system's.
+    arithmetic, **constants
+        As for `derive`.
+    marked
+        States whose modules are marked.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> draw(read("angle: 60\\nheading: 0\\naxiom: F--F--F\\nF -> F+F--F+F"), 3)
+    192 segments, width 27, height 31.18
+    """
+    if isinstance(what, LSystem):
+        steps = n if n is not None else what.steps if what.steps is not None else 5
+        what = derive(what, steps, arithmetic=arithmetic, **constants)
+    elif not isinstance(what, Derivation | Word):
+        raise ModelValueError(f"Only a system, a derivation or a word can be drawn, not {type(what).__name__}")
+    elif n is not None or constants:
+        raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
+    system = what.states.system
+    if is_filament(system):
+        words = [(step, what[step]) for step in range(max(0, what.steps + 1 - MOST_ROWS), what.steps + 1)] \
+            if isinstance(what, Derivation) else [(0, what)]
+        rows = tuple(Row(step, filament(word)) for step, word in words)
+        return Picture(rows, state_colours(what), what.steps if isinstance(what, Derivation) else None, marked)
+    step, word = (what.steps, what[-1]) if isinstance(what, Derivation) else (0, what)
+    turn = float(number_from(angle, "angle") if angle is not None else system.angle)
+    return Picture((Row(step, placed(traced(word), turn, float(system.heading))),), state_colours(word), None, marked)
+
+
+def state_colours(what: Derivation | Word) -> Mapping[int, str]:
+    """For each state met so far the colour of its symbol."""
+    palette = colours(what.states.system)
+    return {state: palette.get(module.symbol, GREEN) for state, module in enumerate(what.states.modules)}
+
+
+def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, **choices: Any) -> Axes:
+    """The same drawing in a matplotlib figure, to be put beside other plots.
+
+    Parameters
+    ----------
+    what
+        A picture, or what `draw` takes.
+    ax
+        The axes to draw into; by default those of a new figure.
+    **choices
+        As for `draw`.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The axes, without frame, with equal scales.
+    """
+    picture = what if isinstance(what, Picture) else draw(what, **choices)
+    if ax is None:
+        from matplotlib.figure import Figure
+
+        ax = Figure(figsize=(6, 4), layout="constrained").add_subplot()
+    if len(picture.scene.cells):
+        _plot_rows(ax, picture.rows, picture.colour_of)
+    else:
+        _plot_strokes(ax, picture.scene, picture.colour_of)
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    ax.set_axis_off()
+    return ax
+
+
+def _plot_strokes(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
+    from matplotlib.collections import LineCollection
+
+    from lsys_kit.pictures.svg import STROKES, stroke_scale
+
+    thin = stroke_scale(scene.segments, frame_of(scene.box).scale)
+    orders = scene.segments.orders.clip(max=len(STROKES) - 1)
+    ax.add_collection(LineCollection(scene.segments.ends.reshape(-1, 2, 2).tolist(), capstyle="round",
+                                     colors=[colour_of.get(state, GREEN) for state in scene.segments.states.tolist()],
+                                     linewidths=[0.8 * STROKES[order] * thin for order in orders.tolist()]))
+
+
+def _plot_rows(ax: Axes, rows: Sequence[Row], colour_of: Mapping[int, str]) -> None:
+    from matplotlib.patches import Ellipse, FancyArrowPatch
+
+    from lsys_kit.pictures.palette import INK, tinted
+
+    pitch = 1.3 * max(row.scene.height for row in rows)
+    for place, row in enumerate(rows):
+        cells, y = row.scene.cells, -pitch * place
+        for (x, _), (length, width), way, shade, state in zip(
+                cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(), cells.shades.tolist(),
+                cells.states.tolist(), strict=True):
+            colour = colour_of.get(state, GREEN)
+            centre = x - row.scene.width / 2
+            ax.add_patch(Ellipse((centre, y), length, width, facecolor=tinted(colour, 0.28 + 0.6 * shade), edgecolor=colour,
+                                 linewidth=0.6))
+            reach = 0.29 * length * way
+            ax.add_patch(FancyArrowPatch((centre - reach, y), (centre + reach, y), arrowstyle="->", color=INK, shrinkA=0,
+                                         shrinkB=0, linewidth=0.5, mutation_scale=4))

@@ -1,0 +1,158 @@
+"""Scenes as SVG text: the form of lesson pictures, because it scales, prints, and carries its own description.
+
+Coordinates are whole tenths of a pixel, so that the text of a picture is the same on every machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+
+from lsys_kit.geometry.scene import Cells, Floats, Scene, Segments
+from lsys_kit.pictures.palette import GREEN, INK, MARK, MARK_EDGE, PAPER, QUIET, tinted
+
+WIDTH, HEIGHT = 600, 400
+"""The largest picture, in pixels."""
+MARGIN = 12
+"""White space around a drawing, in pixels."""
+STROKES = (2.4, 1.7, 1.3, 1.0)
+"""Stroke widths by branch order, in pixels; deeper branches have the last."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """How a scene's units become tenths of a pixel."""
+
+    scale: float
+    left: float
+    top: float
+    width: int
+    height: int
+
+    def points(self, coordinates: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+        """Tenths of a pixel for x and y in turn along the last axis; halves are always rounded the same way."""
+        flip = np.tile([1.0, -1.0], coordinates.shape[-1] // 2)
+        shift = np.tile([-self.left, self.top], coordinates.shape[-1] // 2)
+        pixels = (coordinates * flip + shift) * self.scale + MARGIN
+        return np.floor(pixels * 10 + 0.5001).astype(np.int64)
+
+
+def frame_of(box: tuple[float, float, float, float], width: int = WIDTH, height: int = HEIGHT) -> Frame:
+    """The frame that fits a box into a picture, no larger than needed."""
+    left, bottom, right, top = box
+    across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)
+    scale = min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0)
+    return Frame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
+
+
+def document(body: str, width: int, height: int, description: str) -> str:
+    """A whole SVG picture with its text alternative."""
+    words = escape(description, quote=True)
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * 10} {height * 10}" width="{width}" '
+            f'height="{height}" role="img" aria-label="{words}" style="max-width:100%;height:auto">'
+            f"<title>{words}</title>{body}</svg>")
+
+
+def strokes_svg(segments: Segments, frame: Frame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
+    """The strokes of a turtle: a path for each colour and branch order, marked ones on a broad band."""
+    points = frame.points(segments.ends)
+    orders = np.minimum(segments.orders, len(STROKES) - 1)
+    thin = stroke_scale(segments, frame.scale)
+    body = []
+    if marked:
+        chosen = points[np.isin(segments.states, list(marked))]
+        body.append(f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{max(50, 90 * thin):.0f}" '
+                    'stroke-opacity="0.45"/>')
+    for colour in dict.fromkeys(colour_of.values()):
+        states = [state for state, own in colour_of.items() if own == colour]
+        ours = np.isin(segments.states, states) if len(colour_of) > 1 else np.ones(len(segments), dtype=bool)
+        for order in np.unique(orders[ours]).tolist():
+            path = _path(points[ours & (orders == order)])
+            body.append(f'<path d="{path}" stroke="{colour}" stroke-width="{10 * STROKES[order] * thin:.0f}"/>')
+    return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'
+
+
+def stroke_scale(segments: Segments, scale: float) -> float:
+    """How much thinner strokes are drawn where they stand close: 1 for strokes of 12 pixels or more, never below 0.3."""
+    if not len(segments):
+        return 1.0
+    lengths = np.hypot(segments.ends[:, 2] - segments.ends[:, 0], segments.ends[:, 3] - segments.ends[:, 1])
+    return float(min(1.0, max(0.3, np.median(lengths) * scale / 12)))
+
+
+def _path(points: np.ndarray[tuple[int, ...], np.dtype[np.int64]]) -> str:
+    return "M%d %dL%d %d" * len(points) % tuple(points.ravel().tolist())
+
+
+@dataclass(frozen=True)
+class Row:
+    """One step of a developmental sequence."""
+
+    step: int
+    scene: Scene
+
+
+def rows_svg(rows: Sequence[Row], colour_of: Mapping[int, str], current: int | None = None,
+             marked: Collection[int] = ()) -> tuple[str, int, int]:
+    """Filaments below one another, centred, with a common scale; the current row on a tinted band.
+
+    Returns
+    -------
+    tuple
+        The body of the picture, its width and its height in pixels.
+    """
+    gutter = 34
+    longest = max(row.scene.width for row in rows)
+    tallest = max(row.scene.height for row in rows)
+    pitch_most = min(46.0, (HEIGHT - 2 * MARGIN) / len(rows))
+    scale = min((WIDTH - gutter - 2 * MARGIN) / max(longest, 1e-9), 0.78 * pitch_most / max(tallest, 1e-9))
+    pitch = max(14.0, min(pitch_most, tallest * scale / 0.72))
+    width = WIDTH
+    body = []
+    for place, row in enumerate(rows):
+        middle = round((MARGIN + pitch * (place + 0.5)) * 10)
+        if row.step == current:
+            body.append(f'<rect x="20" y="{middle - round(pitch * 5)}" width="{width * 10 - 40}" height="{round(pitch * 10)}" '
+                        f'rx="40" fill="{MARK}"/>')
+        weight = ' font-weight="bold"' if row.step == current else ""
+        body.append(f'<text x="{gutter * 10 - 60}" y="{middle + 40}" font-size="115" text-anchor="end" '
+                    f'font-family="sans-serif" fill="{INK if weight else QUIET}"{weight}>{row.step}</text>')
+        left = round((gutter + (width - gutter) / 2 - row.scene.width * scale / 2) * 10)
+        body.append(cells_svg(row.scene.cells, scale * 10, left, middle, colour_of, marked))
+    return "".join(body), width, round(pitch * len(rows)) + 2 * MARGIN
+
+
+def cells_svg(cells: Cells, scale: float, left: int, middle: int, colour_of: Mapping[int, str],
+              marked: Collection[int] = ()) -> str:
+    """One filament: ellipses, lighter when young, with arrows for their polarity."""
+    centres = np.floor(cells.centres[:, 0] * scale + left + 0.5001).astype(int).tolist()
+    radii = np.floor(cells.sizes * scale / 2 + 0.5001).astype(int).tolist()
+    shades, states = cells.shades.tolist(), cells.states.tolist()
+    fills = {key: tinted(colour_of.get(key[0], GREEN), 0.28 + 0.6 * key[1]) for key in set(zip(states, shades, strict=True))}
+    shapes = []
+    for x, (rx, ry), shade, state in zip(centres, radii, shades, states, strict=True):
+        edge = f'{MARK_EDGE}" stroke-width="32' if state in marked else colour_of.get(state, GREEN)
+        shapes.append(f'<ellipse cx="{x}" cy="{middle}" rx="{rx}" ry="{ry}" fill="{fills[state, shade]}" stroke="{edge}"/>')
+    arrows = "".join(_arrow(x, middle, rx, ry, way)
+                     for x, (rx, ry), way in zip(centres, radii, cells.polarities.tolist(), strict=True) if rx > 25)
+    return (f'<g stroke-width="10">{"".join(shapes)}</g>'
+            f'<path d="{arrows}" fill="none" stroke="{INK}" stroke-width="9" stroke-linecap="round" stroke-linejoin="round"/>')
+
+
+def _arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
+    reach, head = round(0.58 * rx), max(12, round(0.32 * min(rx, ry)))
+    tip = x + way * reach
+    return f"M{x - way * reach} {y}H{tip}M{tip - way * head} {y - head}L{tip} {y}L{tip - way * head} {y + head}"
+
+
+def background(width: int, height: int) -> str:
+    """White paper, so that a picture can be read on a dark page too."""
+    return f'<rect width="{width * 10}" height="{height * 10}" fill="{PAPER}"/>'
+
+
+def described(parts: Iterable[str]) -> str:
+    """Parts of a description, joined as a sentence."""
+    return "; ".join(part for part in parts if part)
