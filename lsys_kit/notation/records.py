@@ -122,7 +122,8 @@ class Statements(Transformer[Any, Any]):
 
     def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
         name = keyword.rstrip(": \t").lower()
-        return {"δ": "angle", "delta": "angle"}.get(name, name), Number(Fraction(value), _around(value)) if isinstance(value, Token) else value
+        number = Number(tidy(Fraction(value)), _around(value)) if isinstance(value, Token) else value
+        return {"δ": "angle", "delta": "angle"}.get(name, name), number
 
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))

@@ -1,0 +1,161 @@
+"""The catalogue: the systems of the seeds by their ids, each a TOML file in the folder `systems` that explains itself.
+
+A file holds the rules in their own notation, where they were printed, what is wrong with the print, and the words that
+must come out. A file is read when its system is first asked for.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Any
+
+from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.checks import suggestion
+from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.read import read
+
+_FOLDER = files(__package__) / "systems"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What the catalogue knows about a system.
+
+    Attributes
+    ----------
+    id, title
+        What it is called.
+    seed, source
+        The seed document, and where in it the system stands.
+    status
+        "seed" where the rules stand in the seed, "seed, corrected" where the print had to be corrected.
+    notation, rules
+        The rules, as text in a notation.
+    errata
+        What is wrong in the print, a sentence each.
+    notes
+        What else a reader should know, a sentence each.
+    words
+        Some steps and their words.
+    lengths
+        The number of modules at steps 0, 1, 2, ..., as far as they were checked.
+    same_as
+        The id of the system that this one repeats, or None.
+    """
+
+    id: str
+    title: str
+    seed: str
+    source: str
+    status: str
+    notation: str
+    rules: str
+    errata: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    words: Mapping[int, str] = field(default_factory=dict, hash=False)
+    lengths: tuple[int, ...] = ()
+    same_as: str | None = None
+
+
+class Catalogue(tuple[str, ...]):
+    """The ids of the systems, shown as a list with titles."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{e.id:<{width}}  seed {e.seed}  {e.title}" for e in map(entry, self))
+
+
+def system(id: str) -> LSystem:
+    """The system with an id, whatever its case.
+
+    Parameters
+    ----------
+    id
+        One of `systems()`.
+
+    Raises
+    ------
+    ModelNameError
+        No system has that id.
+
+    Examples
+    --------
+    >>> print(system("j1").productions[0])
+    ar -> al br
+    """
+    return _system(_known(id))
+
+
+def systems() -> Catalogue:
+    """All systems of the catalogue, in the order of the seeds.
+
+    >>> "P4" in systems()
+    True
+    >>> print(repr(systems()).splitlines()[0])
+    J1  seed 000  Anabaena catenula: long and short cells with a polarity
+    """
+    return Catalogue(sorted(_ids().values(), key=lambda id: (entry(id).seed, _natural(id))))
+
+
+def entry(id: str) -> Entry:
+    """What the catalogue knows about a system.
+
+    Raises
+    ------
+    ModelNameError
+        No system has that id.
+
+    Examples
+    --------
+    >>> entry("P4").words[1]
+    'M(2,-1)M(1,1)'
+    """
+    return _entry(_known(id))
+
+
+def _known(id: str) -> str:
+    """The id as the catalogue writes it."""
+    if not isinstance(id, str):
+        raise ModelValueError(f"A system is asked for by its id, a text such as \"P4\", not by {type(id).__name__}")
+    ids = _ids()
+    if id.strip().upper() not in ids:
+        shown = id if len(id) <= 20 else f"{id[:20]}..."
+        hint = suggestion(id[:20].upper(), ids) or f"Systems are: {', '.join(sorted(ids, key=_natural))}."
+        raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
+    return ids[id.strip().upper()]
+
+
+@cache
+def _ids() -> Mapping[str, str]:
+    """The ids, by their capital letters; known from the names of the files alone."""
+    names = (file.name.removesuffix(".toml") for file in _FOLDER.iterdir() if file.name.endswith(".toml"))
+    return {name.upper(): name for name in names}
+
+
+@cache
+def _entry(id: str) -> Entry:
+    fields: dict[str, Any] = tomllib.loads((_FOLDER / f"{id}.toml").read_text(encoding="utf-8"))
+    for name in ("errata", "notes", "lengths"):
+        fields[name] = tuple(fields.get(name, ()))
+    words = {int(step): word for step, word in fields.pop("words", {}).items()}
+    return Entry(**fields, words=MappingProxyType(words))
+
+
+@cache
+def _system(id: str) -> LSystem:
+    found = _entry(id)
+    return read(found.rules, found.notation)
+
+
+def _natural(id: str) -> tuple[str, int]:
+    """Sorts P2 before P10."""
+    letters, digits = re.fullmatch(r"(\D*)(\d*)\D*", id).groups()  # type: ignore[union-attr]
+    return letters, int(digits or 0)

@@ -1,0 +1,195 @@
+"""Every word that the table of systems prints comes out of the catalogue's rules."""
+
+from itertools import pairwise
+
+import pytest
+
+from lsys_kit import ModelNameError, ModelValueError, derive, read, write
+from lsys_kit.classroom.catalogue import Entry, entry, system, systems
+from lsys_kit.geometry.filament import filament
+
+STAGES = {"S": 1, "L": 2, "A": 3, "B": 4, "C": 5}
+POLARITY = {"l": -1, "r": 1}
+
+
+def staged(word):
+    """A word of P2, P3 or P4 as stages and polarities."""
+    if all(module.symbol[0] in STAGES for module in word):
+        return [(STAGES[module.symbol[0]], POLARITY[module.symbol[2]]) for module in word]
+    return [(m.arguments[0], m.arguments[1] if m.symbol == "M" else POLARITY[m.symbol[2]]) for m in word]
+
+
+def ages(word):
+    return [(float(module.arguments[0]), "L" if module.arguments[1] == -1 else "R") for module in word]
+
+
+@pytest.mark.parametrize("id", systems())
+def test_the_printed_words_come_out(id):
+    for step, word in entry(id).words.items():
+        assert str(derive(system(id), step)[-1]) == word
+
+
+@pytest.mark.parametrize("id", systems())
+def test_the_lengths_come_out(id):
+    lengths = list(entry(id).lengths)
+    assert lengths
+    assert derive(system(id), len(lengths) - 1).lengths == lengths
+
+
+@pytest.mark.parametrize("id", systems())
+def test_what_is_written_reads_back(id):
+    assert read(write(system(id)), system(id).notation) == system(id)
+
+
+@pytest.mark.parametrize("id", systems())
+def test_a_first_look_is_small_and_not_empty(id):
+    steps = system(id).steps
+    assert steps
+    assert 5 <= len(derive(system(id), steps)[-1]) <= 2000
+
+
+@pytest.mark.parametrize("id", systems())
+def test_an_entry_says_where_it_comes_from(id):
+    found = entry(id)
+    assert isinstance(found, Entry)
+    assert (found.id, found.seed in ("000", "001", "002", "003", "004")) == (id, True)
+    assert found.status in ("seed", "seed, corrected")
+    assert not (found.status == "seed, corrected" and not found.errata)
+    assert found.source
+    assert all(sentence.endswith(".") for sentence in found.errata + found.notes)
+
+
+def test_the_rows_of_the_first_lessons_are_all_there():
+    assert list(systems()) == ["J1", "J4", "J5", "T1", "T2", "P1", "P2", "P3", "P4", "P5", "K1", "K2", "K5", "L1"]
+
+
+def test_the_list_names_every_system_with_its_seed_and_title():
+    lines = repr(systems()).splitlines()
+    assert lines[8] == "P4  seed 002  Anabaena with stage and polarity as parameters (L-system 4)"
+    assert len(lines) == len(systems())
+
+
+def test_the_words_of_j1_to_step_6():
+    assert "\n".join(map(str, derive(system("J1"), 6))) == """\
+ar
+al br
+bl ar ar
+al al br al br
+bl ar bl ar ar bl ar ar
+al al br al al br al br al al br al br
+bl ar bl ar ar bl ar bl ar ar bl ar ar bl ar bl ar ar bl ar ar"""
+
+
+@pytest.mark.parametrize(("id", "names"), [("T1", {}), ("P1", {"L_": "a", "S_": "b"}), ("K1", {"A": "a", "B": "b"})])
+def test_four_seeds_print_the_same_anabaena(id, names):
+    for word, other in zip(derive(system("J1"), 7), derive(system(id), 7), strict=True):
+        renamed = str(other)
+        for name, letter in names.items():
+            renamed = renamed.replace(name, letter)
+        assert renamed == str(word)
+    assert entry(id).same_as == "J1"
+
+
+def test_the_filament_of_j1_grows_to_34_units():
+    assert [filament(word).width for word in derive(system("J1"), 6)] == [2, 3, 5, 8, 13, 21, 34]
+
+
+def test_one_word_of_j4_as_its_seed_prints_it():
+    printed = "Al(2)Br(2)Al(1)Br(1)Ar(3)Al(1)Br(1)Bl(2)Ar(2)Al(1)Br(1)Ar(3)"
+    assert str(derive(system("J4"), 10)[-1]) == printed
+
+
+@pytest.mark.parametrize(("id", "a", "b"), [("J4", 3, 2), ("J5", 2, 5), ("J4", 1, 4), ("J5", 6, 6)])
+def test_the_cells_of_a_filament_obey_their_life_spans(id, a, b):
+    lengths = derive(system(id), 25, lifeTimeA=a, lifeTimeB=b).lengths
+    assert all(lengths[t] == lengths[t - a] + lengths[t - b] for t in range(max(a, b), 26))
+
+
+def test_j5_has_no_filament_of_its_own_but_other_life_spans():
+    assert list(derive(system("J4"), 15, lifeTimeA=2, lifeTimeB=5)) == list(derive(system("J5"), 15))
+
+
+def test_the_koch_snowflake():
+    derivation = derive(system("T2"), 4)
+    assert [word.counts()["F"] for word in derivation] == [3, 12, 48, 192, 768]
+    assert derivation.lengths == [7, 28, 112, 448, 1792]
+    side = "F+F--F+F+F+F--F+F--F+F--F+F+F+F--F+F--"
+    assert str(derivation[2]) == (3 * side).removesuffix("--")
+
+
+def test_the_stages_of_p2_are_the_values_of_p3_and_p4():
+    p2, p3, p4 = (derive(system(id), 23) for id in ("P2", "P3", "P4"))
+    for step in range(21):
+        assert staged(p2[step]) == staged(p3[step])
+        assert staged(p2[step + 3]) == staged(p4[step])
+
+
+def test_p4_from_the_same_stage_is_p3():
+    rules = entry("P4").rules.replace("axiom: M(5,RIGHT)", "axiom: M(2,RIGHT)")
+    for word, other in zip(derive(read(rules), 20), derive(system("P3"), 20), strict=True):
+        assert staged(word) == staged(other)
+
+
+def test_a_short_cell_lives_five_steps_and_a_long_one_four():
+    lengths = derive(system("P2"), 40).lengths
+    assert all(lengths[t] == lengths[t - 4] + lengths[t - 5] for t in range(5, 41))
+
+
+@pytest.mark.parametrize("id", ["P2", "P3", "P4"])
+def test_a_filament_grows_without_a_jump_at_division(id):
+    widths = [filament(word).width for word in derive(system(id), 15)]
+    assert all(after / before == pytest.approx(2.1673**0.2, abs=1e-4) for before, after in pairwise(widths))
+
+
+def test_l_system_5_steps_through_continuous_time():
+    words = derive(system("P5"), 5)
+    assert [ages(word) for word in words[:5]] == [
+        [(0, "R")],
+        [(.7, "R")],
+        [(.6, "L"), (.4, "R")],
+        [(.3, "L"), (.5, "R"), (.3, "L"), (.1, "R")],
+        [(0, "L"), (.2, "R"), (.4, "L"), (.2, "R"), (0, "L"), (.2, "R"), (.8, "R")],
+    ]
+    assert words.lengths == [1, 1, 2, 4, 7, 9]
+
+
+def test_too_long_a_step_leaves_cells_past_their_division():
+    words = derive(system("P5"), 4, dt="14/10")
+    assert words.lengths == [1, 2, 4, 8, 16]
+    assert ages(words[2]) == [(1.0, "L"), (1.2, "R"), (1.0, "L"), (.8, "R")]
+
+
+def test_doubles_fall_into_the_trap():
+    assert derive(system("P5"), 6, arithmetic="float").lengths == [1, 1, 2, 4, 5, 9, 16]
+
+
+def test_k5_multiplies_its_strokes_by_five():
+    derivation = derive(system("K5"), 7)
+    assert [word.counts()["F"] for word in derivation] == [5**n for n in range(8)]
+    assert derivation.lengths[-1] == 195311
+
+
+def test_the_plant_string_and_its_reader_exercise():
+    words = derive(system("L1"), 3)
+    assert str(words[2]) == "I[A]I(I)[A[I]B]I[A]I(I)(I[A]I(I))"
+    assert [len(str(word)) for word in words] == [1, 8, 33, 119]
+    step_2 = {"I": "I[A]I(I)", "A": "A[I]B"}
+    assert str(words[3]) == "".join(step_2.get(letter, letter) for letter in str(words[2]))
+
+
+def test_an_id_is_found_whatever_its_case():
+    assert system("p4") is system(" P4 ")
+
+
+@pytest.mark.parametrize(("id", "hint"), [("P44", 'Did you mean "P4"?'), ("?", "Systems are: J1, J4, J5,"),
+                                          ("../systems/J1", "Systems are"), ("x" * 9999, "Systems are")])
+def test_an_unknown_id_is_answered_with_a_suggestion(id, hint):
+    with pytest.raises(ModelNameError) as caught:
+        system(id)
+    assert hint in str(caught.value)
+    assert len(str(caught.value)) < 200
+
+
+def test_an_id_is_a_text():
+    with pytest.raises(ModelValueError, match="by its id"):
+        system(4)
