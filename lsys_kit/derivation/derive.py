@@ -200,14 +200,14 @@ def counted(states: States, counts: Counter[int]) -> Counter[int]:
     return after
 
 
-def lengths(system: LSystem, steps: int, **constants: object) -> Iterator[int]:
+def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Iterator[int]:
     """The number of modules at steps 0 to `steps`, however large: no word is built.
 
     >>> from lsys_kit.notation.read import read
     >>> len(str(list(lengths(read("axiom: a\\na -> ab\\nb -> a"), 10_000))[-1]))
     2090
     """
-    states = States(system, constants)
+    states = States(system, constants, arithmetic)
     counts = Counter(states.axiom)
     for step in range(steps + 1):
         counts = counted(states, counts) if step else counts

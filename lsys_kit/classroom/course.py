@@ -1,0 +1,193 @@
+"""The course: lessons and exercises, copied into a folder of the user's, where they are his own.
+
+What a student has written is never overwritten. A manifest in the folder holds the SHA-256 of each file that was copied:
+a file that still has it is untouched, so that a newer version of the kit may renew it. A file that has not is the
+student's; where the kit has a newer version, that is put beside it.
+
+Nothing outside the folder is written: names come from the kit alone, and links in the folder are not followed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import secrets
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+from lsys_kit.errors import ModelFileError
+
+PARTS = ("notebooks", "exercises")
+"""The folders of the course."""
+FOLDER = "lsys_kit_course"
+"""Where the course is copied to by default."""
+MANIFEST = ".lsys_kit_course.json"
+MOST_MANIFEST = 1_000_000
+"""Characters of a manifest that is read: none that this file writes is nearly as long."""
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
+
+
+@dataclass(frozen=True)
+class Copied:
+    """What became of one file of the course.
+
+    Attributes
+    ----------
+    name
+        The file, from the folder of the course.
+    what
+        "new" (it was not there), "renewed" (an untouched older version was), "same" (this version was), "kept" (the user's
+        own, to which there is no news) or "beside" (the user's own; the kit's new version is the file `beside`).
+    """
+
+    name: str
+    what: str
+    beside: str = ""
+
+
+def course_files(source: Path | None = None) -> dict[str, Path]:
+    """The files of the course that came with the kit, by their names in the course.
+
+    >>> all(name.split("/")[0] in PARTS for name in course_files())
+    True
+    """
+    source = source or _home()
+    found = {f"{part}/{path.name}": path for part in PARTS for path in sorted((source / part).glob("*"))
+             if _NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()}
+    if not found:
+        raise ModelFileError(f"The course is not where the kit was installed, {source}", hint="Install lsys-kit again.")
+    return found
+
+
+def _home() -> Path:
+    """Inside the package where the kit was installed from a wheel, beside it in a checkout."""
+    package = Path(__file__).resolve().parent.parent
+    return package / "course" if (package / "course").is_dir() else package.parent
+
+
+def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tuple[Copied, ...]:
+    """Copy the course into a folder.
+
+    Parameters
+    ----------
+    folder
+        The user's folder; it is made where it is not there.
+    source
+        Where the course comes from; by default what came with the kit.
+
+    Returns
+    -------
+    tuple of Copied
+        What became of each file. `told` says it in words.
+
+    Raises
+    ------
+    ModelFileError
+        The folder cannot be written to.
+    """
+    folder, files = Path(folder), course_files(source)
+    try:
+        for part in PARTS:
+            _made_folder(folder / part)
+        manifest = _manifest(folder)
+        copied = tuple(_copied(folder, name, path.read_bytes(), manifest) for name, path in files.items())
+        _replace(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
+    except OSError as fault:
+        raise ModelFileError(f"The course cannot be copied to {folder}: {fault.strerror or fault}",
+                             hint="Choose another folder: lsys-kit lab FOLDER.") from None
+    return copied
+
+
+def told(folder: str | Path, copied: tuple[Copied, ...]) -> str:
+    """What became of the course, in words.
+
+    >>> print(told("course", (Copied("notebooks/01.ipynb", "new"), Copied("notebooks/02.ipynb", "kept"))))
+    The course is in course: 1 file new, 1 file your own and kept.
+    """
+    words = {"new": "new", "renewed": "renewed", "same": "as before", "kept": "your own and kept"}
+    numbers = {word: sum(file.what == what for file in copied) for what, word in words.items()}
+    parts = [f"{number} file{'s' * (number > 1)} {word}" for word, number in numbers.items() if number]
+    news = [f"{file.name} is your own and kept; its new version is {file.beside}." for file in copied if file.beside]
+    return "\n".join([f"The course is in {folder}{': ' * bool(parts)}{', '.join(parts)}.", *news])
+
+
+def _made_folder(path: Path) -> None:
+    path.mkdir(parents=True, exist_ok=True)
+    if path.is_symlink():
+        raise ModelFileError(f"{path} is a link, and links are not followed", hint="Rename it, or choose another folder.")
+
+
+def _manifest(folder: Path) -> dict[str, str]:
+    """The hash of each file as it was copied; none where there is no manifest that can be read.
+
+    Without a manifest every file that differs counts as the user's own, which is the safe side.
+    """
+    path = folder / MANIFEST
+    if path.is_symlink() or not path.is_file() or path.stat().st_size > MOST_MANIFEST:
+        return {}
+    try:
+        files = json.loads(path.read_text("utf-8")).get("files", {})
+    except (ValueError, AttributeError, RecursionError):
+        return {}
+    return {k: v for k, v in files.items() if isinstance(v, str)} if isinstance(files, dict) else {}
+
+
+def _copied(folder: Path, name: str, content: bytes, manifest: dict[str, str]) -> Copied:
+    """Bring one file up to date and write down the version that the user has now seen."""
+    path, version, seen = folder / name, _hash(content), manifest.get(name)
+    manifest[name] = version
+    if not os.path.lexists(path):
+        _replace(path, content)
+        return Copied(name, "new")
+    if _same(path, version):
+        return Copied(name, "same")
+    if seen and _same(path, seen):
+        _replace(path, content)
+        return Copied(name, "renewed")
+    if seen == version:
+        return Copied(name, "kept")
+    beside = _put_beside(folder, name, content, manifest)
+    return Copied(name, "beside", beside)
+
+
+def _put_beside(folder: Path, name: str, content: bytes, manifest: dict[str, str]) -> str:
+    """The new version under the first name beside the user's file that is free, or holds what the user never changed."""
+    for beside in _names_beside(name):
+        path = folder / beside
+        if os.path.lexists(path) and not any(_same(path, known) for known in (_hash(content), manifest.get(beside)) if known):
+            continue
+        manifest[beside] = _hash(content)
+        _replace(path, content)
+        return beside
+    raise AssertionError("the names beside a file never end")
+
+
+def _names_beside(name: str) -> Iterator[str]:
+    """`01.new.ipynb`, `01.new2.ipynb`, ... for `01.ipynb`."""
+    stem, ending = name.rsplit(".", 1)
+    yield f"{stem}.new.{ending}"
+    yield from (f"{stem}.new{number}.{ending}" for number in count(2))
+
+
+def _hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def _same(path: Path, version: str) -> bool:
+    """Whether a file, not a link, has just that content."""
+    return path.is_file() and not path.is_symlink() and _hash(path.read_bytes()) == version
+
+
+def _replace(path: Path, content: bytes) -> None:
+    """Write a file at one stroke: it is the old or the new one, never half of it; a link is replaced, not followed."""
+    draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
+    with draft.open("xb") as file:
+        file.write(content)
+    if path.is_file() and not path.is_symlink():
+        shutil.copymode(path, draft)
+    os.replace(draft, path)

@@ -1,0 +1,1 @@
+"""The tests, in the rooms of the package; `pytest` runs them all, with the notebooks and the examples in docstrings."""

@@ -1,0 +1,19 @@
+"""What pytest does before it looks for a test, in whatever folder it is told to look (see pyproject.toml)."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's plot cells show nothing
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no stopwatch."""
+    from hypothesis import settings
+
+    settings.register_profile("kit", settings.default, deadline=None)
+    settings.load_profile("kit")
+    config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
