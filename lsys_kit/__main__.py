@@ -100,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
     """The options that say which system, and up to which step."""
-    parser.add_argument("system", metavar="SYSTEM", help="an id such as P4 (see lsys-kit list), a file, or - for standard input")
+    parser.add_argument("system", metavar="SYSTEM", help="an id such as P4, a file, or - for standard input")
     parser.add_argument("-n", "--steps", type=_whole, required=steps_needed, metavar="N", help="how many steps")
     parser.add_argument("--set", type=_setting, action="append", default=[], metavar="NAME=VALUE", dest="settings",
                         help="give a constant another value, as in dt=14/10")

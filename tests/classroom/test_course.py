@@ -1,0 +1,161 @@
+"""The course belongs to the student who works in it: copying it again never takes a line from him."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from lsys_kit.classroom.course import MANIFEST, Copied, copy_course, course_files, told
+from lsys_kit.errors import ModelFileError
+
+LESSON, EXERCISE = "notebooks/01_lesson.ipynb", "exercises/01_exercise.ipynb"
+
+
+@pytest.fixture
+def kit(tmp_path: Path) -> Path:
+    """A small course as the kit brings it."""
+    for name in (LESSON, EXERCISE):
+        path = tmp_path / "kit" / name
+        path.parent.mkdir(parents=True)
+        path.write_text("version 1")
+    return tmp_path / "kit"
+
+
+@pytest.fixture
+def mine(kit: Path, tmp_path: Path) -> Path:
+    """The course, copied into a folder of mine."""
+    copy_course(tmp_path / "mine", kit)
+    return tmp_path / "mine"
+
+
+def what(copied: tuple[Copied, ...]) -> dict[str, str]:
+    return {file.name: file.what for file in copied}
+
+
+def contents(folder: Path) -> dict[str, str]:
+    return {str(path.relative_to(folder)): path.read_text() for path in sorted(folder.rglob("*.ipynb"))}
+
+
+def test_the_course_of_the_kit_has_lessons_and_exercises():
+    assert {name.split("/")[0] for name in course_files()} == {"notebooks", "exercises"}
+
+
+def test_a_new_folder_gets_every_file(kit, tmp_path):
+    assert what(copy_course(tmp_path / "mine", kit)) == {LESSON: "new", EXERCISE: "new"}
+    assert contents(tmp_path / "mine") == {LESSON: "version 1", EXERCISE: "version 1"}
+
+
+def test_copying_twice_changes_nothing(kit, mine):
+    before = {path: path.stat().st_mtime_ns for path in mine.rglob("*.ipynb")}
+    assert what(copy_course(mine, kit)) == {LESSON: "same", EXERCISE: "same"}
+    assert {path: path.stat().st_mtime_ns for path in mine.rglob("*.ipynb")} == before
+
+
+def test_an_untouched_lesson_is_renewed(kit, mine):
+    (kit / LESSON).write_text("version 2")
+    assert what(copy_course(mine, kit)) == {LESSON: "renewed", EXERCISE: "same"}
+    assert contents(mine)[LESSON] == "version 2"
+
+
+def test_a_changed_lesson_is_kept_where_there_is_no_news(kit, mine):
+    (mine / LESSON).write_text("my work")
+    assert what(copy_course(mine, kit))[LESSON] == "kept"
+    assert contents(mine) == {LESSON: "my work", EXERCISE: "version 1"}
+
+
+def test_news_of_a_changed_lesson_stand_beside_it_once(kit, mine):
+    (mine / LESSON).write_text("my work")
+    (kit / LESSON).write_text("version 2")
+    copied = copy_course(mine, kit)
+    beside = LESSON.replace(".ipynb", ".new.ipynb")
+    assert contents(mine) == {LESSON: "my work", beside: "version 2", EXERCISE: "version 1"}
+    assert f"{LESSON} is your own and kept; its new version is {beside}." in told(mine, copied)
+    (mine / beside).unlink()
+    assert what(copy_course(mine, kit))[LESSON] == "kept"
+    assert beside not in contents(mine)
+
+
+def test_work_in_the_new_version_is_kept_too(kit, mine):
+    (mine / LESSON).write_text("my work")
+    for version in ("version 2", "version 3", "version 4"):
+        (kit / LESSON).write_text(version)
+        copy_course(mine, kit)
+        if version == "version 3":
+            (mine / LESSON.replace(".ipynb", ".new.ipynb")).write_text("my work in version 3")
+    assert contents(mine) == {LESSON: "my work", LESSON.replace(".ipynb", ".new.ipynb"): "my work in version 3",
+                              LESSON.replace(".ipynb", ".new2.ipynb"): "version 4", EXERCISE: "version 1"}
+
+
+def test_a_deleted_lesson_comes_back(kit, mine):
+    (mine / LESSON).unlink()
+    assert what(copy_course(mine, kit))[LESSON] == "new"
+
+
+@pytest.mark.parametrize("manifest", ["", "[]", "{", '{"files": 3}', "[" * 100_000, "\0", json.dumps({"files": {LESSON: 1}}),
+                                      json.dumps({"files": {"../../outside.ipynb": "0" * 64}})])
+def test_without_a_manifest_that_can_be_read_every_difference_is_the_students(kit, mine, manifest):
+    (mine / LESSON).write_text("my work")
+    (kit / LESSON).write_text("version 2")
+    (mine / MANIFEST).write_text(manifest)
+    assert what(copy_course(mine, kit)) == {LESSON: "beside", EXERCISE: "same"}
+    assert contents(mine)[LESSON] == "my work"
+
+
+def test_the_students_own_files_stay(kit, mine):
+    (mine / "notebooks" / "my_own.ipynb").write_text("mine")
+    copy_course(mine, kit)
+    assert contents(mine)["notebooks/my_own.ipynb"] == "mine"
+
+
+def test_a_link_in_the_folder_is_not_followed(kit, mine, tmp_path):
+    outside = tmp_path / "outside.ipynb"
+    outside.write_text("version 1")
+    (mine / LESSON).unlink()
+    (mine / LESSON).symlink_to(outside)
+    (mine / LESSON.replace(".ipynb", ".new.ipynb")).symlink_to(outside)
+    (mine / MANIFEST).rename(tmp_path / "manifest")
+    (mine / MANIFEST).symlink_to(tmp_path / "manifest")
+    known = (tmp_path / "manifest").read_text()
+    (kit / LESSON).write_text("version 2")
+    copied = copy_course(mine, kit)
+    assert outside.read_text() == "version 1"
+    assert (tmp_path / "manifest").read_text() == known
+    assert copied[0].beside == LESSON.replace(".ipynb", ".new2.ipynb")
+
+
+def test_a_link_in_place_of_a_folder_is_refused(kit, tmp_path):
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notebooks").symlink_to(tmp_path / "outside")
+    with pytest.raises(ModelFileError, match="links are not followed"):
+        copy_course(tmp_path / "mine", kit)
+    assert list((tmp_path / "outside").iterdir()) == []
+
+
+def test_only_files_with_plain_names_are_of_the_course(kit):
+    for name in (".hidden.ipynb", "a b.ipynb", "a\nb.ipynb", "conftest.py", "data.pkl", "x" * 200 + ".md", "ä.ipynb"):
+        (kit / "notebooks" / name).write_text("no")
+    (kit / "notebooks" / "folder.ipynb").mkdir()
+    (kit / "notebooks" / "link.ipynb").symlink_to(kit / LESSON)
+    assert set(course_files(kit)) == {LESSON, EXERCISE}
+
+
+def test_a_folder_that_cannot_be_made_is_a_message(kit, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ModelFileError, match="cannot be copied"):
+        copy_course(tmp_path / "file", kit)
+
+
+def test_an_installation_without_the_course_says_so(tmp_path):
+    with pytest.raises(ModelFileError, match="Install lsys-kit again"):
+        course_files(tmp_path)
+
+
+def test_no_draft_is_left(kit, mine):
+    (kit / LESSON).write_text("version 2")
+    copy_course(mine, kit)
+    assert sorted(os.listdir(mine / "notebooks")) == ["01_lesson.ipynb"]
+    assert sorted(os.listdir(mine)) == [MANIFEST, "exercises", "notebooks"]

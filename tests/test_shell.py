@@ -1,0 +1,317 @@
+"""What a person types after `lsys-kit`, and what comes back: words on one stream, one message on the other."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from lsys_kit.__main__ import BAD_INPUT, INTERRUPTED, NOBODY_READS, main
+
+FIBONACCI = "axiom: a\na -> ab\nb -> a\n"
+
+
+@dataclass(frozen=True)
+class Said:
+    status: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def shell(capsys: pytest.CaptureFixture[str]):
+    def run(*arguments: str) -> Said:
+        try:
+            status = main(arguments)
+        except SystemExit as left:
+            status = int(left.code or 0)
+        return Said(status, *capsys.readouterr())
+
+    return run
+
+
+@pytest.fixture
+def model(tmp_path: Path):
+    def written(text: str | bytes, name: str = "model.txt") -> str:
+        path = tmp_path / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return str(path)
+
+    return written
+
+
+def process(*arguments: str, given: bytes = b"", **choices: object) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run([sys.executable, "-m", "lsys_kit", *arguments], input=given, capture_output=True, timeout=60, **choices)
+
+
+def refused(said: Said, *words: str) -> None:
+    """Exit status 2, nothing on the standard output, and one message that holds the words."""
+    assert said.status == BAD_INPUT
+    assert said.out == ""
+    assert said.err.startswith("lsys-kit: ")
+    assert "Traceback" not in said.err
+    for word in words:
+        assert word in said.err
+
+
+# --- deriving ---------------------------------------------------------------------------------------------------------
+
+def test_derive_prints_a_word_a_line_from_the_axiom_on(shell):
+    assert shell("derive", "J1", "-n", "3") == Said(0, "ar\nal br\nbl ar ar\nal al br al br\n", "")
+
+
+def test_each_word_of_the_catalogue_comes_out_of_the_shell(shell):
+    from lsys_kit.classroom.catalogue import entry, systems
+
+    for id in systems():
+        words = entry(id).words
+        if words:
+            lines = shell("derive", id, "-n", str(max(words))).out.splitlines()
+            assert {step: lines[step] for step in words} == dict(words), id
+
+
+def test_an_id_may_be_typed_in_small_letters(shell):
+    assert shell("derive", "j1", "-n", "2") == shell("derive", "J1", "-n", "2")
+
+
+def test_a_catalogue_id_goes_before_a_file_of_that_name(shell, model, monkeypatch, tmp_path):
+    model(FIBONACCI, "P4")
+    monkeypatch.chdir(tmp_path)
+    assert shell("derive", "P4", "-n", "0").out == "M(5,1)\n"
+    assert shell("derive", "./P4", "-n", "0").out == "a\n"
+
+
+@pytest.mark.parametrize("text", [FIBONACCI, FIBONACCI.replace("\n", "\r\n"), "\ufeff" + FIBONACCI],
+                         ids=["plain", "Windows lines", "byte order mark"])
+def test_a_file_is_read_as_any_editor_writes_it(shell, model, text):
+    assert shell("derive", model(text), "-n", "2").out == "a\na b\na b a\n"
+
+
+def test_a_dash_reads_the_standard_input():
+    done = process("derive", "-", "-n", "2", given=FIBONACCI.encode())
+    assert (done.returncode, done.stdout.split(b"\n")) == (0, [b"a", b"a b", b"a b a", b""])
+
+
+def test_constants_are_set_exactly(shell):
+    exact = shell("derive", "P5", "-n", "2", "--set", "dt=14/10").out
+    assert exact == shell("derive", "P5", "-n", "2", "--set", "dt=1.4").out
+    assert exact.splitlines()[2] == "M(1,-1)M(1.2,1)M(1,-1)M(0.8,1)"
+
+
+@pytest.mark.parametrize("order", [
+    ["J4", "-n", "9", "--set", "lifeTimeA=2", "--set", "lifeTimeB=5"],
+    ["J4", "-n", "9", "--set", "lifeTimeA=2", "lifeTimeB=5"],
+    ["--set", "lifeTimeA=2", "lifeTimeB=5", "J4", "-n", "9"],
+], ids=["twice", "after one another", "before the system"])
+def test_several_constants_are_set_in_any_order(shell, order):
+    assert shell("derive", *order, "--counts").out.split() == "1 1 2 2 3 3 4 5 6 8".split()
+
+
+def test_constants_may_have_the_names_of_options(shell, model):
+    path = model("steps = 1\nangle = 2\naxiom: A(steps, angle)\nA(x,y) -> A(x+steps, y+angle)\n")
+    assert shell("derive", path, "-n", "1", "--set", "steps=5", "angle=7").out == "A(5,7)\nA(10,14)\n"
+
+
+def test_float_arithmetic_falls_into_the_trap_that_exact_arithmetic_avoids(shell):
+    assert shell("derive", "P5", "-n", "4", "--counts").out.split()[-1] == "7"
+    assert shell("derive", "P5", "-n", "4", "--counts", "--arithmetic", "float").out.split()[-1] == "5"
+    assert len(shell("derive", "P5", "-n", "4", "--arithmetic", "float").out.splitlines()[-1].split(")")) - 1 == 5
+
+
+def test_counts_are_known_far_beyond_the_module_limit(shell):
+    assert shell("derive", "K5", "-n", "300", "--counts").out.splitlines()[-1] == str((5**301 - 3) // 2)
+
+
+def test_counts_may_have_more_digits_than_python_likes_to_print(shell, model):
+    last = shell("derive", model("axiom: A\nA -> AA\n"), "-n", "20000", "--counts").out.splitlines()[-1]
+    assert len(last) == 6021
+    assert last.startswith("3980276840")  # 2^20000
+
+
+def test_counts_of_ever_new_modules_end(shell, model):
+    from lsys_kit.budget import limits
+
+    with limits(seconds=0.2):
+        said = shell("derive", model("axiom: A(0)\nA(x) -> A(x/2) A(x/2+1)\n"), "-n", "100", "--counts")
+    assert said.status == BAD_INPUT
+    assert "seconds" in said.err
+
+
+def test_json_is_one_document(shell):
+    steps = json.loads(shell("derive", "J1", "-n", "2", "--json").out)
+    assert steps[1] == {"step": 1, "modules": 2, "word": "al br"}
+    assert [step["step"] for step in steps] == [0, 1, 2]
+    assert json.loads(shell("derive", "J1", "-n", "2", "--json", "--counts").out)[2] == {"step": 2, "modules": 3}
+
+
+def test_an_empty_word_is_an_empty_line(shell, model):
+    assert shell("derive", model("axiom: A\nA -> ε\n"), "-n", "2").out == "A\n\n\n"
+
+
+def test_a_plant_string_is_read_in_its_notation(shell, model):
+    text = model("Axiom: I\nI -> I[A]I(I)\nA -> A[I]B\n")
+    assert shell("derive", text, "-n", "1", "--notation", "plant-string").out == "I\nI[A]I(I)\n"
+
+
+def test_words_of_the_catalogue_are_printed_in_another_notation_if_it_can_hold_them(shell):
+    assert shell("derive", "K5", "-n", "1").out == shell("derive", "K5", "-n", "1", "--notation", "plant-string").out
+    refused(shell("derive", "P4", "-n", "1", "--notation", "plant-string"), "has no parameters")
+
+
+# --- pictures ---------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize(("ending", "start"), [("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
+def test_draw_writes_the_format_that_the_name_ends_in(shell, tmp_path, ending, start):
+    said = shell("draw", "K5", "-n", "3", "-o", str(tmp_path / f"out.{ending}"))
+    assert said.status == 0
+    assert "125 segments" in said.out
+    assert (tmp_path / f"out.{ending}").read_bytes().startswith(start)
+
+
+def test_draw_turns_by_another_angle(shell, tmp_path):
+    shell("draw", "K5", "-n", "3", "-o", str(tmp_path / "a.svg"))
+    shell("draw", "K5", "-n", "3", "-o", str(tmp_path / "b.svg"), "--angle", "40.5")
+    assert (tmp_path / "a.svg").read_text() != (tmp_path / "b.svg").read_text()
+
+
+def test_stages_writes_the_diagram_with_the_tokens_of_a_step(shell, tmp_path):
+    path = tmp_path / "net.svg"
+    assert shell("stages", "P4", "-o", str(path)).status == 0
+    first = path.read_text()
+    assert first.startswith("<svg")
+    assert shell("stages", "P4", "-n", "9", "-o", str(path)).status == 0
+    assert path.read_text() != first
+
+
+def test_a_picture_goes_nowhere_else(shell, tmp_path):
+    refused(shell("draw", "K5", "-n", "2", "-o", "out.bmp"), ".svg, .png or .pdf")
+    refused(shell("stages", "P4", "-o", "out.png"), ".svg")
+    refused(shell("stages", "P4", "-o", str(tmp_path / "no" / "out.svg")), "cannot be written", "No such file")
+
+
+# --- bad input --------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    ([], ["COMMAND"]),
+    (["grow"], ["grow", "derive"]),
+    (["derive"], ["SYSTEM", "-n"]),
+    (["derive", "P4"], ["-n"]),
+    (["derive", "P4", "-n", "two"], ["whole number", '"two"']),
+    (["derive", "P4", "-n", "-1"], ["whole number", '"-1"']),
+    (["derive", "P4", "-n", "1.5"], ["whole number"]),
+    (["derive", "P4", "-n", "9" * 5000], ["whole number"]),
+    (["derive", "P4", "-n", "1", "--set", "dt"], ["NAME=VALUE"]),
+    (["derive", "P4", "-n", "1", "--set", "dt=1"], ['no constant "dt"', "LEFT, RIGHT"]),
+    (["derive", "P5", "-n", "1", "--set", "dt=fast"], ["fast"]),
+    (["derive", "P5", "-n", "1", "--set", "dt=1/0"], ["zero"]),
+    (["derive", "J4", "-n", "1", "--set", "lifetimeA=2"], ['Did you mean "lifeTimeA"?']),
+    (["derive", "P4", "-n", "1", "--seed", "7"], ["--seed", "chance"]),
+    (["derive", "P4", "-n", "1", "--arithmetic", "decimal"], ["exact", "float"]),
+    (["derive", "P4", "-n", "1", "--notation", "abob"], ['no notation called "abob"', "abop"]),
+    (["derive", "P44", "-n", "1"], ['no file "P44"', 'Did you mean "P4"?']),
+    (["derive", "zebra", "-n", "1"], ['no file "zebra"', "Catalogue ids are", "P4"]),
+    (["derive", ".", "-n", "1"], ["cannot be read"]),
+    (["derive", "a\0b", "-n", "1"], ["cannot be read"]),
+    (["derive", "x" * 5000, "-n", "1"], ["cannot be read"]),
+    (["derive", "\udc80\x1b[2J", "-n", "1"], ["no file"]),
+    (["draw", "K5", "-n", "2", "-o", "out.svg", "--angle", "wide"], ["wide"]),
+])
+def test_a_mistake_on_the_command_line_is_one_message(shell, arguments, words):
+    said = shell(*arguments)
+    refused(said, *words)
+    assert "\x1b" not in said.err
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("axiom: A\nA -> B(t)\n", ["(line 2, column 8)", "^"]),
+    ("axiom: A\nA -> [B\n", ["(line 2", "^"]),
+    ("axiom: A\nA B\n", ["(line 2", "arrow", "^"]),
+    ("axiom: A\nA ->\n", ["(line 2", 'write "ε"', "^"]),
+    ("axiom: A(1)\nA(t) : t + 1 -> A(t)\n", ["(line 2, column 8)", "true or false", "^"]),
+    ("", ["axiom"]),
+])
+def test_a_mistake_in_a_model_is_shown_with_its_place(shell, model, text, words):
+    refused(shell("derive", model(text), "-n", "1"), *words)
+
+
+def test_a_file_that_is_not_there_is_suggested_from_its_neighbours(shell, model):
+    refused(shell("derive", model(FIBONACCI, "fibonacci.txt").replace("nacci", "nacii"), "-n", "1"), "Did you mean", "fibonacci.txt")
+
+
+def test_a_file_that_is_not_text_is_refused(shell, model):
+    refused(shell("derive", model(b"axiom: A\nA -> \xff\n"), "-n", "1"), "UTF-8", "byte 15")
+
+
+def test_a_file_that_never_ends_is_refused(shell):
+    refused(shell("derive", "/dev/zero", "-n", "1"), "limit is 1,000,000")
+
+
+def test_a_step_past_the_size_limit_says_how_far_one_can_go(shell):
+    refused(shell("derive", "K5", "-n", "30"), "Step 10 would have 24,414,061 modules", "-n 9", "--counts")
+
+
+def test_a_message_of_a_model_is_no_traceback_in_a_real_process(model):
+    done = process("derive", model("axiom: A\nA = B\n"), "-n", "1")
+    assert (done.returncode, done.stdout) == (BAD_INPUT, b"")
+    assert done.stderr.count(b"\n") == 3
+    assert b"Traceback" not in done.stderr
+
+
+# --- the process ------------------------------------------------------------------------------------------------------
+
+def test_a_reader_that_goes_away_is_no_fault():
+    derive = subprocess.Popen([sys.executable, "-m", "lsys_kit", "derive", "K5", "-n", "8"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert derive.stdout is not None
+    assert derive.stderr is not None
+    assert derive.stdout.readline() == b"F\n"
+    derive.stdout.close()
+    assert derive.stderr.read() == b""
+    derive.stderr.close()
+    assert derive.wait(60) == NOBODY_READS
+
+
+def test_an_interruption_is_quiet(shell, monkeypatch):
+    class Interrupted:
+        @property
+        def buffer(self):
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys, "stdin", Interrupted())
+    assert shell("derive", "-", "-n", "1") == Said(INTERRUPTED, "", "")
+
+
+def test_the_shell_starts_without_what_it_does_not_need():
+    needless = {"numpy", "sympy", "matplotlib", "ipywidgets", "PIL"}
+    assert loaded_by("import lsys_kit.__main__") & {*needless, "lark"} == set()
+    assert loaded_by("from lsys_kit.__main__ import main; main(['list'])") & needless == set()
+    assert loaded_by("from lsys_kit.__main__ import main; main(['derive', 'P4', '-n', '2'])") & (needless - {"numpy"}) == set()
+
+
+def loaded_by(code: str) -> set[str]:
+    """The modules that some code loads in a new process."""
+    done = subprocess.run([sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"], capture_output=True, text=True,
+                          timeout=60, check=True)
+    return set(done.stdout.splitlines()[-1].split())
+
+
+def test_list_names_every_system(shell):
+    from lsys_kit import systems
+
+    assert [line.split()[0] for line in shell("list").out.splitlines()] == list(systems())
+
+
+def test_help_names_every_command(shell):
+    assert all(command in shell("--help").out for command in ("list", "derive", "draw", "stages", "lab"))
+
+
+def test_the_lab_without_jupyterlab_says_how_to_get_it(shell, monkeypatch, tmp_path):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    said = shell("lab", str(tmp_path / "course"))
+    assert said.status == BAD_INPUT
+    assert "pip install 'lsys-kit[lab]'" in said.err
+    assert "The course is in" in said.out
