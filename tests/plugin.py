@@ -9,6 +9,11 @@ import pytest
 os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's plot cells show nothing
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """`--screenshots FOLDER` keeps what the browser tests see."""
+    parser.addoption("--screenshots", metavar="FOLDER", help="put pictures of what the browser tests see into this folder")
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no stopwatch."""

@@ -1,0 +1,42 @@
+"""JupyterLab once for all browser tests, Chromium once a file, a notebook in a tab of its own for each test."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, expect, sync_playwright
+
+from tests.browser.lab import Lab, OpenNotebook, launched, opened, started
+
+expect.set_options(timeout=20_000)
+
+
+@pytest.fixture(scope="session")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    with started(tmp_path_factory.mktemp("lab")) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        running = launched(playwright)
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def open_notebook(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
+    """Opens a notebook of the course: `open_notebook("notebooks/01_parallel_rewriting.ipynb")`."""
+    folder, tabs = pytestconfig.getoption("screenshots"), []
+
+    def open_one(name: str, **context: Any) -> OpenNotebook:
+        tabs.append(opened(browser, lab, name, Path(folder) if folder else None, **context))
+        return tabs[-1]
+
+    yield open_one
+    for tab in tabs:
+        tab.close()
