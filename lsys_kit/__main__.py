@@ -87,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
     derive.add_argument("--counts", action="store_true", help="print the number of modules instead, however large")
     derive.add_argument("--json", action="store_true", help="print one JSON document")
     draw = command("draw", _draw, "Draw the word of step N; a filament with the steps before it.")
-    _add_system(draw, steps_needed=True)
+    _add_system(draw, steps_needed=False)
     draw.add_argument("--angle", metavar="DEGREES", help="by how much + and - turn")
     draw.add_argument("-o", "--output", required=True, metavar="FILE", help="ends in .svg, .png or .pdf")
     stages = command("stages", _stages, "Draw the stage diagram, with the tokens of the word of step N.")
@@ -197,24 +197,18 @@ def _draw(options: argparse.Namespace) -> None:
     steps = options.steps if options.steps is not None else system.steps if system.steps is not None else STEPS
     picture = draw(_words(system, steps, options.arithmetic), angle=options.angle)
     picture.save(options.output)
-    print(picture.text)
+    print(picture)
 
 
 def _stages(options: argparse.Namespace) -> None:
     from lsys_kit.derivation.stages import stages
-    from lsys_kit.pictures.nets import drawn_stages
+    from lsys_kit.pictures.draw import draw
 
-    path = Path(options.output)
-    if path.suffix.lower() != ".svg":
-        raise ModelFileError(f'A stage diagram cannot be written to "{_shown(path.name)}"', hint="Let the name end in .svg.")
     system = _system(options)
-    net = stages(system)
-    svg = drawn_stages(net, net.tokens(_words(system, options.steps or 0, "exact")[-1]))
-    try:
-        path.write_text(svg + "\n", encoding="utf-8")
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{_shown(options.output)}" cannot be written: {_why(fault)}') from None
-    print(net)
+    word = None if options.steps is None else _words(system, options.steps, options.arithmetic)[-1]
+    picture = draw(stages(system), tokens=word)
+    picture.save(options.output)
+    print(picture)
 
 
 def _lab(options: argparse.Namespace) -> None:

@@ -76,8 +76,8 @@ def launched(playwright: Playwright) -> Browser:
     try:
         return playwright.chromium.launch(args=FLAGS)
     except Error as fault:
-        raise RuntimeError("There is no browser for these tests. Install Chromium or Chrome (Debian: apt-get install chromium), "
-                           f"or see why playwright's own does not start: {fault}") from None
+        raise RuntimeError("There is no browser for these tests. Install Chromium or Chrome (on Debian: apt-get install "
+                           f"chromium), or see why playwright's own does not start: {fault}") from None
 
 
 @dataclass

@@ -37,9 +37,9 @@ def noted(widget: str, picture: str, count: int, minute: str) -> nbformat.Notebo
     ]
     cell = new_code_cell("draw()", execution_count=count, outputs=outputs, id="drawing",
                          metadata={"execution": {"iopub.status.busy": minute}, "scrolled": True, "tags": ["raises-exception"]})
-    return new_notebook(cells=[new_markdown_cell("# Title", id="title", metadata={"collapsed": minute}),
-                               new_code_cell("", id="empty"), cell],
-                        metadata={"language_info": {"name": "python", "version": minute}, "widgets": {"state": {widget: minute}}})
+    title, empty = new_markdown_cell("# Title", id="title", metadata={"collapsed": minute}), new_code_cell("", id="empty")
+    metadata = {"language_info": {"name": "python", "version": minute}, "widgets": {"state": {widget: minute}}}
+    return new_notebook(cells=[title, empty, cell], metadata=metadata)
 
 
 PNG = "image/png"
