@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Collection, Mapping, Sequence
+import io
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from html import unescape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.derive import Derivation, derive
 from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.stages import Stages
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelFileError, ModelValueError
 from lsys_kit.geometry.filament import filament
@@ -20,6 +23,7 @@ from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle import placed, traced
 from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures import raster
+from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import GREEN, colours
 from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, strokes_svg
 
@@ -93,19 +97,9 @@ class Picture:
             The name ends in something else, or the file cannot be written.
         """
         path = Path(path)
-        kind = path.suffix.lower()
-        if kind not in (".svg", ".png", ".pdf"):
-            raise ModelFileError(f'A picture cannot be written to "{path.name}"', hint="Let the name end in .svg, .png or .pdf.")
-        try:
-            if kind == ".svg":
-                path.write_text(self.svg + "\n", encoding="utf-8")
-            elif kind == ".png":
-                path.write_bytes(self.png)
-            else:
-                axes = figure(self)
-                axes.figure.savefig(path, bbox_inches="tight", metadata={"CreationDate": None})
-        except OSError as fault:
-            raise ModelFileError(f'"{path}" cannot be written: {fault.strerror}') from None
+        forms: dict[str, Callable[[], bytes]] = {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png,
+                                                 ".pdf": lambda: _pdf(self)}
+        _write(path, forms)
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": self.text}
@@ -114,9 +108,53 @@ class Picture:
         return self.text
 
 
+@dataclass(frozen=True)
+class NetPicture:
+    """A picture of a stage diagram.
+
+    Attributes
+    ----------
+    net
+        The diagram's net.
+    tokens
+        How many modules lie in each place, or None.
+    positions
+        Whether arcs say where in the successor a module stands.
+    """
+
+    net: Stages
+    tokens: tuple[int, ...] | None = None
+    positions: bool = False
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        return drawn_stages(self.net, self.tokens, positions=self.positions)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg file.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        _write(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        return unescape(self.svg.split('aria-label="')[1].split('"')[0])
+
+
+@overload
+def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False) -> NetPicture: ...
+@overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, arithmetic: str = "exact",
-         marked: Collection[int] = (), **constants: object) -> Picture:
-    """Draw a system, a derivation or a word.
+         marked: Collection[int] = (), **constants: object) -> Picture: ...
+def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPicture:
+    """Draw a system, a derivation, a word or a stage diagram.
 
     Parameters
     ----------
@@ -127,10 +165,15 @@ def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: obje
         For a system how many steps; by default those that the system asks for.
     angle
         Degrees by which `+` and `-` turn; by default the system's.
-    arithmetic, **constants
-        As for `derive`.
-    marked
-        States whose modules are marked.
+    **choices
+        For a system `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules are marked.
+        For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say where in the
+        successor a module stands.
+
+    Raises
+    ------
+    ModelValueError
+        It is nothing that can be drawn, or the choices do not belong to it.
 
     Examples
     --------
@@ -138,22 +181,39 @@ def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: obje
     >>> draw(read("angle: 60\\nheading: 0\\naxiom: F--F--F\\nF -> F+F--F+F"), 3)
     192 segments, width 27, height 31.18
     """
+    if isinstance(what, Stages):
+        return _diagram(what, **choices)
+    return _drawing(what, n, **choices)
+
+
+def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
+    return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
+
+
+def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, arithmetic: str = "exact",
+             marked: Collection[int] = (), **constants: object) -> Picture:
     if isinstance(what, LSystem):
         steps = n if n is not None else what.steps if what.steps is not None else 5
         what = derive(what, steps, arithmetic=arithmetic, **constants)
     elif not isinstance(what, Derivation | Word):
-        raise ModelValueError(f"Only a system, a derivation or a word can be drawn, not {type(what).__name__}")
+        raise ModelValueError(f"Only systems, derivations, words and stage diagrams can be drawn, not {type(what).__name__}")
     elif n is not None or constants:
         raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
-    system = what.states.system
-    if is_filament(system):
-        words = [(step, what[step]) for step in range(max(0, what.steps + 1 - MOST_ROWS), what.steps + 1)] \
-            if isinstance(what, Derivation) else [(0, what)]
-        rows = tuple(Row(step, filament(word)) for step, word in words)
-        return Picture(rows, state_colours(what), what.steps if isinstance(what, Derivation) else None, marked)
+    if is_filament(what.states.system):
+        return _sequence(what, marked)
+    turn = float(number_from(angle, "angle") if angle is not None else what.states.system.angle)
     step, word = (what.steps, what[-1]) if isinstance(what, Derivation) else (0, what)
-    turn = float(number_from(angle, "angle") if angle is not None else system.angle)
-    return Picture((Row(step, placed(traced(word), turn, float(system.heading))),), state_colours(word), None, marked)
+    scene = placed(traced(word), turn, float(what.states.system.heading))
+    return Picture((Row(step, scene),), state_colours(word), None, marked)
+
+
+def _sequence(what: Derivation | Word, marked: Collection[int]) -> Picture:
+    """A filament's steps below one another; a word alone."""
+    if isinstance(what, Word):
+        return Picture((Row(0, filament(what)),), state_colours(what), None, marked)
+    first = max(0, what.steps + 1 - MOST_ROWS)
+    rows = tuple(Row(step, filament(what[step])) for step in range(first, what.steps + 1))
+    return Picture(rows, state_colours(what), what.steps, marked)
 
 
 def state_colours(what: Derivation | Word) -> Mapping[int, str]:
@@ -192,6 +252,30 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     ax.autoscale_view()
     ax.set_axis_off()
     return ax
+
+
+def _write(path: Path, forms: Mapping[str, Callable[[], bytes]]) -> None:
+    """Write a file in the form that its name ends in."""
+    if path.suffix.lower() not in forms:
+        raise ModelFileError(f'This picture cannot be written to "{path.name}"', hint=f"Let the name end in {_listed(forms)}.")
+    try:
+        path.write_bytes(forms[path.suffix.lower()]())
+    except OSError as fault:
+        raise ModelFileError(f'"{path}" cannot be written: {fault.strerror}') from None
+
+
+def _listed(endings: Iterable[str]) -> str:
+    """The endings in words: ".svg, .png or .pdf"."""
+    *most, last = endings
+    return f"{', '.join(most)} or {last}" if most else last
+
+
+def _pdf(picture: Picture) -> bytes:
+    buffer = io.BytesIO()
+    sheet = figure(picture).get_figure(root=True)
+    assert sheet is not None
+    sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata={"CreationDate": None})
+    return buffer.getvalue()
 
 
 def _plot_strokes(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from functools import lru_cache
 from html import escape
 
-from lsys_kit.notation.expressions import number_text
+from lsys_kit.derivation.stages import Place
+from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.model import LSystem, Module, symbols
 
 
@@ -71,8 +72,33 @@ def html_label(module: Module, system: LSystem) -> str:
 
     >>> from lsys_kit.notation.read import read
     >>> html_label(Module("a_r", (2,)), read("axiom: a_r(2)"))
-    '<i>a</i><sub>r</sub>(2)'
+    '<i>a</i><sub style="line-height:0">r</sub>(2)'
     """
     letter, subscript = parts(module.symbol, system)
     text = f"<i>{escape(letter)}</i>" if letter[:1].isalpha() else escape(letter)
-    return text + (f"<sub>{escape(subscript)}</sub>" if subscript else "") + escape(values_text(module))
+    return text + (f'<sub style="line-height:0">{escape(subscript)}</sub>' if subscript else "") + escape(values_text(module))
+
+
+def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
+    """A stage's letter, subscript and values: without the polarity, where its modules differ in that, and with the values
+    that they share.
+
+    >>> from lsys_kit.derivation.stages import stages
+    >>> from lsys_kit.notation.read import read
+    >>> system = read("axiom: M(5,1)\\nM(t,p) -> M(t,-p)\\ninterpretation:\\nM(t,p) : p < 0 -> L(1,1)\\nM(t,p) -> R(1,1)")
+    >>> place_parts(stages(system).places[0], system)
+    ('M', '', '(5)')
+    """
+    letter, subscript = parts(place.symbol, system)
+    if not place.modules:
+        return letter, subscript, ""
+    shared = [column[0] for column in zip(*(module.arguments for module in place.modules), strict=True) if len(set(column)) == 1]
+    values = values_text(Module(place.symbol, tuple(shared)))
+    merged = len({module.symbol for module in place.modules}) > 1
+    return letter, "" if merged else subscript, values
+
+
+def place_text(place: Place, system: LSystem) -> str:
+    """A stage's label as plain text."""
+    letter, subscript, values = place_parts(place, system)
+    return letter + (f"_{subscript}" if subscript else "") + values

@@ -118,7 +118,7 @@ def rows_svg(rows: Sequence[Row], colour_of: Mapping[int, str], current: int | N
             body.append(f'<rect x="20" y="{middle - round(pitch * 5)}" width="{width * 10 - 40}" height="{round(pitch * 10)}" '
                         f'rx="40" fill="{MARK}"/>')
         weight = ' font-weight="bold"' if row.step == current else ""
-        body.append(f'<text x="{gutter * 10 - 60}" y="{middle + 40}" font-size="115" text-anchor="end" '
+        body.append(f'<text x="{gutter * 10 - 60}" y="{middle + 45}" font-size="150" text-anchor="end" '
                     f'font-family="sans-serif" fill="{INK if weight else QUIET}"{weight}>{row.step}</text>')
         left = round((gutter + (width - gutter) / 2 - row.scene.width * scale / 2) * 10)
         body.append(cells_svg(row.scene.cells, scale * 10, left, middle, colour_of, marked))

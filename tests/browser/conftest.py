@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import nbformat
 import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.lab import Lab, OpenNotebook, launched, opened, started
@@ -40,3 +42,16 @@ def open_notebook(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> It
     yield open_one
     for tab in tabs:
         tab.close()
+
+
+@pytest.fixture
+def write_notebook(lab: Lab) -> Callable[..., str]:
+    """Writes a notebook of a title and some code cells into the course: `write_notebook("name.ipynb", "1 + 1")`."""
+
+    def written(name: str, *sources: str, tags: tuple[str, ...] = ()) -> str:
+        cells = [new_markdown_cell("# Title"), *(new_code_cell(source, metadata={"tags": list(tags)}) for source in sources)]
+        kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}}
+        (lab.folder / "notebooks" / name).write_text(nbformat.writes(new_notebook(cells=cells, metadata=kernel)))
+        return f"notebooks/{name}"
+
+    return written

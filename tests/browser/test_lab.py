@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import nbformat
-import pytest
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import expect
 
 from lsys_kit.classroom.course import course_files
@@ -18,17 +15,6 @@ BROKEN = """import anywidget
 class Broken(anywidget.AnyWidget):
     _esm = "export default { render() { throw new Error('oh') } }"
 Broken()"""
-
-
-@pytest.fixture
-def write_notebook(lab):
-    def written(name: str, *sources: str, tags: tuple[str, ...] = ()) -> str:
-        cells = [new_markdown_cell("# Title"), *(new_code_cell(source, metadata={"tags": list(tags)}) for source in sources)]
-        kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}}
-        (lab.folder / "notebooks" / name).write_text(nbformat.writes(new_notebook(cells=cells, metadata=kernel)))
-        return f"notebooks/{name}"
-
-    return written
 
 
 def test_the_lab_shows_the_course(lab):

@@ -1,0 +1,302 @@
+"""The explorer: a system's word, stage diagram and drawing side by side, with sliders made from the model.
+
+Nothing is computed twice: words, scenes and the texts of panels are kept for every step and every setting of the constants.
+The angle never comes back to the kernel: the browser turns the drawing by itself.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+from html import escape
+from typing import Any
+
+import ipywidgets as widgets
+
+from lsys_kit.budget import current, limits
+from lsys_kit.classroom.catalogue import system as catalogued
+from lsys_kit.classroom.controls import Control, Span, control, spans
+from lsys_kit.classroom.views import packed, widget_classes, word_html
+from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.interpret import is_filament
+from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.stages import Stages, stages
+from lsys_kit.derivation.words import shortened
+from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.turtle import Path, placed, traced
+from lsys_kit.notation.arithmetic import Value, number_text
+from lsys_kit.notation.model import LSystem
+from lsys_kit.pictures.draw import MOST_ROWS, Picture, Row, state_colours
+from lsys_kit.pictures.labels import place_text
+from lsys_kit.pictures.nets import drawn_stages
+from lsys_kit.pictures.palette import INK, QUIET, VERMILION
+
+MOST_MODULES = 100_000
+"""Words larger than this are refused by the panel: nobody sees more, and a slider must answer at once."""
+SECONDS_A_STEP = 0.6
+"""How long the play button shows each step."""
+
+
+def explore(what: LSystem | str, step: int | None = None, *, angle: object = None, **constants: object) -> Explorer:
+    """Show a system with its sliders: word, stage diagram and drawing of one step, side by side.
+
+    Parameters
+    ----------
+    what
+        A system, or the id of one in the catalogue.
+    step
+        The step that is shown first; by default the one that the system asks for.
+    angle
+        Degrees by which `+` and `-` turn at first.
+    **constants
+        First values of declared constants.
+
+    Raises
+    ------
+    ModelValueError
+        A first value lies outside its slider's range.
+
+    Examples
+    --------
+    >>> panel = explore("J4", 3)
+    >>> panel.step.value = 9
+    >>> print(panel.text)
+    Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
+9 cells, width 14, height 1.
+    """
+    return Explorer(catalogued(what) if isinstance(what, str) else what, step, angle, constants)
+
+
+class Explorer(widgets.VBox):  # type: ignore[misc]
+    """The panel that `explore` shows.
+
+    Attributes
+    ----------
+    step, angle
+        The sliders of the step and, for a turtle, of the angle.
+    constants
+        For each constant its control.
+    picture
+        The drawing shown, as a `Picture`.
+    """
+
+    def __init__(self, system: LSystem, step: int | None, angle: object, changes: dict[str, object]) -> None:
+        self.system = system
+        self._fixed = {name: value for name, value in changes.items() if name not in spans(system, changes)}
+        self.constants = {name: control(name, span) for name, span in spans(system, changes).items()}
+        self._make_controls(step, angle)
+        self._make_views()
+        self._derivations: dict[tuple[Value, ...], tuple[Derivation, Stages]] = {}
+        self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}
+        self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
+        self._playing: asyncio.Task[None] | None = None
+        self._start = self._readings()
+        super().__init__([self._top(), self._message, self._panels(), self._bottom()],
+                         layout=widgets.Layout(width="100%", padding="6px"))
+        self.add_class("lsys-explorer")
+        self._listen()
+        self._show()
+
+    # -- what there is ------------------------------------------------------------------------------------------------
+
+    def _make_controls(self, step: int | None, angle: object) -> None:
+        asked = self.system.steps if self.system.steps is not None else 5
+        first = asked if step is None else step
+        most = max(2 * asked, 10, first)
+        if isinstance(first, bool) or not isinstance(first, int) or first < 0:
+            raise ModelValueError(f"The step must be a whole number from 0 on, not {step!r}")
+        self._step = control("step", Span(first, 0, most, 1))
+        self.step = self._step.slider
+        turn = float(number_from(angle, "angle") if angle is not None else self.system.angle)
+        if not 0 <= turn <= 180:
+            raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
+        self._angle = control("angle", Span(number_from(turn), 0, 180, number_from("0.1")))
+        self.angle = self._angle.slider
+        self._play = widgets.Button(description="play", tooltip="show one step after another", layout=_button())
+        self._reset = widgets.Button(description="reset", tooltip="back to the first settings", layout=_button())
+        self._mark = widgets.Dropdown(options=[("no stage", -1)], value=-1, description="mark",
+                                      style={"description_width": "initial"}, layout=widgets.Layout(width="170px"))
+
+    def _make_views(self) -> None:
+        self.turns_itself = widget_classes() is not None and not is_filament(self.system)
+        self._word, self._message, self._status = widgets.HTML(), widgets.HTML(), widgets.HTML()
+        kinds = widget_classes()
+        self._diagram = kinds[1]() if kinds else widgets.HTML()
+        self._drawing = kinds[0](heading=float(self.system.heading), angle=self.angle.value) \
+            if kinds and self.turns_itself else widgets.HTML()
+
+    def _top(self) -> widgets.Widget:
+        return widgets.HBox([self._step.row(), self._play, self._reset, self._status], layout=_wrapping())
+
+    def _panels(self) -> widgets.Widget:
+        panels = [self._panel("word", self._word, 3), self._panel("stages", self._diagram, 4),
+                  self._panel("drawing", self._drawing, 5)]
+        return widgets.HBox(panels, layout=_wrapping())
+
+    def _panel(self, name: str, view: widgets.Widget, share: int) -> widgets.Widget:
+        heading = widgets.HTML(f'<div style="color:{QUIET};font:12px sans-serif;letter-spacing:.06em">{name}</div>')
+        view.layout.width = "100%"
+        return widgets.VBox([heading, view], layout=widgets.Layout(flex=f"{share} 1 240px", min_width="0", margin="4px 8px"))
+
+    def _bottom(self) -> widgets.Widget:
+        rows = [each.row() for each in self.constants.values()]
+        if not is_filament(self.system):
+            rows.insert(0, self._angle.row())
+        return widgets.HBox([*rows, self._mark], layout=_wrapping())
+
+    # -- what happens -------------------------------------------------------------------------------------------------
+
+    def _listen(self) -> None:
+        for each in (self._step, *self.constants.values()):
+            each.slider.observe(self._show, "value")
+        self._mark.observe(self._show, "value")
+        if self.turns_itself:
+            widgets.jslink((self.angle, "value"), (self._drawing, "angle"))
+        else:
+            self.angle.observe(self._show, "value")
+        if widget_classes():
+            widgets.link((self._diagram, "chosen"), (self._mark, "value"))
+        self._play.on_click(self._toggle_play)
+        self._reset.on_click(self._back)
+
+    def _controls(self) -> list[Control]:
+        return [self._step, self._angle, *self.constants.values()]
+
+    def _readings(self) -> list[float]:
+        return [each.slider.value for each in self._controls()]
+
+    def _back(self, _: object = None) -> None:
+        self._stop()
+        self._mark.value = -1
+        for each, reading in zip(self._controls(), self._start, strict=True):
+            each.slider.value = reading
+
+    def _toggle_play(self, _: object = None) -> None:
+        if self._playing:
+            self._stop()
+            return
+        if self.step.value == self.step.max:
+            self.step.value = 0
+        self._play.description = "pause"
+        self._playing = asyncio.get_running_loop().create_task(self._run())
+
+    def _stop(self) -> None:
+        if self._playing:
+            self._playing.cancel()
+        self._playing, self._play.description = None, "play"
+
+    async def _run(self) -> None:
+        while self.step.value < self.step.max:
+            await asyncio.sleep(SECONDS_A_STEP)
+            self.step.value += 1
+            if self._message.value:
+                break
+        self._playing, self._play.description = None, "play"
+
+    def _show(self, _: object = None) -> None:
+        """Show the step that the sliders ask for; where it cannot be had, say why and keep the pictures."""
+        try:
+            with limits(modules=min(MOST_MODULES, current().modules)):
+                self._show_step(self.step.value)
+            self._message.value = ""
+        except LSystemError as error:
+            said = escape(f"{error.message}. {error.hint or ''}")
+            self._message.value = (f'<div role="alert" style="color:{INK};border-left:5px solid {VERMILION};'
+                                   f'padding:4px 10px;font:14px sans-serif">&#9888; {said}</div>')
+
+    def _show_step(self, step: int) -> None:
+        derivation, net = self._derived()
+        derivation = derivation.to(step)
+        word = derivation[step]
+        place = self._marked_place(net)
+        marked = {s for s, module in enumerate(word.states.modules) if net.place_of(module) == place} if place >= 0 else set()
+        drawing = self._drawn(derivation, step, marked)
+        self.picture, self._net, self._shown, self._shown_step = drawing, net, word, step
+        self._tokens = net.tokens(word)
+        self._word.value = word_html(word, marked)
+        svg = drawn_stages(net, self._tokens, marked=place if place >= 0 else None)
+        if widget_classes():
+            self._diagram.svg = svg
+        else:
+            self._diagram.value = svg
+        self._status.value = (f'<span role="status" style="font:14px sans-serif;color:{INK}">step {step}: <b>{len(word):,}</b> '
+                              f"module{'s' * (len(word) != 1)}, {sum(t > 0 for t in self._tokens)} kinds; {drawing.scene}</span>")
+
+    def _derived(self) -> tuple[Derivation, Stages]:
+        """The derivation and the net for the constants that the sliders show."""
+        values = {name: each.value for name, each in self.constants.items()}
+        key = tuple(values.values())
+        if key not in self._derivations:
+            given = {**self._fixed, **values}
+            self._derivations[key] = derive(self.system, 0, **given), stages(self.system, **given)
+        return self._derivations[key]
+
+    def _marked_place(self, net: Stages) -> int:
+        """The chosen stage; the choice follows the net's stages, which change with the constants."""
+        options = [("no stage", -1), *((place_text(net.places[number], net.system), number) for number in range(len(net.places)))]
+        if [*self._mark.options] != options:
+            chosen = self._mark.value if self._mark.value < len(net.places) else -1
+            with self._mark.hold_trait_notifications():
+                self._mark.options = options
+                self._mark.value = chosen
+        return int(self._mark.value)
+
+    def _drawn(self, derivation: Derivation, step: int, marked: set[int]) -> Picture:
+        key = derivation.states.constants
+        if is_filament(self.system):
+            first = max(0, step + 1 - MOST_ROWS)
+            for k in range(first, step + 1):
+                if (key, k) not in self._rows:
+                    self._rows[key, k] = Row(k, filament(derivation[k]))
+            picture = Picture(tuple(self._rows[key, k] for k in range(first, step + 1)), state_colours(derivation), step, marked)
+            self._drawing.value = picture.svg
+            return picture
+        if (key, step) not in self._paths:
+            self._paths[key, step] = traced(derivation[step])
+        path = self._paths[key, step]
+        scene = placed(path, self.angle.value, float(self.system.heading))
+        picture = Picture((Row(step, scene),), state_colours(derivation), None, marked)
+        if self.turns_itself:
+            self._send_path(path, picture, marked)
+        else:
+            self._drawing.value = picture.svg
+        return picture
+
+    def _send_path(self, path: Path, picture: Picture, marked: set[int]) -> None:
+        """Send a path to the browser, once."""
+        data, used = packed(path, picture.colour_of, marked)
+        with self._drawing.hold_sync():
+            self._drawing.colours = used
+            self._drawing.typical = float(sorted(path.lengths)[len(path) // 2]) if len(path) else 1.0
+            self._drawing.description = f"Drawing of step {picture.rows[-1].step}: {len(picture.scene.segments):,} segments"
+            self._drawing.path = data
+
+    # -- what is kept -------------------------------------------------------------------------------------------------
+
+    @property
+    def text(self) -> str:
+        """What the panel shows, in words."""
+        places = [f"{place_text(self._net.places[number], self.system)}: {count:,}" for number, count in enumerate(self._tokens)
+                  if self._net.places[number].symbol[0].isalpha()]
+        return (f"Step {self._shown_step}: {len(self._shown):,} module{'s' * (len(self._shown) != 1)}. "
+                f"{shortened(self._shown, 160)}. Stages {', '.join(places)}. {self.picture.scene}.")
+
+    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+        """The live panel, and for a page without a kernel its picture and its words."""
+        bundle = super()._repr_mimebundle_(**options)
+        data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
+        data["text/plain"] = self.text
+        data["image/png"] = base64.b64encode(self.picture.png).decode()
+        return data
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def _wrapping() -> widgets.Layout:
+    return widgets.Layout(flex_flow="row wrap", align_items="flex-start", width="100%")
+
+
+def _button() -> widgets.Layout:
+    return widgets.Layout(width="70px")

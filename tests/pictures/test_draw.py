@@ -1,0 +1,122 @@
+"""Pictures: what is said about them, what is in them, where they can be kept."""
+
+import io
+import xml.etree.ElementTree as ET
+
+import pytest
+from PIL import Image
+
+from lsys_kit import ModelFileError, ModelValueError, derive, draw, figure, limits, read, system
+from lsys_kit.pictures.palette import colours
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def parsed(picture):
+    return ET.fromstring(picture.svg)  # noqa: S314
+
+
+def test_a_filament_is_drawn_as_its_developmental_sequence():
+    picture = draw(system("J1"), 6)
+    assert str(picture) == "steps 0 to 6; the last: 21 cells, width 34, height 1"
+    assert len(parsed(picture).findall(f".//{SVG}ellipse")) == 1 + 2 + 3 + 5 + 8 + 13 + 21
+
+
+def test_a_single_word_is_drawn_alone():
+    assert str(draw(derive(system("J1"), 6)[-1])) == "21 cells, width 34, height 1"
+
+
+def test_a_turtle_draws_the_last_word():
+    assert str(draw(system("T2"), 3)) == "192 segments, width 27, height 31.18"
+
+
+def test_the_angle_may_be_given_as_a_person_writes_it():
+    assert str(draw(system("K5"), 2, angle="0")) == str(draw(system("K5"), 2, angle=0.0)) == "25 segments, width 0, height 9"
+
+
+def test_a_picture_is_described_and_the_same_every_time():
+    picture, again = draw(system("K5"), 3), draw(system("K5"), 3)
+    root = parsed(picture)
+    assert root.get("role") == "img"
+    assert root.get("aria-label") == str(picture)
+    assert picture.svg == again.svg
+    assert picture.png == again.png
+
+
+def test_one_colour_is_one_symbol():
+    palette = colours(system("L1"))
+    assert len({palette[symbol] for symbol in "IAB"}) == 3
+    assert palette["I"] in draw(system("L1"), 2).svg
+
+
+def test_marked_cells_differ_by_more_than_colour():
+    derivation = derive(system("J1"), 3)
+    plain, marked = draw(derivation), draw(derivation, marked={0})
+    assert marked.svg.count('stroke-width="32"') == sum(code == 0 for word in derivation for code in word.numbers())
+    assert 'stroke-width="32"' not in plain.svg
+
+
+def test_marked_strokes_lie_on_a_broad_band():
+    derivation = derive(system("L1"), 2)
+    assert 'class="marked"' in draw(derivation, marked={0}).svg
+
+
+def test_too_many_strokes_become_a_picture_of_pixels():
+    with limits(segments=100):
+        svg = draw(system("K5"), 3).svg
+    assert "data:image/png;base64," in svg
+    ET.fromstring(svg)  # noqa: S314
+
+
+@pytest.mark.parametrize("id", ["J4", "K5"])
+def test_a_png_shows_something_on_white(id):
+    image = Image.open(io.BytesIO(draw(system(id), 4).png)).convert("RGB")
+    assert image.getpixel((0, 0)) == (255, 255, 255)
+    assert len(image.getcolors(100_000)) > 3
+
+
+@pytest.mark.parametrize(("ending", "head"), [("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
+@pytest.mark.parametrize("id", ["J1", "K5"])
+def test_a_picture_can_be_kept(tmp_path, id, ending, head):
+    draw(system(id), 3).save(tmp_path / f"out.{ending}")
+    assert (tmp_path / f"out.{ending}").read_bytes().startswith(head)
+
+
+def test_a_picture_cannot_be_kept_in_another_format(tmp_path):
+    with pytest.raises(ModelFileError, match=r"end in .svg, .png or .pdf"):
+        draw(system("J1"), 1).save(tmp_path / "out.gif")
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(ModelFileError, match="cannot be written"):
+        draw(system("J1"), 1).save(tmp_path / "nowhere" / "out.svg")
+
+
+def test_a_drawing_goes_into_a_teachers_own_figure():
+    from matplotlib.figure import Figure
+
+    ax = Figure().add_subplot()
+    assert figure(system("K5"), ax, n=3) is ax
+    assert len(ax.collections[0].get_segments()) == 125
+    assert len(figure(system("J1"), n=2).patches) == 2 * (1 + 2 + 3)
+
+
+@pytest.mark.parametrize("what", ["J1", None, 3])
+def test_only_systems_derivations_and_words_are_drawn(what):
+    with pytest.raises(ModelValueError, match="can be drawn"):
+        draw(what)
+
+
+def test_steps_belong_to_a_system():
+    with pytest.raises(ModelValueError, match="when a system is derived"):
+        draw(derive(system("J1"), 2), 3)
+
+
+def test_a_bundle_has_the_picture_and_its_words():
+    bundle = draw(system("J1"), 2)._repr_mimebundle_()
+    assert set(bundle) == {"image/svg+xml", "text/plain"}
+
+
+def test_names_of_a_model_never_become_markup():
+    picture = draw(read("axiom: a\ninterpretation:\na -> L(1,1)"), 0)
+    assert "<script" not in picture.svg
