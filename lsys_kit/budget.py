@@ -33,6 +33,8 @@ class Limits:
     """states of a stage diagram or growth matrix"""
     text: int = 1_000_000
     """characters of a model"""
+    line: int = 50_000
+    """characters of a line of a model, or of a word that is read"""
     rules: int = 1_000
     """productions of a model"""
     parameters: int = 16

@@ -20,8 +20,9 @@ from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.arithmetic import Value, number_text
 from lsys_kit.notation.checks import check_expression, span, suggestion
-from lsys_kit.notation.expressions import Expression, Value, gives, number_text
+from lsys_kit.notation.expressions import Expression, gives
 from lsys_kit.notation.model import LSystem, Module, symbols
 from lsys_kit.notation.read import read, read_expression, read_word
 

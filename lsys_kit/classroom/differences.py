@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
 
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.rules import reason
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number, Value, function_of, number_text, to_sympy
+from lsys_kit.notation.arithmetic import Value, number_text, reason
+from lsys_kit.notation.expressions import Apply, Expression, Name, Number, function_of, to_sympy
 from lsys_kit.notation.model import Module
 
 Values: TypeAlias = Mapping[str, Value]

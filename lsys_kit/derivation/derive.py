@@ -1,30 +1,32 @@
 """Deriving: from the axiom to the word of any step.
 
 Before a word is built its size is known exactly: how often each state occurs in it follows from how often each occurs in
-the word before, as a sum of whole numbers. The word of step n is then built without the words between. The length of what
-a state becomes in so many steps is known too, so each piece has its place in one array: what a state becomes in k steps is
-written where it is first needed, and every later occurrence is a copy of that stretch.
+the word before, as a sum of whole numbers. The word of step n is then built without the words between.
 """
 
 from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import overload
 
 import numpy as np
 
+from lsys_kit.budget import current
+from lsys_kit.derivation.expand import code_type, expanded
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.budget import current
 from lsys_kit.notation.model import LSystem
 
 PLAIN = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
-PIECE = 64
-"""Pieces up to this length are put together as tuples and written at once."""
+STATE_BYTES = 600
+"""About what one state takes in the table."""
+OFTEN = 1_024
+"""After how many states somebody looks at the clock."""
 
 
 def derive(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Derivation:
@@ -91,29 +93,35 @@ class Derivation(Sequence[Word]):
         """
         if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
             raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
-        started, budget = time.monotonic(), current()
+        until = time.monotonic() + current().seconds
         while len(self._counts) <= steps:
-            step = len(self._counts)
-            counts = counted(self.states, self._counts[-1])
-            self._check(step, sum(counts.values()), len(self.states))
-            if time.monotonic() - started > budget.seconds:
-                raise self._refusal(f"Step {step} was not reached in {budget.seconds:g} seconds", step, budget.seconds, None,
-                                    "seconds")
-            self._counts.append(counts)
+            step, before = len(self._counts), self._counts[-1]
+            self._check(step, sum(count * self.states.width(state) for state, count in before.items()))
+            self._counts.append(counted(self.states, before, partial(self._watch, step, until)))
         for step in range(int(steps) + 1):
-            self._check(step, sum(self._counts[step].values()) if step else len(self.states.axiom), len(self.states))
+            self._check(step, self._counts[step].total())
         return Derivation(self.states, int(steps), self)
 
-    def _check(self, step: int, size: int, states: int) -> None:
+    def _check(self, step: int, size: int) -> None:
         """Refuse a step whose word would be past a limit, before it is built."""
-        budget = current()
-        if size > budget.modules:
-            raise self._refusal(f"Step {step} would have {_grouped(size)} modules; the limit is {_grouped(budget.modules)}",
-                                step, budget.modules, size, "modules")
-        bytes_needed = size * code_type(states).itemsize
-        if bytes_needed > budget.bytes:
-            raise self._refusal(f"Step {step} would take {_grouped(bytes_needed)} bytes; the limit is "
-                                f"{_grouped(budget.bytes)}", step, budget.bytes, bytes_needed, "bytes")
+        limit = current().modules
+        if size > limit:
+            raise self._refusal(f"Step {step} would have {_grouped(size)} modules; the limit is {_grouped(limit)}",
+                                step, limit, size, "modules")
+        self._check_bytes(step, size * code_type(len(self.states)).itemsize)
+
+    def _check_bytes(self, step: int, word: int) -> None:
+        needed, limit = word + len(self.states) * STATE_BYTES, current().bytes
+        if needed > limit:
+            raise self._refusal(f"Step {step} would take {_grouped(needed)} bytes; the limit is {_grouped(limit)}", step, limit,
+                                needed, "bytes")
+
+    def _watch(self, step: int, until: float) -> None:
+        """Refuse a step while it is counted, because it meets too many different modules."""
+        self._check_bytes(step, 0)
+        if time.monotonic() > until:
+            seconds = current().seconds
+            raise self._refusal(f"Step {step} was not reached in {seconds:g} seconds", step, seconds, None, "seconds")
 
     def _refusal(self, message: str, step: int, limit: float, needed: int | None, name: str) -> ModelLimitError:
         kept = Derivation(self.states, step - 1, self) if step else None
@@ -147,15 +155,38 @@ class Derivation(Sequence[Word]):
     @property
     def lengths(self) -> list[int]:
         """The number of modules at each step, known without building a word."""
-        return [sum(counts.values()) for counts in self._counts[:len(self)]]
+        return [counts.total() for counts in self._counts[:len(self)]]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is worth telling: names that were read as several symbols, values that are no longer exact.
+
+        >>> from lsys_kit.notation.read import read
+        >>> derive(read("axiom: F(0)\\nF(x) -> F(x^2 + 0.1)"), 8).notes
+        ('From step 7 on values outgrow 128 bits and are doubles, such as F(0.11270011762177155).',)
+        """
+        notes, inexact = self.states.system.notes, self.states.inexact
+        for step, counts in enumerate(self._counts[:len(self)] if inexact else ()):
+            if any(self.states.modules[state] == inexact for state in counts):
+                return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")
+        return notes
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a step, known without building its word."""
         return self._counts[step]
 
-    def column(self, centred: bool = False) -> Column:
+    def column(self, centred: bool = False, coding: Mapping[str, str] | None = None) -> Column:
         """The words below one another, as in seed 000's `ColumnForm`.
 
+        Parameters
+        ----------
+        centred
+            Whether each word stands in the middle.
+        coding
+            For some modules what is written in their place (see `Word.coded`).
+
+        Examples
+        --------
         >>> from lsys_kit.notation.read import read
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 3).column(centred=True)
         0     a
@@ -163,21 +194,18 @@ class Derivation(Sequence[Word]):
         2   a b a
         3 a b a a b
         """
-        texts = [repr(word) for word in self]
+        texts = [word.coded(coding) if coding else repr(word) for word in self]
         width = max(map(len, texts)) if centred else 0
         digits = len(str(self.steps))
         return Column("\n".join(f"{step:>{digits}} {text.center(width)}".rstrip() for step, text in enumerate(texts)))
 
     def _built(self, step: int) -> Word:
-        size = sum(self._counts[step].values())
+        size = self._counts[step].total()
         before = self._words.get(step - 1)
         if step == 0:
             return Word(self.states, list(self.states.axiom))
         if size <= PLAIN and before is not None:
-            successor, codes = self.states.successor, []
-            for state in before.codes:
-                codes += successor(state)
-            return Word(self.states, codes)
+            return Word(self.states, [code for state in before.codes for code in self.states.successor(state)])
         array = expanded(self.states, self._counts[:step + 1])
         return Word(self.states, array.tolist() if size <= PLAIN else array)
 
@@ -191,12 +219,15 @@ class Column(str):
         return str(self)
 
 
-def counted(states: States, counts: Counter[int]) -> Counter[int]:
-    """How often each state occurs one step later."""
+def counted(states: States, counts: Counter[int], watch: Callable[[], None] = lambda: None) -> Counter[int]:
+    """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
     after: Counter[int] = Counter()
-    for state, count in counts.items():
+    for number, (state, count) in enumerate(counts.items(), 1):
         for successor in states.successor(state):
             after[successor] += count
+        if number % OFTEN == 0:
+            watch()
+    watch()
     return after
 
 
@@ -206,75 +237,26 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
     >>> from lsys_kit.notation.read import read
     >>> len(str(list(lengths(read("axiom: a\\na -> ab\\nb -> a"), 10_000))[-1]))
     2090
+
+    Raises
+    ------
+    ModelLimitError
+        Counting takes too long, because there are too many different modules.
     """
     states = States(system, constants, arithmetic)
-    counts = Counter(states.axiom)
+    counts, left = Counter(states.axiom), current().seconds
     for step in range(steps + 1):
-        counts = counted(states, counts) if step else counts
-        yield sum(counts.values())
+        started = time.monotonic()
+        counts = counted(states, counts, partial(_check_time, step, started + left)) if step else counts
+        left -= time.monotonic() - started  # the time between two steps is the asker's
+        yield counts.total()
 
 
-def code_type(states: int) -> np.dtype[Any]:
-    """The smallest unsigned type that numbers so many states."""
-    return np.min_scalar_type(max(states - 1, 0))
-
-
-def expanded(states: States, present: Sequence[Counter[int]]) -> np.ndarray[Any, Any]:
-    """The word of the last step, as an array of states.
-
-    Parameters
-    ----------
-    states
-        The table.
-    present
-        For each step the states that occur in its word.
-
-    Returns
-    -------
-    numpy.ndarray
-        The codes, of the smallest unsigned integer type that holds them.
-    """
-    last = len(present) - 1
-    sizes = _sizes(states, present)
-    pieces = _pieces(states, present, sizes)
-    word = np.empty(sum(sizes[0][state] for state in states.axiom), dtype=code_type(len(states)))
-    written: dict[tuple[int, int], int] = {}
-    todo = [(state, 0) for state in reversed(states.axiom)]
-    at = 0
-    while todo:
-        state, step = todo.pop()
-        size = sizes[step][state]
-        if size <= PIECE:
-            word[at:at + size] = pieces[step][state]
-        elif (state, step) in written:
-            start = written[state, step]
-            word[at:at + size] = word[start:start + size]
-        else:
-            written[state, step] = at
-            todo += [(successor, step + 1) for successor in reversed(states.successor(state))]
-            continue
-        at += size
-    assert at == len(word) or last < 0
-    return word
-
-
-def _sizes(states: States, present: Sequence[Counter[int]]) -> list[dict[int, int]]:
-    """For each step and state the length of what the state becomes by the last step."""
-    sizes: list[dict[int, int]] = [dict.fromkeys(present[-1], 1)]
-    for here in reversed(present[:-1]):
-        after = sizes[-1]
-        sizes.append({state: sum(after[s] for s in states.successor(state)) for state in here})
-    return sizes[::-1]
-
-
-def _pieces(states: States, present: Sequence[Counter[int]], sizes: Sequence[dict[int, int]]) -> list[dict[int, tuple[int, ...]]]:
-    """For each step and state whose size is small, what the state becomes by the last step."""
-    pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]
-    for step in range(len(present) - 2, -1, -1):
-        after = pieces[-1]
-        pieces.append({state: tuple([code for s in states.successor(state) for code in after[s]])
-                       for state in present[step] if sizes[step][state] <= PIECE})
-    return pieces[::-1]
+def _check_time(step: int, until: float) -> None:
+    seconds = current().seconds
+    if time.monotonic() > until:
+        raise ModelLimitError(f"Step {step} was not counted in {seconds:g} seconds", limit=seconds,
+                              hint="Take fewer steps, or set limits(seconds=...).")
 
 
 def _grouped(number: float) -> str:

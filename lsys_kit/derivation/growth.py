@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lsys_kit.budget import current
 from lsys_kit.derivation.derive import counted
 from lsys_kit.derivation.states import States, closure
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.budget import current
 from lsys_kit.notation.model import LSystem, Module
 
 if TYPE_CHECKING:
@@ -127,7 +127,8 @@ def growth(system: LSystem, **constants: object) -> Growth:
     if closure(states, current().states) is None:
         raise ModelLimitError(f"The states of this system do not end: more than {current().states:,} were met",
                               limit=current().states, needed=len(states),
-                              hint=f"The last one was {states.modules[-1]}; a parameter that grows for ever has no growth matrix.")
+                              hint=f"The last one was {states.modules[-1]}; a parameter that grows for ever has no growth "
+                                   "matrix.")
     return Growth(states)
 
 
@@ -151,8 +152,7 @@ def shortest_recurrence(terms: Sequence[int]) -> list[Fraction]:
         update = [Fraction(0)] * (i - best_end - 1) + [factor] + [-factor * c for c in best]
         previous = current_rule
         width = max(len(current_rule), len(update))
-        current_rule = [(current_rule[k] if k < len(current_rule) else 0) + (update[k] if k < len(update) else 0)
-                        for k in range(width)]
+        current_rule = [sum((row[k] for row in (previous, update) if k < len(row)), Fraction(0)) for k in range(width)]
         if i - len(previous) > best_end - len(best):
             best, best_end, best_error = previous, i, error
     while current_rule and not current_rule[-1]:

@@ -15,12 +15,11 @@ from functools import lru_cache
 from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.arithmetic import Value, reason, sound, tidy
 from lsys_kit.notation.checks import suggestion
-from lsys_kit.notation.expressions import Function, Name, Value, function_of, tidy
+from lsys_kit.notation.expressions import Function, Name, function_of
 from lsys_kit.notation.model import LSystem, Production
 from lsys_kit.notation.read import read_number
-
-ARITHMETICS = ("exact", "float")
 
 
 @dataclass(frozen=True)
@@ -89,17 +88,15 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
         if name not in names:
             hint = suggestion(name, names) or (f"Its constants are: {', '.join(names)}." if names else "It has none.")
             raise ModelNameError(f'The system declares no constant "{name}"', hint=hint)
+    order = {name: index for index, name in enumerate(names)}
     values: list[Value] = []
     for constant in system.constants:
-        if constant.name in changes:
-            value = number_from(changes[constant.name], constant.name)
-        else:
-            run = function_of(constant.value, {name: i for i, name in enumerate(names)}, arithmetic)
-            try:
-                value = run(tuple(values))
-            except (ArithmeticError, ValueError) as fault:
-                raise ModelValueError(f'The constant "{constant.name}" has no value: {reason(fault)}', system.source or None,
-                                      *(constant.at or (None, None))) from None
+        try:
+            value = (number_from(changes[constant.name], constant.name) if constant.name in changes
+                     else sound(function_of(constant.value, order, arithmetic)(tuple(values))))
+        except (ArithmeticError, ValueError) as fault:
+            raise ModelValueError(f'The constant "{constant.name}" has no value: {reason(fault)}', system.source or None,
+                                  *(constant.at or (None, None))) from None
         values.append(float(value) if arithmetic == "float" else value)
     return tuple(values)
 
@@ -112,18 +109,15 @@ def number_from(given: object, name: str = "value") -> Value:
     """
     if isinstance(given, str):
         return read_number(given)
-    if isinstance(given, numbers.Real) and not isinstance(given, bool):
+    if isinstance(given, numbers.Real) and not isinstance(given, bool) and _finite(given):
         if isinstance(given, numbers.Rational):
             return tidy(Fraction(int(given.numerator), int(given.denominator)))
-        if math.isfinite(given):
-            return tidy(Fraction(repr(float(given))))
+        return tidy(Fraction(repr(float(given))))
     raise ModelValueError(f'"{name}" must be a number, not {str(given)[:40]!r}')
 
 
-def reason(fault: Exception) -> str:
-    """Why a calculation failed, in words."""
-    if isinstance(fault, ZeroDivisionError):
-        return "division by zero"
-    if isinstance(fault, OverflowError):
-        return "the result is too large"
-    return str(fault)
+def _finite(given: numbers.Real) -> bool:
+    try:
+        return math.isfinite(given)
+    except OverflowError:
+        return False

@@ -7,16 +7,20 @@ stage diagram is this table drawn.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
-from lsys_kit.derivation.rules import Rule, Rules, constants_of, reason, rules_of
+from lsys_kit.derivation.rules import Rule, Rules, constants_of, rules_of
 from lsys_kit.errors import ModelNameError, ModelValueError
-from lsys_kit.notation.expressions import Value
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.arithmetic import Value, reason, sound
+from lsys_kit.notation.model import LSystem, Module, Production
 
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
+
+
+_AXIOM = Module("axiom")
+"""What the axiom is made of."""
 
 
 class States:
@@ -36,7 +40,7 @@ class States:
     modules
         The module of each state.
     inexact
-        The first module whose value became a double because it outgrew 128 bits, or None.
+        The first module that was met with a value that had outgrown 128 bits and become a double, or None.
 
     Examples
     --------
@@ -55,9 +59,10 @@ class States:
         self.constants = constants_of(system, constants or {}, arithmetic)
         self.modules: list[Module] = []
         self.inexact: Module | None = None
+        self._outgrown = False
         self._numbers: dict[tuple[object, ...], int] = {}
-        self._successors: list[tuple[int, ...] | None] = []
-        self._rules: list[int | None] = []
+        self._successors: dict[int, tuple[int, ...]] = {}
+        self._rules: dict[int, Rule | None] = {}
         self._ready = rules_of(system, arithmetic)
         self.axiom = tuple(self._axiom())
 
@@ -69,26 +74,32 @@ class States:
         key = (symbol, values, *map(type, values))
         found = self._numbers.get(key)
         if found is None:
-            found = self._numbers[key] = len(self.modules)
+            found = len(self.modules)
             self.modules.append(Module(symbol, values))
-            self._successors.append(None)
-            self._rules.append(None)
+            self._numbers[key] = found  # last, so that an interrupt leaves no number without its module
         return found
 
     def successor(self, state: int) -> tuple[int, ...]:
         """The states that replace a state in one step: itself, where no production matches."""
-        found = self._successors[state]
+        found = self._successors.get(state)
         if found is None:
-            module = self.modules[state]
-            rule = self.matching(module, self._ready)
-            found = (state,) if rule is None else tuple(self._made(rule, module))
-            self._rules[state] = None if rule is None else rule.number
-            self._successors[state] = found
+            rule = self._rule(state)
+            found = self._successors[state] = (state,) if rule is None else tuple(self._made(rule, self.modules[state]))
         return found
+
+    def width(self, state: int) -> int:
+        """How many modules replace a state in one step, known before any of them is made."""
+        rule = self._rule(state)
+        return 1 if rule is None else len(rule.successor)
 
     def production(self, state: int) -> int | None:
         """Which production rewrites a state: its place in the order written, from 0, or None."""
-        self.successor(state)
+        rule = self._rule(state)
+        return None if rule is None else rule.number
+
+    def _rule(self, state: int) -> Rule | None:
+        if state not in self._rules:
+            self._rules[state] = self.matching(self.modules[state], self._ready)
         return self._rules[state]
 
     def matching(self, module: Module, rules: Rules) -> Rule | None:
@@ -109,43 +120,42 @@ class States:
         given = (*module.arguments, *self.constants)
         try:
             for symbol, arguments in rule.successor:
-                yield symbol, tuple([self._kept(argument(given), symbol) for argument in arguments])  # type: ignore[arg-type]
+                yield symbol, tuple([self._kept(argument(given)) for argument in arguments])  # type: ignore[arg-type]
         except (ArithmeticError, ValueError) as fault:
             raise self._fault(module, rule, fault) from None
 
     def _made(self, rule: Rule, module: Module) -> Iterable[int]:
-        return (self.number(symbol, values) for symbol, values in self.made(rule, module))
+        self._outgrown = False
+        for symbol, values in self.made(rule, module):
+            if self._outgrown and self.inexact is None:
+                self.inexact = Module(symbol, values)
+            yield self.number(symbol, values)
 
     def _axiom(self) -> Iterable[int]:
         """The axiom's states: its arguments may use the constants, so it is made like a successor."""
-        return self._made(axiom_rule(self.system, self.arithmetic), Module("axiom"))
+        return self._made(axiom_rule(self.system, self.arithmetic), _AXIOM)
 
-    def _kept(self, value: Value, symbol: str) -> Value:
+    def _kept(self, value: Value) -> Value:
         """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
+        sound(value)
         if isinstance(value, float):
-            if not math.isfinite(value):
-                raise ValueError("the result is not a number" if math.isnan(value) else "the result is too large")
             return value
         if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:
             return value
-        value = float(value)
-        self.inexact = self.inexact or Module(symbol, (value,))
-        return value
+        self._outgrown = True
+        return float(value)
 
     def _fault(self, module: Module, rule: Rule, fault: Exception) -> ModelValueError:
-        what = "The axiom" if module.symbol == "axiom" else f"{module} under production {rule.number + 1}, {rule.production},"
+        what = "The axiom" if module is _AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
         return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None,
                                *(rule.production.at or (None, None)))
 
 
 def axiom_rule(system: LSystem, arithmetic: str) -> Rule:
     """The axiom as the rule that makes the first word out of nothing."""
-    from dataclasses import replace
-
-    from lsys_kit.notation.model import Production
-
-    start = replace(system, productions=(Production(Module("axiom"), system.axiom),), interpretation=())
-    return rules_of(start, arithmetic)["axiom", 0][0]
+    places = [module.at for module in system.axiom if module.at]
+    start = Production(_AXIOM, system.axiom, at=(places[0][0], places[-1][1]) if places else None)
+    return rules_of(replace(system, productions=(start,), interpretation=()), arithmetic)[_AXIOM.symbol, 0][0]
 
 
 def closure(states: States, limit: int) -> Sequence[int] | None:

@@ -62,7 +62,7 @@ class Word(Sequence[Module]):
         return len(self) == len(other) and all(a == b for a, b in zip(self, other, strict=True))
 
     def __hash__(self) -> int:
-        return hash(str(self))
+        return hash(tuple(self))
 
     def __str__(self) -> str:
         return text_of(self.states, self.codes)
@@ -73,6 +73,16 @@ class Word(Sequence[Module]):
     def numbers(self) -> list[int]:
         """The states' numbers as a plain list."""
         return self.codes.tolist() if isinstance(self.codes, np.ndarray) else list(self.codes)
+
+    def coded(self, coding: Mapping[str, str]) -> str:
+        """The word's text with some of its modules replaced: a coding (Rozenberg and Salomaa 1980).
+
+        >>> from lsys_kit.derivation.derive import derive
+        >>> from lsys_kit.notation.read import read
+        >>> derive(read("axiom: S L(1)"), 0)[0].coded({"S": "M(1)"})
+        'M(1)L(1)'
+        """
+        return joined(coding.get(text, text) for text in map(str, self))
 
     def counts(self) -> Mapping[str, int]:
         """How often each symbol occurs.

@@ -1,14 +1,16 @@
 """Does a text that can be read also make sense? Names that stand for something, truths where truths are asked for,
-brackets that close. Each check raises the error that a student can act on."""
+brackets that close, sliders whose values are in their range. Each check raises the error that a student can act on."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from difflib import get_close_matches
+from types import MappingProxyType
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.budget import current
-from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, gives
+from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.arithmetic import Value, reason, sound
+from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, function_of, gives, names_in
 from lsys_kit.notation.model import Constant, Module, Production
 
 
@@ -17,21 +19,40 @@ def span(thing: object) -> tuple[int | None, int | None]:
     return getattr(thing, "at", None) or (None, None)
 
 
-def suggestion(name: str, known: Collection[str]) -> str | None:
+def suggestion(name: str, known: Collection[str], likeness: float = 0.6) -> str | None:
     """A hint that names what was probably meant.
 
     >>> suggestion("lifetimeA", ["lifeTimeA", "dt"])
     'Did you mean "lifeTimeA"?'
     """
-    close = get_close_matches(name, sorted(known), 1, 0.6) or get_close_matches(name.lower(), sorted(known), 1, 0.6)
+    close = (get_close_matches(name, sorted(known), 1, likeness)
+             or get_close_matches(name.lower(), sorted(known), 1, likeness))
     return f'Did you mean "{close[0]}"?' if close else None
+
+
+_NO_NAMES = 'A parameter is named before the arrow, as in "A(t) -> A(t+1)"; a constant on a line before, as in "dt = 0.5".'
+_SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))
+"""What is set with a colon and is no constant."""
+
+
+def value_of(expression: Expression, source: str, values: Mapping[str, Value] = MappingProxyType({})) -> Value:
+    """What an expression comes to, given the values of its names.
+
+    >>> value_of(Apply("+", (Name("dt"), Name("dt"))), "", {"dt": 2})
+    4
+    """
+    order = {name: index for index, name in enumerate(values)}
+    try:
+        return sound(function_of(expression, order)(tuple(values.values())))
+    except (ArithmeticError, ValueError) as fault:
+        raise ModelValueError(f'"{expression}" has no value: {reason(fault)}', source, *span(expression)) from None
 
 
 def check_expression(expression: Expression, names: Collection[str], source: str, wanted: str = "number") -> None:
     """Every name is known, every operator gets what it takes, and the whole is what is wanted of it."""
     if isinstance(expression, Name) and expression.name not in names:
         known = ", ".join(f'"{name}"' for name in sorted(names))
-        hint = suggestion(expression.name, names) or (f"Known here: {known}." if known else "No names are known here.")
+        hint = suggestion(expression.name, names) or (f"Known here: {known}." if known else _NO_NAMES)
         raise ModelNameError(f'I do not know the name "{expression.name}"', source, *span(expression), hint)
     if isinstance(expression, Apply):
         for operand in expression.operands:
@@ -44,14 +65,38 @@ def check_expression(expression: Expression, names: Collection[str], source: str
 
 
 def check_constants(constants: Iterable[Constant], source: str) -> None:
-    """Every constant is declared once, from those before it."""
-    names: set[str] = set()
+    """Every constant is declared once, from those before it, with a value in the range of its slider."""
+    values: dict[str, Value] = {}
     for constant in constants:
-        if constant.name in names:
+        if constant.name in values:
             raise ModelNameError(f'The constant "{constant.name}" is declared twice', source, *span(constant))
+        if constant.name in _SETTINGS:
+            raise ModelNameError(f'"{constant.name}" is no constant', source, *span(constant),
+                                 f'Type "{constant.name.lower()}: {constant.value}".')
+        if isinstance(constant.value, Name) and constant.value.name not in values:
+            hint = suggestion(constant.value.name, values) or f'A production reads "{constant.name} -> {constant.value}".'
+            raise ModelNameError(f'I do not know the name "{constant.value}"', source, *span(constant.value), hint)
         for expression in (constant.value, *(constant.range or ())):
-            check_expression(expression, names, source)
-        names.add(constant.name)
+            check_expression(expression, values.keys(), source)
+        check_range(constant, values, source)
+        values[constant.name] = value_of(constant.value, source, values)
+
+
+def check_range(constant: Constant, values: Mapping[str, Value], source: str) -> None:
+    """The value lies between the ends of its slider, which has a step that leads from one to the other."""
+    if constant.range is None:
+        return
+    low, high, step = (value_of(part, source, values) for part in constant.range)
+    shown = f"{constant.range[0]} .. {constant.range[1]}"
+    if low > high:
+        raise ModelValueError(f'The range of "{constant.name}" is upside down', source, *span(constant.range[0]),
+                              f'Write the smaller end first: "in {constant.range[1]} .. {constant.range[0]}".')
+    if step <= 0:
+        raise ModelValueError(f'The step of "{constant.name}" must be greater than 0', source, *span(constant.range[2]),
+                              'It says how far one move of the slider goes, as in "by 0.1".')
+    if not low <= value_of(constant.value, source, values) <= high:
+        raise ModelValueError(f'"{constant.name}" is {constant.value}, which is not in its range {shown}', source,
+                              *span(constant.value), "Choose a value in the range, or a wider range.")
 
 
 def check_production(production: Production, constants: Collection[str], source: str) -> None:
@@ -62,7 +107,11 @@ def check_production(production: Production, constants: Collection[str], source:
             if argument.name in parameters:
                 raise ModelNameError(f'The parameter "{argument.name}" is named twice', source, *span(argument))
             parameters.append(argument.name)
-        elif isinstance(argument, Apply | Name):
+        elif isinstance(argument, Apply):
+            strange = sorted(names_in(argument) - set(constants))
+            if strange:
+                raise ModelNameError(f'Before the arrow a parameter stands alone, not as "{argument}"', source, *span(argument),
+                                     f'Write "{production.predecessor.symbol}({strange[0]})" there.')
             check_expression(argument, constants, source)
     names = {*parameters, *constants}
     if production.condition is not None:

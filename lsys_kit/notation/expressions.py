@@ -4,8 +4,7 @@ An expression is a number, a name, or an operator applied to expressions. One ta
 how it is written, what it computes and whether it deals in numbers or in truths; everything else here walks the tree.
 Nothing is ever compiled from text: a function is put together from the functions of its operands.
 
-Arithmetic is exact. Decimal literals are rational numbers, and sums, differences, products, quotients and whole powers
-of rational numbers stay rational; what leaves the rational numbers (`sqrt(2)`, `2^0.5`, `exp(1)`) is a double from there on.
+Decimal literals are rational numbers, and arithmetic is exact (see `arithmetic`).
 """
 
 from __future__ import annotations
@@ -13,16 +12,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from lsys_kit.budget import current
+from lsys_kit.notation.arithmetic import Value, divide, exact, number_text, power, real, rounded
 
 if TYPE_CHECKING:
     import sympy
 
-Value: TypeAlias = int | Fraction | float
-"""A parameter's value: whole, rational, or a double."""
 Place: TypeAlias = tuple[int, int] | None
 """The offsets in the text between which something was read."""
 Function: TypeAlias = Callable[[tuple[Value, ...]], Any]
@@ -33,6 +29,7 @@ Function: TypeAlias = Callable[[tuple[Value, ...]], Any]
 class Number:
     """A literal number.
 
+    >>> from fractions import Fraction
     >>> print(Number(Fraction(7, 10)))
     0.7
     """
@@ -97,67 +94,6 @@ def _within(expression: Expression, precedence: int) -> str:
     return f"({expression})" if own is not None and own < precedence else str(expression)
 
 
-def number_text(value: Value) -> str:
-    """A value as the notations write it: decimal where that is exact and short, else a quotient.
-
-    >>> [number_text(v) for v in (3, Fraction(7, 10), Fraction(1, 3), 0.1, 2.0)]
-    ['3', '0.7', '1/3', '0.1', '2']
-    """
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
-        return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
-    rest, twos, fives = value.denominator, 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
-    while rest % 5 == 0:
-        rest, fives = rest // 5, fives + 1
-    places = max(twos, fives)
-    if rest != 1 or places > 40:
-        return f"{value.numerator}/{value.denominator}"
-    digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
-    return ("-" if value < 0 else "") + f"{digits[:-places]}.{digits[-places:]}"
-
-
-def tidy(value: Value) -> Value:
-    """A rational number that is whole, as a whole number.
-
-    >>> tidy(Fraction(4, 2))
-    2
-    """
-    return value.numerator if isinstance(value, Fraction) and value.denominator == 1 else value
-
-
-def divide(left: Value, right: Value) -> Value:
-    """The exact quotient of rational numbers; the quotient in doubles where one of them is a double."""
-    if isinstance(left, float) or isinstance(right, float):
-        return left / right
-    return tidy(Fraction(left) / right)
-
-
-def power(base: Value, exponent: Value) -> Value:
-    """The exact power where the exponent is whole and the base rational; else the power in doubles.
-
-    >>> power(Fraction(1, 2), 3), power(2, -1), power(4, Fraction(1, 2))
-    (Fraction(1, 8), Fraction(1, 2), 2.0)
-    """
-    if isinstance(base, float) or not isinstance(exponent, int):
-        result = float(base) ** float(exponent)
-        if isinstance(result, complex):
-            raise ValueError("a negative number has no such power")
-        return result
-    if abs(exponent) > current().exponent:
-        raise OverflowError(f"the exponent {number_text(exponent)[:20]} is larger than {current().exponent}")
-    bits = max(base.numerator.bit_length(), base.denominator.bit_length()) * abs(exponent)
-    if bits > 4 * current().bits:
-        raise OverflowError("the power is too large")
-    return tidy(Fraction(base) ** exponent)
-
-
-def _rounded(function: Callable[[float], int]) -> Callable[[Value], Value]:
-    return lambda x: float(function(x)) if isinstance(x, float) else function(x)  # type: ignore[arg-type]
-
-
 def _strict(function: Callable[..., Any]) -> Callable[..., Function]:
     """An operator that needs all its operands: run them, then it."""
 
@@ -217,20 +153,20 @@ OPERATORS: Mapping[str, Operator] = {
     "<=": Operator(_strict(lambda x, y: x <= y), 3, gives="truth"),
     ">": Operator(_strict(lambda x, y: x > y), 3, gives="truth"),
     ">=": Operator(_strict(lambda x, y: x >= y), 3, gives="truth"),
-    "+": Operator(_strict(lambda x, y: tidy(x + y)), 4),
-    "-": Operator(_strict(lambda x, y: tidy(x - y)), 4),
-    "*": Operator(_strict(lambda x, y: tidy(x * y)), 5),
+    "+": Operator(_strict(lambda x, y: exact(x + y)), 4),
+    "-": Operator(_strict(lambda x, y: exact(x - y)), 4),
+    "*": Operator(_strict(lambda x, y: exact(x * y)), 5),
     "/": Operator(_strict(divide), 5),
     "-x": Operator(_strict(lambda x: -x), 6, arity=(1, 1)),
     "^": Operator(_strict(power), 7),
     "abs": Operator(_strict(abs), None, arity=(1, 1)),
-    "floor": Operator(_strict(_rounded(math.floor)), None, arity=(1, 1)),
-    "ceil": Operator(_strict(_rounded(math.ceil)), None, arity=(1, 1)),
+    "floor": Operator(_strict(real("floor", rounded(math.floor))), None, arity=(1, 1)),
+    "ceil": Operator(_strict(real("ceil", rounded(math.ceil))), None, arity=(1, 1)),
     "min": Operator(_strict(min), None, arity=(2, 16)),
     "max": Operator(_strict(max), None, arity=(2, 16)),
-    "sqrt": Operator(_strict(math.sqrt), None, arity=(1, 1)),
-    "exp": Operator(_strict(math.exp), None, arity=(1, 1)),
-    "log": Operator(_strict(math.log), None, arity=(1, 1)),
+    "sqrt": Operator(_strict(real("sqrt", math.sqrt)), None, arity=(1, 1)),
+    "exp": Operator(_strict(real("exp", math.exp)), None, arity=(1, 1)),
+    "log": Operator(_strict(real("log", math.log)), None, arity=(1, 1)),
 }
 
 
@@ -266,6 +202,7 @@ def function_of(expression: Expression, order: Mapping[str, int], arithmetic: st
 
     Examples
     --------
+    >>> from fractions import Fraction
     >>> function_of(Apply("+", (Name("t"), Number(Fraction(7, 10)))), {"t": 0})((Fraction(3, 10),))
     1
     """
@@ -282,6 +219,7 @@ def function_of(expression: Expression, order: Mapping[str, int], arithmetic: st
 def to_sympy(expression: Expression) -> sympy.Basic:
     """The expression as a sympy expression, to be shown as mathematics or solved; built from the tree, never from text.
 
+    >>> from fractions import Fraction
     >>> to_sympy(Apply("*", (Number(Fraction(1, 2)), Name("t"))))
     t/2
     """

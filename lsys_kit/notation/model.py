@@ -10,7 +10,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from lsys_kit.notation.expressions import Expression, Place, Value, number_text
+from lsys_kit.notation.arithmetic import Value, number_text
+from lsys_kit.notation.expressions import Expression, Place
 
 Argument: TypeAlias = Expression | Value
 """What stands in a module's parentheses: an expression in a production, a value in a word."""

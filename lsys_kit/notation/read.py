@@ -1,14 +1,11 @@
 """Text to records: a system, a word or an expression, read in one of the notations.
 
-A text is cut into statements (a line, with the indented lines that go on with it), each is parsed by the grammar of its
-notation, and the records are checked. The grammars stand beside this file: `abop.lark`, `plant_string.lark`, and
-`expressions.lark`, which they share.
+A text is cut into statements, each is parsed by the grammar of its notation, and the records are checked. The grammars stand
+beside this file: `abop.lark`, `plant_string.lark`, and `expressions.lark`, which they share.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
@@ -17,17 +14,17 @@ from lark import Lark, TextSlice
 from lark.exceptions import UnexpectedInput
 from lark.visitors import merge_transformers
 
-from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 from lsys_kit.budget import current
-from lsys_kit.notation.checks import check_constants, check_expression, check_production, check_word
-from lsys_kit.notation.expressions import Expression, Value, function_of
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.arithmetic import Value
+from lsys_kit.notation.checks import check_constants, check_expression, check_production, check_word, span, value_of
+from lsys_kit.notation.expressions import Expression, names_in
 from lsys_kit.notation.glued import unglued
 from lsys_kit.notation.model import Constant, LSystem, Module, Production
 from lsys_kit.notation.records import Expressions, Misread, Statements
-from lsys_kit.notation.slips import ARROW, explained
+from lsys_kit.notation.slips import explained
+from lsys_kit.notation.statements import statements
 from lsys_kit.notation.write import known
-
-_STARTS_STATEMENT = re.compile(rf"{ARROW.pattern}|^\s*[A-Za-z_]\w*\s*=(?!=)|^\s*[A-Za-zωδ]+\s*:(?!.*[<>=])")
 
 
 def read(text: str, notation: str | None = None) -> LSystem:
@@ -65,8 +62,12 @@ def read(text: str, notation: str | None = None) -> LSystem:
                               limit=current().text, needed=len(text))
     notation = known(notation or "abop")
     draft = _Draft(text)
-    for start, end in _statements(text):
-        draft.add(*_parse(notation, "statement", text, start, end), (start, end))
+    for number, (start, end) in enumerate(statements(text)):
+        if number >= 2 * current().rules:
+            raise ModelLimitError(f"The model has more than {2 * current().rules:,} lines that say something",
+                                  limit=2 * current().rules, source=text, start=start)
+        kind, record = _parse(notation, "statement", text, start, end)
+        draft.add(kind, record, (start, end))
     return draft.system(notation)
 
 
@@ -82,7 +83,7 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     check_word(word, (), text)
     if system is not None and notation == "abop":
         word, _ = unglued(word, system)
-    return tuple(replace(m, arguments=tuple(_value(a) for a in m.arguments)) for m in word)
+    return tuple(replace(m, arguments=tuple(value_of(a, text) for a in m.arguments)) for m in word)
 
 
 def read_expression(text: str) -> Expression:
@@ -91,7 +92,6 @@ def read_expression(text: str) -> Expression:
     >>> print(read_expression("2*(t+1)"))
     2 * (t + 1)
     """
-    _check_length(text, 0, len(text))
     return _parse("abop", "expression", text, 0, len(text))  # type: ignore[no-any-return]
 
 
@@ -103,14 +103,7 @@ def read_number(text: str) -> Value:
     """
     expression = read_expression(text)
     check_expression(expression, (), text)
-    return _value(expression)
-
-
-def _value(expression: Any) -> Value:
-    try:
-        return function_of(expression, {})(())  # type: ignore[no-any-return]
-    except (ArithmeticError, ValueError) as fault:
-        raise ModelValueError(f'"{expression}" has no value: {fault}') from None
+    return value_of(expression, text)
 
 
 @dataclass
@@ -134,19 +127,21 @@ class _Draft:
         elif kind == "production":
             self.sections[self.section].append(replace(record, at=at))
             if len(self.sections[self.section]) > current().rules:
-                raise ModelLimitError(f"The model has more than {current().rules} productions", limit=current().rules)
+                raise ModelLimitError(f"The model has more than {current().rules:,} productions", limit=current().rules,
+                                      source=self.source, start=at[0])
         elif kind == "section":
             self.section = record
+        elif kind in self.settings:
+            raise ModelSyntaxError(f'"{kind}:" stands here a second time', self.source, *at, "A system has one of it.")
         else:
             self.settings[kind] = record
 
     def system(self, notation: str) -> LSystem:
-        source = self.source
+        source, names = self.source, [constant.name for constant in self.constants]
+        check_constants(self.constants, source)
         if self.axiom is None:
             raise ModelSyntaxError("There is no axiom", source, len(source), None,
                                    'Give the first word on a line of its own, as in "axiom: A".')
-        names = [constant.name for constant in self.constants]
-        check_constants(self.constants, source)
         check_word(self.axiom, names, source)
         for production in (*self.sections["productions"], *self.sections["interpretation"]):
             check_production(production, names, source)
@@ -160,10 +155,15 @@ class _Draft:
             if name == "alphabet":
                 result[name] = setting
                 continue
+            used = sorted(names_in(setting) & {constant.name for constant in self.constants})
+            if used:
+                raise ModelNameError(f'The constant "{used[0]}" cannot be used here', self.source, *span(setting),
+                                     f'"{name}:" is set to a number.')
             check_expression(setting, (), self.source)
-            result[name] = _value(setting)
+            result[name] = value_of(setting, self.source)
             if name == "steps" and not (isinstance(result[name], int) and result[name] >= 0):
-                raise ModelValueError(f'"{setting}" is no number of steps', self.source, *(setting.at or (None, None)))
+                raise ModelValueError(f'"{setting}" is no number of steps', self.source, *span(setting),
+                                      "Steps are counted from 0: 0, 1, 2, ...")
         return result
 
 
@@ -183,36 +183,10 @@ def _with_parted_names(system: LSystem) -> LSystem:
                    interpretation=parted_rules(system.interpretation), notes=tuple(notes))
 
 
-def _statements(text: str) -> Iterator[tuple[int, int]]:
-    """The offsets of the statements: a line, with the lines that go on with it."""
-    lines = [(match.start(), match.group()) for match in re.finditer(r"[^\n]+", _without_comments(text))
-             if match.group().strip()]
-    base = min((len(line) - len(line.lstrip()) for _, line in lines), default=0)
-    start: int | None = None
-    end, last = 0, ""
-    for offset, line in lines:
-        indented = len(line) - len(line.lstrip()) > base
-        goes_on = (ARROW.match(line.lstrip()) or (indented and re.search(rf"({ARROW.pattern}|&&|\|\||:)\s*$", last))
-                   or (indented and not _STARTS_STATEMENT.search(line)))
-        if start is not None and not goes_on:
-            yield start, end
-        if start is None or not goes_on:
-            start = offset + len(line) - len(line.lstrip())
-        end, last = offset + len(line.rstrip()), line
-    if start is not None:
-        yield start, end
-
-
-def _without_comments(text: str) -> str:
-    """The text with its comments blanked, every other character in its place."""
-    blanked = re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.DOTALL)
-    opened = blanked.find("/*")
-    if opened >= 0:
-        raise ModelSyntaxError("This comment is never closed", text, opened, opened + 2, 'A comment ends with "*/".')
-    return blanked
-
-
 def _parse(notation: str, rule: str, text: str, start: int, end: int) -> Any:
+    if end - start > current().line:
+        raise ModelLimitError(f"This line has {end - start:,} characters; the limit is {current().line:,}",
+                              limit=current().line, needed=end - start, source=text, start=start)
     try:
         return _parser(notation).parse(TextSlice(text, start, end), start=rule)
     except UnexpectedInput as slip:
@@ -224,10 +198,6 @@ def _parse(notation: str, rule: str, text: str, start: int, end: int) -> Any:
 @cache
 def _parser(notation: str) -> Lark:
     rules = ["statement", "word"] + (["expression"] if notation == "abop" else [])
-    return Lark.open(f"{notation.replace('-', '_')}.lark", rel_to=__file__, parser="lalr", start=rules, maybe_placeholders=False,
-                     transformer=merge_transformers(Statements(), expressions=Expressions()))
-
-
-def _check_length(text: str, start: int, end: int) -> None:
-    if end - start > current().expression:
-        raise ModelSyntaxError(f"This expression has more than {current().expression:,} characters", text, start, end)
+    merged = merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call]
+    return Lark.open(f"{notation.replace('-', '_')}.lark", rel_to=__file__, parser="lalr", start=rules,
+                     maybe_placeholders=False, transformer=merged)

@@ -7,14 +7,16 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from sys import float_info
 from typing import Any
 
 from lark import Token, Transformer, v_args
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.budget import current
+from lsys_kit.errors import ModelNameError, ModelSyntaxError
+from lsys_kit.notation.arithmetic import tidy
 from lsys_kit.notation.checks import suggestion
-from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, Place, tidy
+from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, Place
 from lsys_kit.notation.model import Constant, Module, Production
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*"}
@@ -30,8 +32,8 @@ class Misread(Exception):
 
 def _around(*parts: Any) -> Place:
     """The offsets from the first to the last of some tokens or records."""
-    places = [(p.start_pos, p.end_pos) if isinstance(p, Token) else p.at for p in parts]
-    return places[0][0], places[-1][1]
+    starts, ends = zip(*((p.start_pos, p.end_pos) if isinstance(p, Token) else p.at for p in parts), strict=True)
+    return starts[0], ends[-1]
 
 
 def _check_name(token: Token) -> None:
@@ -39,15 +41,22 @@ def _check_name(token: Token) -> None:
         raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", _around(token))
 
 
+def _number(token: Token) -> Number:
+    exponent = re.search(r"[eE]([+-]?\d+)$", token)
+    if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
+        raise Misread(ModelSyntaxError, "This number is too long", _around(token), "Numbers go up to about 10^308.")
+    value = tidy(Fraction(str(token)))
+    if value > float_info.max:
+        raise Misread(ModelSyntaxError, "This number is too large", _around(token), "Numbers go up to about 10^308.")
+    return Number(value, _around(token))
+
+
 @v_args(inline=True)
 class Expressions(Transformer[Any, Any]):
     """What `expressions.lark` names."""
 
     def number(self, token: Token) -> Number:
-        exponent = re.search(r"[eE]([+-]?\d+)$", token)
-        if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
-            raise Misread(ModelSyntaxError, "This number is too long", _around(token))
-        return Number(tidy(Fraction(str(token))), _around(token))
+        return _number(token)
 
     def name(self, token: Token) -> Name:
         _check_name(token)
@@ -69,17 +78,20 @@ class Expressions(Transformer[Any, Any]):
         functions = [known for known, entry in OPERATORS.items() if entry.precedence is None]
         if operator is None or name not in functions:
             raise Misread(ModelNameError, f'I do not know the function "{name}"', _around(name),
-                           suggestion(name, functions) or f"Functions are: {', '.join(sorted(functions))}.")
+                          suggestion(name, functions, 0.7) or f"Functions are: {', '.join(sorted(functions))}.")
         least, most = operator.arity
         if not least <= len(operands) <= most:
             raise Misread(ModelSyntaxError, f"{name}(...) takes {least if least == most else f'{least} or more'} "
-                           f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
+                          f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
         return self._applied(str(name), operands, _around(name, operands[-1]))
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: Place) -> Apply:
         applied = Apply(operator, operands, at)
         if applied.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"This expression is nested more than {current().depth} deep", at)
+            raise Misread(ModelSyntaxError, f"This expression is nested more than {current().depth} deep", at,
+                          'Give a part of it a name, on a line such as "c = ...".')
+        if at and at[1] - at[0] > current().expression:
+            raise Misread(ModelSyntaxError, f"This expression has more than {current().expression:,} characters", at)
         return applied
 
 
@@ -122,8 +134,7 @@ class Statements(Transformer[Any, Any]):
 
     def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
         name = keyword.rstrip(": \t").lower()
-        number = Number(tidy(Fraction(value)), _around(value)) if isinstance(value, Token) else value
-        return {"δ": "angle", "delta": "angle"}.get(name, name), number
+        return "angle" if name == "δ" else name, _number(value) if isinstance(value, Token) else value
 
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lsys_kit.errors import ModelNameError, ModelValueError
-from lsys_kit.notation.expressions import number_text
+from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.model import LSystem, Module, joined
 
 NOTATIONS = ("abop", "plant-string")

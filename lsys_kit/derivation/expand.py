@@ -1,0 +1,80 @@
+"""The word of a step, built at once.
+
+The length of what a state becomes in so many steps is known, so each piece has its place in one array: what a state becomes
+in k steps is written where it is first needed, and every later occurrence is a copy of that stretch.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.derivation.states import States
+
+PIECE = 64
+"""Pieces up to this length are put together as tuples and written at once."""
+
+
+def code_type(states: int) -> np.dtype[Any]:
+    """The smallest unsigned type that numbers so many states."""
+    return np.min_scalar_type(max(states - 1, 0))
+
+
+def expanded(states: States, present: Sequence[Counter[int]]) -> np.ndarray[Any, Any]:
+    """The word of the last step, as an array of states.
+
+    Parameters
+    ----------
+    states
+        The table.
+    present
+        For each step the states that occur in its word.
+
+    Returns
+    -------
+    numpy.ndarray
+        The codes, of the smallest unsigned integer type that holds them.
+    """
+    sizes = _sizes(states, present)
+    pieces = _pieces(states, present, sizes)
+    word = np.empty(sum(sizes[0][state] for state in states.axiom), dtype=code_type(len(states)))
+    written: dict[tuple[int, int], int] = {}
+    todo = [(state, 0) for state in reversed(states.axiom)]
+    at = 0
+    while todo:
+        state, step = todo.pop()
+        size = sizes[step][state]
+        if size <= PIECE:
+            word[at:at + size] = pieces[step][state]
+        elif (state, step) in written:
+            start = written[state, step]
+            word[at:at + size] = word[start:start + size]
+        else:
+            written[state, step] = at
+            todo += [(successor, step + 1) for successor in reversed(states.successor(state))]
+            continue
+        at += size
+    return word
+
+
+def _sizes(states: States, present: Sequence[Counter[int]]) -> list[dict[int, int]]:
+    """For each step and state the length of what the state becomes by the last step."""
+    sizes: list[dict[int, int]] = [dict.fromkeys(present[-1], 1)]
+    for here in reversed(present[:-1]):
+        after = sizes[-1]
+        sizes.append({state: sum(after[s] for s in states.successor(state)) for state in here})
+    return sizes[::-1]
+
+
+def _pieces(states: States, present: Sequence[Counter[int]],
+            sizes: Sequence[dict[int, int]]) -> list[dict[int, tuple[int, ...]]]:
+    """For each step and state whose size is small, what the state becomes by the last step."""
+    pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]
+    for step in range(len(present) - 2, -1, -1):
+        after = pieces[-1]
+        pieces.append({state: tuple([code for s in states.successor(state) for code in after[s]])
+                       for state in present[step] if sizes[step][state] <= PIECE})
+    return pieces[::-1]

@@ -1,0 +1,129 @@
+"""Arithmetic as the papers mean it: exact where that is possible.
+
+Sums, differences, products, quotients and whole powers of rational numbers stay rational; what leaves the rational numbers
+(`sqrt(2)`, `2^0.5`, `exp(1)`) is a double from there on. Nothing here grows without end: a result that is too long is refused.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TypeAlias
+
+from lsys_kit.budget import current
+
+Value: TypeAlias = int | Fraction | float
+"""A parameter's value: whole, rational, or a double."""
+
+
+def number_text(value: Value) -> str:
+    """A value as the notations write it: decimal where that is exact and short, else a quotient.
+
+    >>> [number_text(v) for v in (3, Fraction(7, 10), Fraction(1, 3), 0.1, 2.0)]
+    ['3', '0.7', '1/3', '0.1', '2']
+    """
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
+    rest, twos, fives = value.denominator, 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    places = max(twos, fives)
+    if rest != 1 or places > 40:
+        return f"{value.numerator}/{value.denominator}"
+    digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
+    return ("-" if value < 0 else "") + f"{digits[:-places]}.{digits[-places:]}"
+
+
+def brief(value: Value) -> str:
+    """A value in a message: shortened, where it is long.
+
+    >>> brief(Fraction(1, 2)), brief(Fraction(1, 3**70))
+    ('0.5', '3.99...e-34')
+    """
+    text = number_text(value)
+    return text if len(text) <= 20 else f"{float(value):.2e}".replace("e", "...e")
+
+
+def tidy(value: Value) -> Value:
+    """A rational number that is whole, as a whole number.
+
+    >>> tidy(Fraction(4, 2))
+    2
+    """
+    return value.numerator if isinstance(value, Fraction) and value.denominator == 1 else value
+
+
+def exact(value: Value) -> Value:
+    """What an operation gave, tidy; an exact result that is too long is refused."""
+    if isinstance(value, float):
+        return value
+    if value.numerator.bit_length() + value.denominator.bit_length() > current().bits:
+        raise OverflowError
+    return tidy(value)
+
+
+def sound(value: Value) -> Value:
+    """The value, if it is one: neither past what a double holds nor "not a number"."""
+    if math.isfinite(value):  # an OverflowError by itself, where a rational number is past that
+        return value
+    raise ValueError("the result is not a number") if math.isnan(value) else OverflowError
+
+
+def divide(left: Value, right: Value) -> Value:
+    """The exact quotient of rational numbers; the quotient in doubles where one of them is a double."""
+    if isinstance(left, float) or isinstance(right, float):
+        return left / right
+    return exact(Fraction(left) / right)
+
+
+def power(base: Value, exponent: Value) -> Value:
+    """The exact power where the exponent is whole and the base rational; else the power in doubles.
+
+    >>> power(Fraction(1, 2), 3), power(2, -1), power(4, Fraction(1, 2))
+    (Fraction(1, 8), Fraction(1, 2), 2.0)
+    """
+    if isinstance(base, float) or not isinstance(exponent, int):
+        result: float | complex = float(base) ** float(exponent)
+        if isinstance(result, complex):
+            raise ValueError(f"({brief(base)})^({brief(exponent)}) is not a number")
+        return result
+    if abs(exponent) > current().exponent:
+        raise OverflowError
+    if max(base.numerator.bit_length(), base.denominator.bit_length()) * abs(exponent) > 4 * current().bits:
+        raise OverflowError
+    return exact(Fraction(base) ** exponent)
+
+
+def rounded(function: Callable[[Value], int]) -> Callable[[Value], Value]:
+    """A function that rounds to whole numbers: a double stays a double."""
+    return lambda x: float(function(x)) if isinstance(x, float) else function(x)
+
+
+def real(name: str, function: Callable[[Value], Value]) -> Callable[[Value], Value]:
+    """A function that not every number has a value of; where it has none, the fault says so in a student's words."""
+
+    def value(x: Value) -> Value:
+        try:
+            return function(x)
+        except ValueError:
+            raise ValueError(f"{name}({brief(x)}) is not a number") from None
+
+    return value
+
+
+def reason(fault: Exception) -> str:
+    """Why a calculation failed, in words.
+
+    >>> reason(ZeroDivisionError())
+    'division by zero'
+    """
+    if isinstance(fault, ZeroDivisionError):
+        return "division by zero"
+    if isinstance(fault, OverflowError):
+        return "the result is too large"
+    return str(fault)

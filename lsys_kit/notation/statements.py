@@ -1,0 +1,57 @@
+"""A text cut into statements: a line, with the lines that go on with it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lsys_kit.errors import ModelSyntaxError
+
+ARROW = re.compile(r"-->|->|→|⟶")
+_STARTS = re.compile(rf"{ARROW.pattern}|^\s*[A-Za-z_]\w*\s*=(?!=)|^\s*[A-Za-zωδ]+\s*:(?!.*[<>=])")
+_GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||:)$")
+
+
+def statements(text: str) -> Iterator[tuple[int, int]]:
+    """The offsets of the statements.
+
+    A line goes on with the one before it where it begins with an arrow, where it is indented and the one before cannot end
+    there, or where it is indented and begins nothing of its own.
+
+    >>> text = "A(t) : t < 5\\n  -> B\\nC -> D"
+    >>> [text[start:end] for start, end in statements(text)]
+    ['A(t) : t < 5\\n  -> B', 'C -> D']
+    """
+    lines = [(match.start(), match.group()) for match in re.finditer(r"[^\n]+", without_comments(text))
+             if match.group().strip()]
+    base = min((len(line) - len(line.lstrip()) for _, line in lines), default=0)
+    start: int | None = None
+    end, last = 0, ""
+    for offset, line in lines:
+        indented = len(line) - len(line.lstrip()) > base
+        goes_on = ARROW.match(line.lstrip()) or (indented and (_GOES_ON.search(last) or not _STARTS.search(line)))
+        if start is not None and not goes_on:
+            yield start, end
+        if start is None or not goes_on:
+            start = offset + len(line) - len(line.lstrip())
+        last = line.rstrip()
+        end = offset + len(last)
+    if start is not None:
+        yield start, end
+
+
+def without_comments(text: str) -> str:
+    """The text with its comments blanked, every other character in its place.
+
+    >>> without_comments("A /* a cell */ -> B")
+    'A              -> B'
+    """
+    parts: list[str] = []
+    at = 0
+    while (opened := text.find("/*", at)) >= 0:
+        closed = text.find("*/", opened + 2)
+        if closed < 0:
+            raise ModelSyntaxError("This comment is never closed", text, opened, opened + 2, 'A comment ends with "*/".')
+        parts += (text[at:opened], re.sub(r"[^\n]", " ", text[opened:closed + 2]))
+        at = closed + 2
+    return "".join((*parts, text[at:]))
