@@ -165,5 +165,5 @@ def _degree(expression: Expression) -> float:
 
 def _exponent(expression: Expression) -> float:
     if isinstance(expression, Number):
-        return float(abs(expression.value))
+        return abs(float(expression.value))
     return 1 if isinstance(expression, Name) else math.inf
