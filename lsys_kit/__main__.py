@@ -221,7 +221,8 @@ def _lab(options: argparse.Namespace) -> None:
         raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
     from jupyterlab.labapp import LabApp
 
-    LabApp.launch_instance([f"--ServerApp.root_dir={folder.resolve()}",
+    # In a container everybody is root; the server answers this machine alone, and asks for its token.
+    LabApp.launch_instance(["--ServerApp.allow_root=True", f"--ServerApp.root_dir={folder.resolve()}",
                             f"--LabApp.default_url=/lab/tree/{copied[0].name}"])
 
 

@@ -28,7 +28,7 @@ NOISE = re.compile(r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sess
 """What JupyterLab itself may write to the console."""
 
 CONFIGURATION = {
-    "ServerApp": {"ip": "127.0.0.1", "port_retries": 0, "open_browser": False, "allow_root": True, "log_level": "WARN"},
+    "ServerApp": {"ip": "127.0.0.1", "port_retries": 0, "open_browser": False, "log_level": "WARN"},
     "IdentityProvider": {"token": ""},
     "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+from difflib import unified_diff
 from pathlib import Path
 from typing import Any
 
@@ -103,5 +104,6 @@ def test_there_are_lessons_and_exercises():
 
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_rebuilding_changes_no_byte(path: Path):
-    assert rebuilt(path).splitlines() == path.read_text("utf-8").splitlines()
-    assert "\r" not in path.read_bytes().decode()
+    before, after = path.read_bytes().decode(), rebuilt(path)
+    changes = unified_diff(before.split("\n"), after.split("\n"), "stored", "rebuilt", n=1, lineterm="")
+    assert before == after, "\n".join(line[:120] for line in changes)
