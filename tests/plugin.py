@@ -6,6 +6,9 @@ import os
 
 import pytest
 
+pytest_plugins = ["tests.browser.fixtures"]
+"""The browser is for the tests of the lessons and for the benchmarks."""
+
 os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's plot cells show nothing
 
 

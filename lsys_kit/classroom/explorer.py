@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+from contextlib import AbstractContextManager
 from html import escape
 from typing import Any
 
@@ -65,7 +66,10 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
 9 cells, width 14, height 1.
     """
-    return Explorer(catalogued(what) if isinstance(what, str) else what, step, angle, constants)
+    system = catalogued(what) if isinstance(what, str) else what
+    if not isinstance(system, LSystem):
+        raise ModelValueError(f"Only a system, or the id of one, can be explored, not {type(what).__name__}")
+    return Explorer(system, step, angle, constants)
 
 
 class Explorer(widgets.VBox):  # type: ignore[misc]
@@ -95,8 +99,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         super().__init__([self._top(), self._message, self._panels(), self._bottom()],
                          layout=widgets.Layout(width="100%", padding="6px"))
         self.add_class("lsys-explorer")
+        with self._limited():
+            self._show_step(self.step.value)
         self._listen()
-        self._show()
 
     # -- what there is ------------------------------------------------------------------------------------------------
 
@@ -197,13 +202,16 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
     def _show(self, _: object = None) -> None:
         """Show the step that the sliders ask for; where it cannot be had, say why and keep the pictures."""
         try:
-            with limits(modules=min(MOST_MODULES, current().modules)):
+            with self._limited():
                 self._show_step(self.step.value)
             self._message.value = ""
         except LSystemError as error:
             said = escape(f"{error.message}. {error.hint or ''}")
             self._message.value = (f'<div role="alert" style="color:{INK};border-left:5px solid {VERMILION};'
                                    f'padding:4px 10px;font:14px sans-serif">&#9888; {said}</div>')
+
+    def _limited(self) -> AbstractContextManager[object]:
+        return limits(modules=min(MOST_MODULES, current().modules))
 
     def _show_step(self, step: int) -> None:
         derivation, net = self._derived()

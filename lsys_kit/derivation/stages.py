@@ -5,7 +5,8 @@ modules of a word. In an ordinary Petri net one transition fires at a time; here
 
 A place stands for one state. Cells that differ in their polarity only share a place, as in the paper, where tokens ignore
 order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where
-the states do not end, a place stands for all modules of one symbol, and its transitions carry the productions' conditions.
+the states do not end, or cannot all be computed, a place stands for all modules of one symbol, and its transitions carry the
+productions' conditions.
 """
 
 from __future__ import annotations
@@ -165,7 +166,10 @@ def stages(system: LSystem, polarity: bool = False, **constants: object) -> Stag
     A(3) -> A(1) + A(2)
     """
     states = States(system, dict(constants))
-    known = closure(states, 4 * MOST_PLACES)
+    try:
+        known = closure(states, 4 * MOST_PLACES)
+    except ModelValueError:  # a state further on has no successor; the earlier ones are worth a diagram
+        known = None
     if known is None:
         return _by_symbol(system, states)
     classes = list(known) if polarity else _merged(states)
