@@ -272,7 +272,7 @@ def _text(file: BinaryIO, name: str) -> str:
     """What a file says, at most a little more than a model may have."""
     content = file.read(4 * current().text + 1)
     try:
-        return content.decode("utf-8-sig").replace("\r\n", "\n")
+        return content.decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError as fault:
         raise ModelFileError(f"{name[0].upper()}{name[1:]} is not text in UTF-8: its byte {fault.start + 1} is none") from None
 

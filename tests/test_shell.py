@@ -238,6 +238,10 @@ def test_a_mistake_in_a_model_is_shown_with_its_place(shell, model, text, words)
     refused(shell("derive", model(text), "-n", "1"), *words)
 
 
+def test_the_line_quoted_from_a_windows_file_is_as_typed(shell, model):
+    assert shell("derive", model("axiom: A\r\nA = B\r\n"), "-n", "1").err.splitlines()[1:] == ["  A = B", "      ^"]
+
+
 def test_a_file_that_is_not_there_is_suggested_from_its_neighbours(shell, model):
     path = model(FIBONACCI, "fibonacci.txt")
     refused(shell("derive", path.replace("nacci", "nacii"), "-n", "1"), f'Did you mean "{path}"?')

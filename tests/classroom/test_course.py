@@ -126,6 +126,15 @@ def test_a_link_in_the_folder_is_not_followed(kit, mine, tmp_path):
     assert copied[0].beside == LESSON.replace(".ipynb", ".new2.ipynb")
 
 
+def test_a_link_in_place_of_an_untouched_lesson_stays(kit, mine, tmp_path):
+    (mine / LESSON).rename(tmp_path / "elsewhere.ipynb")
+    (mine / LESSON).symlink_to(tmp_path / "elsewhere.ipynb")
+    (kit / LESSON).write_text("version 2")
+    assert what(copy_course(mine, kit))[LESSON] == "beside"
+    assert (mine / LESSON).is_symlink()
+    assert (tmp_path / "elsewhere.ipynb").read_text() == "version 1"
+
+
 def test_a_link_in_place_of_a_folder_is_refused(kit, tmp_path):
     (tmp_path / "outside").mkdir()
     (tmp_path / "mine").mkdir()
