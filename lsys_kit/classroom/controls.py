@@ -108,6 +108,17 @@ class Control:
         """The exact value chosen."""
         return self.span.nearest(self.slider.value)
 
+    def linked(self, in_browser: bool) -> None:
+        """Let slider and number box follow each other.
+
+        In the browser where no kernel is to be asked; else in the kernel, after whatever observes the slider already, so that
+        a movement is one message to the kernel and the picture comes before the box.
+        """
+        import ipywidgets as widgets
+
+        link = widgets.jslink if in_browser else widgets.link
+        link((self.slider, "value"), (self.box, "value"))
+
     def row(self) -> ipywidgets.Widget:
         """Both, side by side."""
         import ipywidgets as widgets
@@ -116,7 +127,7 @@ class Control:
 
 
 def control(name: str, span: Span) -> Control:
-    """A slider and a labelled number box, linked in the browser."""
+    """A slider and a labelled number box, not linked yet."""
     import ipywidgets as widgets
 
     whole = all(isinstance(part, int) for part in (span.low, span.high, span.step))
@@ -126,5 +137,4 @@ def control(name: str, span: Span) -> Control:
     slider = kind(**options, readout=False, continuous_update=True, layout=widgets.Layout(width="180px"))
     box = box_kind(**options, description=name, style={"description_width": "initial"},
                    layout=widgets.Layout(width=f"{9 * len(name) + 82}px"))
-    widgets.jslink((slider, "value"), (box, "value"))
     return Control(slider, box, span)

@@ -132,7 +132,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
             if kinds and self.turns_itself else widgets.HTML()
 
     def _top(self) -> widgets.Widget:
-        return widgets.HBox([self._step.row(), self._play, self._reset, self._status], layout=_wrapping())
+        return widgets.HBox([self._step.row(), self._play, self._reset, self._status], layout=_wrapping("center"))
 
     def _panels(self) -> widgets.Widget:
         panels = [self._panel("word", self._word, 3), self._panel("stages", self._diagram, 4),
@@ -155,7 +155,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
     def _listen(self) -> None:
         for each in (self._step, *self.constants.values()):
             each.slider.observe(self._show, "value")
+            each.linked(in_browser=False)
         self._mark.observe(self._show, "value")
+        self._angle.linked(in_browser=True)
         if self.turns_itself:
             widgets.jslink((self.angle, "value"), (self._drawing, "angle"))
         else:
@@ -302,8 +304,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         return self.text
 
 
-def _wrapping() -> widgets.Layout:
-    return widgets.Layout(flex_flow="row wrap", align_items="flex-start", width="100%")
+def _wrapping(align: str = "flex-start") -> widgets.Layout:
+    return widgets.Layout(flex_flow="row wrap", align_items=align, width="100%")
 
 
 def _button() -> widgets.Layout:
