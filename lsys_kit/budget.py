@@ -55,7 +55,9 @@ class Limits:
     """segments of an SVG picture; beyond, a picture of pixels"""
 
 
-_current: ContextVar[Limits] = ContextVar("limits", default=Limits())
+DEFAULT = Limits()
+"""The limits where none are set."""
+_current: ContextVar[Limits] = ContextVar("limits", default=DEFAULT)
 
 
 def current() -> Limits:

@@ -36,8 +36,8 @@ class Span:
         >>> Span(Fraction(7, 10), Fraction(1, 10), 2, Fraction(1, 10)).nearest(0.7000000000000001)
         Fraction(7, 10)
         """
-        steps = round((Fraction(reading) - Fraction(self.low)) / Fraction(self.step))
-        return tidy(Fraction(self.low) + steps * Fraction(self.step))
+        low, step = Fraction(self.low), Fraction(self.step)
+        return tidy(low + round((Fraction(reading) - low) / step) * step)
 
 
 def spans(system: LSystem, changes: Mapping[str, object]) -> dict[str, Span]:
@@ -74,7 +74,7 @@ def _guessed(value: Value) -> Span:
     """A range for a constant that declares none: from nothing, or one, to about twice its value."""
     if isinstance(value, int) and value >= 1:
         return Span(value, 1, max(2 * value, 6), 1)
-    size = Fraction(abs(value)) or Fraction(1, 2)
+    size = abs(Fraction(value)) or Fraction(1, 2)
     low, high = (-2 * size, Fraction(0)) if value < 0 else (Fraction(0), 2 * size)
     return Span(tidy(Fraction(value)), tidy(low), tidy(high), tidy(size / 10))
 

@@ -8,27 +8,26 @@ from __future__ import annotations
 
 import asyncio
 import base64
+from collections.abc import Collection
 from contextlib import AbstractContextManager
 from html import escape
 from typing import Any
 
 import ipywidgets as widgets
+import numpy as np
 
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.controls import Control, Span, control, spans
+from lsys_kit.classroom.study import Study
 from lsys_kit.classroom.views import packed, widget_classes, word_html
-from lsys_kit.derivation.derive import Derivation, derive
-from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.rules import number_from
-from lsys_kit.derivation.stages import Stages, stages
-from lsys_kit.derivation.words import shortened
+from lsys_kit.derivation.stages import Stages
 from lsys_kit.errors import LSystemError, ModelValueError
-from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle import Path, placed, traced
-from lsys_kit.notation.arithmetic import Value, number_text
+from lsys_kit.geometry.turtle import Path
+from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.model import LSystem
-from lsys_kit.pictures.draw import MOST_ROWS, Picture, Row, state_colours
+from lsys_kit.pictures.draw import Picture
 from lsys_kit.pictures.labels import place_text
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import INK, QUIET, VERMILION
@@ -81,19 +80,16 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         The sliders of the step and, for a turtle, of the angle.
     constants
         For each constant its control.
-    picture
-        The drawing shown, as a `Picture`.
+    sight
+        What it shows: word, net, tokens, picture.
     """
 
     def __init__(self, system: LSystem, step: int | None, angle: object, changes: dict[str, object]) -> None:
-        self.system = system
+        self.system, self._study = system, Study(system)
         self._fixed = {name: value for name, value in changes.items() if name not in spans(system, changes)}
         self.constants = {name: control(name, span) for name, span in spans(system, changes).items()}
         self._make_controls(step, angle)
         self._make_views()
-        self._derivations: dict[tuple[Value, ...], tuple[Derivation, Stages]] = {}
-        self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}
-        self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
         self._playing: asyncio.Task[None] | None = None
         self._start = self._readings()
         super().__init__([self._top(), self._message, self._panels(), self._bottom()],
@@ -124,7 +120,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
                                       style={"description_width": "initial"}, layout=widgets.Layout(width="170px"))
 
     def _make_views(self) -> None:
-        self.turns_itself = widget_classes() is not None and not is_filament(self.system)
+        self.turns_itself = widget_classes() is not None and not self._study.is_filament
         self._word, self._message, self._status = widgets.HTML(), widgets.HTML(), widgets.HTML()
         kinds = widget_classes()
         self._diagram = kinds[1]() if kinds else widgets.HTML()
@@ -146,7 +142,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
 
     def _bottom(self) -> widgets.Widget:
         rows = [each.row() for each in self.constants.values()]
-        if not is_filament(self.system):
+        if not self._study.is_filament:
             rows.insert(0, self._angle.row())
         return widgets.HBox([*rows, self._mark], layout=_wrapping())
 
@@ -216,69 +212,39 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         return limits(modules=min(MOST_MODULES, current().modules))
 
     def _show_step(self, step: int) -> None:
-        derivation, net = self._derived()
-        derivation = derivation.to(step)
-        word = derivation[step]
-        place = self._marked_place(net)
-        marked = {s for s, module in enumerate(word.states.modules) if net.place_of(module) == place} if place >= 0 else set()
-        drawing = self._drawn(derivation, step, marked)
-        self.picture, self._net, self._shown, self._shown_step = drawing, net, word, step
-        self._tokens = net.tokens(word)
-        self._word.value = word_html(word, marked)
-        svg = drawn_stages(net, self._tokens, marked=place if place >= 0 else None)
-        if widget_classes():
-            self._diagram.svg = svg
+        constants = {**self._fixed, **{name: each.value for name, each in self.constants.items()}}
+        self._offer_stages(self._study.known(constants)[1])
+        sight = self._study.sight(step, constants, self.angle.value, self._mark.value)
+        if sight.path is not None and self.turns_itself:
+            self._send_path(sight.path, sight.picture, sight.marked)
         else:
-            self._diagram.value = svg
-        self._status.value = (f'<span role="status" style="font:14px sans-serif;color:{INK}">step {step}: <b>{len(word):,}</b> '
-                              f"module{'s' * (len(word) != 1)}, {sum(t > 0 for t in self._tokens)} kinds; {drawing.scene}</span>")
+            self._drawing.value = sight.picture.svg
+        self._word.value = word_html(sight.word, sight.marked)
+        diagram = drawn_stages(sight.net, sight.tokens, marked=self._mark.value if self._mark.value >= 0 else None)
+        if widget_classes():
+            self._diagram.svg = diagram
+        else:
+            self._diagram.value = diagram
+        states = sum(count > 0 for count in sight.tokens)
+        self._status.value = (f'<span role="status" style="font:14px sans-serif;color:{INK}">'
+                              f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.picture.scene}</span>")
+        self.sight = sight
 
-    def _derived(self) -> tuple[Derivation, Stages]:
-        """The derivation and the net for the constants that the sliders show."""
-        values = {name: each.value for name, each in self.constants.items()}
-        key = tuple(values.values())
-        if key not in self._derivations:
-            given = {**self._fixed, **values}
-            self._derivations[key] = derive(self.system, 0, **given), stages(self.system, **given)
-        return self._derivations[key]
-
-    def _marked_place(self, net: Stages) -> int:
-        """The chosen stage; the choice follows the net's stages, which change with the constants."""
-        options = [("no stage", -1), *((place_text(net.places[number], net.system), number) for number in range(len(net.places)))]
+    def _offer_stages(self, net: Stages) -> None:
+        """The stages that can be chosen are the net's, which change with the constants."""
+        options = [("no stage", -1), *((place_text(place, net.system), number) for number, place in enumerate(net.places))]
         if [*self._mark.options] != options:
             chosen = self._mark.value if self._mark.value < len(net.places) else -1
             with self._mark.hold_trait_notifications():
                 self._mark.options = options
                 self._mark.value = chosen
-        return int(self._mark.value)
 
-    def _drawn(self, derivation: Derivation, step: int, marked: set[int]) -> Picture:
-        key = derivation.states.constants
-        if is_filament(self.system):
-            first = max(0, step + 1 - MOST_ROWS)
-            for k in range(first, step + 1):
-                if (key, k) not in self._rows:
-                    self._rows[key, k] = Row(k, filament(derivation[k]))
-            picture = Picture(tuple(self._rows[key, k] for k in range(first, step + 1)), state_colours(derivation), step, marked)
-            self._drawing.value = picture.svg
-            return picture
-        if (key, step) not in self._paths:
-            self._paths[key, step] = traced(derivation[step])
-        path = self._paths[key, step]
-        scene = placed(path, self.angle.value, float(self.system.heading))
-        picture = Picture((Row(step, scene),), state_colours(derivation), None, marked)
-        if self.turns_itself:
-            self._send_path(path, picture, marked)
-        else:
-            self._drawing.value = picture.svg
-        return picture
-
-    def _send_path(self, path: Path, picture: Picture, marked: set[int]) -> None:
+    def _send_path(self, path: Path, picture: Picture, marked: Collection[int]) -> None:
         """Send a path to the browser, once."""
         data, used = packed(path, picture.colour_of, marked)
         with self._drawing.hold_sync():
             self._drawing.colours = used
-            self._drawing.typical = float(sorted(path.lengths)[len(path) // 2]) if len(path) else 1.0
+            self._drawing.typical = float(np.median(path.lengths)) if len(path) else 1.0
             self._drawing.description = f"Drawing of step {picture.rows[-1].step}: {len(picture.scene.segments):,} segments"
             self._drawing.path = data
 
@@ -287,17 +253,14 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
     @property
     def text(self) -> str:
         """What the panel shows, in words."""
-        places = [f"{place_text(self._net.places[number], self.system)}: {count:,}" for number, count in enumerate(self._tokens)
-                  if self._net.places[number].symbol[0].isalpha()]
-        return (f"Step {self._shown_step}: {len(self._shown):,} module{'s' * (len(self._shown) != 1)}. "
-                f"{shortened(self._shown, 160)}. Stages {', '.join(places)}. {self.picture.scene}.")
+        return str(self.sight)
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live panel, and for a page without a kernel its picture and its words."""
         bundle = super()._repr_mimebundle_(**options)
         data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
         data["text/plain"] = self.text
-        data["image/png"] = base64.b64encode(self.picture.png).decode()
+        data["image/png"] = base64.b64encode(self.sight.picture.png).decode()
         return data
 
     def __repr__(self) -> str:

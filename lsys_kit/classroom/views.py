@@ -32,15 +32,17 @@ def word_html(word: Word, marked: Collection[int] = ()) -> str:
     True
     """
     system, numbers = word.states.system, word.numbers()
-    chips = {state: _chip(word.states.modules[state], system, state in marked) for state in set(numbers[:SHOWN] + numbers[-SHOWN:])}
+    chips = {state: _chip(word.states.modules[state], system, state in marked)
+             for state in {*numbers[:SHOWN], *numbers[-SHOWN:]}}
     if len(numbers) <= SHOWN:
         shown = "".join(chips[state] for state in numbers)
     else:
         half = SHOWN // 2
         gap = f'<span style="color:{QUIET};padding:0 .6em">&hellip; {len(numbers) - 2 * half:,} more &hellip;</span>'
         shown = "".join(chips[s] for s in numbers[:half]) + gap + "".join(chips[s] for s in numbers[-half:])
-    return (f'<div class="lsys-word" tabindex="0" aria-label="Word of {len(word):,} modules" style="font:15px/1.9 Georgia,serif;color:{INK};'
-            f'max-height:380px;overflow-y:auto;overflow-wrap:anywhere;background:#fff;padding:4px">{shown or "the empty word"}</div>')
+    return (f'<div class="lsys-word" tabindex="0" aria-label="Word of {len(word):,} modules" '
+            f'style="font:15px/1.9 Georgia,serif;color:{INK};background:#fff;padding:4px;max-height:380px;overflow-y:auto;'
+            f'overflow-wrap:anywhere">{shown or "the empty word"}</div>')
 
 
 @lru_cache(maxsize=4096)
@@ -50,7 +52,8 @@ def _chip(module: Module, system: LSystem, marked: bool) -> str:
         return f'<span style="color:{QUIET}">{html_label(module, system)}</span>'
     look = f"background:{MARK};border-bottom:3px solid {MARK_EDGE};font-weight:bold" if marked \
         else f"background:{tinted(colour, 0.22)};border-bottom:2px solid {colour}"
-    return f'<span style="{look};border-radius:3px;padding:0 2px;margin:0 1px;display:inline-block;line-height:1.35">{html_label(module, system)}</span>'
+    shape = "border-radius:3px;padding:0 2px;margin:0 1px;display:inline-block;line-height:1.35"
+    return f'<span style="{look};{shape}">{html_label(module, system)}</span>'
 
 
 def packed(path: Path, colour_of: Mapping[int, str], marked: Collection[int]) -> tuple[bytes, list[str]]:
@@ -81,7 +84,7 @@ def widget_classes() -> tuple[Any, Any] | None:
     except ImportError:
         return None
 
-    class Canvas(anywidget.AnyWidget):  # type: ignore[misc]
+    class Canvas(anywidget.AnyWidget):
         """A turtle's path that the browser turns by itself."""
 
         _esm = _HERE / "canvas.js"
@@ -93,7 +96,7 @@ def widget_classes() -> tuple[Any, Any] | None:
         mark = traitlets.Unicode(MARK_EDGE).tag(sync=True)
         description = traitlets.Unicode().tag(sync=True)
 
-    class Diagram(anywidget.AnyWidget):  # type: ignore[misc]
+    class Diagram(anywidget.AnyWidget):
         """A stage diagram whose stages can be chosen."""
 
         _esm = _HERE / "diagram.js"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import unescape
@@ -25,6 +25,7 @@ from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures import raster
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import GREEN, colours
+from lsys_kit.pictures.plots import new_axes, plot_rows, plot_strokes
 from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, strokes_svg
 
 if TYPE_CHECKING:
@@ -240,14 +241,11 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
         The axes, without frame, with equal scales.
     """
     picture = what if isinstance(what, Picture) else draw(what, **choices)
-    if ax is None:
-        from matplotlib.figure import Figure
-
-        ax = Figure(figsize=(6, 4), layout="constrained").add_subplot()
+    ax = new_axes() if ax is None else ax
     if len(picture.scene.cells):
-        _plot_rows(ax, picture.rows, picture.colour_of)
+        plot_rows(ax, picture.rows, picture.colour_of)
     else:
-        _plot_strokes(ax, picture.scene, picture.colour_of)
+        plot_strokes(ax, picture.scene, picture.colour_of)
     ax.set_aspect("equal")
     ax.autoscale_view()
     ax.set_axis_off()
@@ -276,35 +274,3 @@ def _pdf(picture: Picture) -> bytes:
     assert sheet is not None
     sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata={"CreationDate": None})
     return buffer.getvalue()
-
-
-def _plot_strokes(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
-    from matplotlib.collections import LineCollection
-
-    from lsys_kit.pictures.svg import STROKES, stroke_scale
-
-    thin = stroke_scale(scene.segments, frame_of(scene.box).scale)
-    orders = scene.segments.orders.clip(max=len(STROKES) - 1)
-    ax.add_collection(LineCollection(scene.segments.ends.reshape(-1, 2, 2).tolist(), capstyle="round",
-                                     colors=[colour_of.get(state, GREEN) for state in scene.segments.states.tolist()],
-                                     linewidths=[0.8 * STROKES[order] * thin for order in orders.tolist()]))
-
-
-def _plot_rows(ax: Axes, rows: Sequence[Row], colour_of: Mapping[int, str]) -> None:
-    from matplotlib.patches import Ellipse, FancyArrowPatch
-
-    from lsys_kit.pictures.palette import INK, tinted
-
-    pitch = 1.3 * max(row.scene.height for row in rows)
-    for place, row in enumerate(rows):
-        cells, y = row.scene.cells, -pitch * place
-        for (x, _), (length, width), way, shade, state in zip(
-                cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(), cells.shades.tolist(),
-                cells.states.tolist(), strict=True):
-            colour = colour_of.get(state, GREEN)
-            centre = x - row.scene.width / 2
-            ax.add_patch(Ellipse((centre, y), length, width, facecolor=tinted(colour, 0.28 + 0.6 * shade), edgecolor=colour,
-                                 linewidth=0.6))
-            reach = 0.29 * length * way
-            ax.add_patch(FancyArrowPatch((centre - reach, y), (centre + reach, y), arrowstyle="->", color=INK, shrinkA=0,
-                                         shrinkB=0, linewidth=0.5, mutation_scale=4))

@@ -10,9 +10,10 @@ import re
 from collections.abc import Mapping
 from functools import lru_cache
 from html import escape
+from typing import cast
 
 from lsys_kit.derivation.stages import Place
-from lsys_kit.notation.arithmetic import number_text
+from lsys_kit.notation.arithmetic import Value, number_text
 from lsys_kit.notation.model import LSystem, Module, symbols
 
 
@@ -46,8 +47,8 @@ def parts(symbol: str, system: LSystem) -> tuple[str, str]:
 
 def values_text(module: Module) -> str:
     """A module's values in parentheses, or nothing."""
-    values = ",".join(number_text(value) if abs(value) < 1e6 else f"{float(value):.3g}"  # type: ignore[arg-type]
-                      for value in module.arguments)
+    values = ",".join(number_text(value) if abs(float(value)) < 1e6 else f"{float(value):.3g}"
+                      for value in cast(tuple[Value, ...], module.arguments))
     return f"({values})" if values else ""
 
 
@@ -92,7 +93,8 @@ def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
     letter, subscript = parts(place.symbol, system)
     if not place.modules:
         return letter, subscript, ""
-    shared = [column[0] for column in zip(*(module.arguments for module in place.modules), strict=True) if len(set(column)) == 1]
+    columns = zip(*(module.arguments for module in place.modules), strict=True)
+    shared = [column[0] for column in columns if len(set(column)) == 1]
     values = values_text(Module(place.symbol, tuple(shared)))
     merged = len({module.symbol for module in place.modules}) > 1
     return letter, "" if merged else subscript, values

@@ -11,7 +11,7 @@ from html import escape
 
 import numpy as np
 
-from lsys_kit.geometry.scene import Cells, Floats, Scene, Segments
+from lsys_kit.geometry.scene import Cells, Floats, Integers, Scene, Segments
 from lsys_kit.pictures.palette import GREEN, INK, MARK, MARK_EDGE, PAPER, QUIET, tinted
 
 WIDTH, HEIGHT = 600, 400
@@ -32,12 +32,13 @@ class Frame:
     width: int
     height: int
 
-    def points(self, coordinates: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+    def points(self, coordinates: Floats) -> Integers:
         """Tenths of a pixel for x and y in turn along the last axis; halves are always rounded the same way."""
         flip = np.tile([1.0, -1.0], coordinates.shape[-1] // 2)
         shift = np.tile([-self.left, self.top], coordinates.shape[-1] // 2)
         pixels = (coordinates * flip + shift) * self.scale + MARGIN
-        return np.floor(pixels * 10 + 0.5001).astype(np.int64)
+        tenths: Integers = np.floor(pixels * 10 + 0.5001).astype(np.int64)
+        return tenths
 
 
 def frame_of(box: tuple[float, float, float, float], width: int = WIDTH, height: int = HEIGHT) -> Frame:
@@ -83,7 +84,7 @@ def stroke_scale(segments: Segments, scale: float) -> float:
     return float(min(1.0, max(0.3, np.median(lengths) * scale / 12)))
 
 
-def _path(points: np.ndarray[tuple[int, ...], np.dtype[np.int64]]) -> str:
+def _path(points: Integers) -> str:
     return "M%d %dL%d %d" * len(points) % tuple(points.ravel().tolist())
 
 

@@ -67,5 +67,6 @@ def test_from_key_press_to_new_picture(benchmark, open_notebook, write_notebook,
 
     benchmark.pedantic(press_all, rounds=2, warmup_rounds=1)
     found = sorted(notebook.page.evaluate("latencies"))
-    benchmark.extra_info |= {"median ms": round(statistics.median(found), 2), "95th percentile ms": round(found[int(0.95 * len(found))], 2)}
-    print(f"\n{id}: median {statistics.median(found):.1f} ms, 95th percentile {found[int(0.95 * len(found))]:.1f} ms of {len(found)}")
+    median, slow = statistics.median(found), found[int(0.95 * len(found))]
+    benchmark.extra_info |= {"median ms": round(median, 2), "95th percentile ms": round(slow, 2)}
+    print(f"\n{id}: median {median:.1f} ms, 95th percentile {slow:.1f} ms of {len(found)}")

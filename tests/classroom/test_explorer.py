@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from lsys_kit import LSystemError, ModelValueError, derive, explore, limits, read, system
-from lsys_kit.classroom import explorer as module
+from lsys_kit.classroom import study
 from lsys_kit.classroom.views import SHOWN, widget_classes, word_html
 from lsys_kit.derivation.states import States
 
@@ -25,7 +25,7 @@ def test_the_three_views_show_the_same_step():
     assert panel.text.startswith("Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)")
     assert "tokens 2, 2, 1, 2, 2" in panel._diagram.svg
     assert "9 cells" in panel._drawing.value
-    assert "<b>9</b> modules" in panel._status.value
+    assert "<b>9 modules</b>" in panel._status.value
 
 
 def test_a_life_span_changes_all_three():
@@ -33,7 +33,7 @@ def test_a_life_span_changes_all_three():
     before = shown(panel)
     panel.constants["lifeTimeB"].slider.value = 5
     assert all(new != old for new, old in zip(shown(panel), before, strict=True))
-    assert str(panel._shown) == str(derive(system("J4"), 9, lifeTimeB=5)[-1])
+    assert str(panel.sight.word) == str(derive(system("J4"), 9, lifeTimeB=5)[-1])
 
 
 def test_a_step_is_computed_once(monkeypatch):
@@ -41,7 +41,7 @@ def test_a_step_is_computed_once(monkeypatch):
     panel.step.value = 9
     calls = []
     monkeypatch.setattr(States, "matching", lambda *_: calls.append(1))
-    monkeypatch.setattr(module, "filament", lambda *_: calls.append(1))
+    monkeypatch.setattr(study, "filament", lambda *_: calls.append(1))
     panel.step.value = 8
     panel.step.value = 9
     assert not calls
@@ -149,7 +149,7 @@ def test_a_long_word_is_shortened_in_the_middle_with_its_length():
 def test_a_system_of_ones_own_is_explored_too():
     panel = explore(read("dt = 1/2\naxiom: A(0)\nA(t) -> A(t+dt)"), 4)
     panel.constants["dt"].slider.value = 0.7000000000000001
-    assert str(panel._shown) == "A(2.8)"
+    assert str(panel.sight.word) == "A(2.8)"
 
 
 def test_sequential_play_stops_at_the_end():

@@ -1,5 +1,7 @@
 """Filaments: cells in a row."""
 
+from itertools import pairwise
+
 import pytest
 
 from lsys_kit import ModelValueError, derive, read, system
@@ -39,5 +41,5 @@ def test_a_cell_without_length_or_width_is_an_error_that_names_it(size):
 
 def test_the_filament_of_p2_grows_by_the_same_factor_in_every_step():
     lengths = [filament(word).width for word in derive(system("P2"), 12)]
-    factors = [after / before for before, after in zip(lengths, lengths[1:], strict=False)]
+    factors = [after / before for before, after in pairwise(lengths)]
     assert factors == pytest.approx([1.1673] * 12, abs=1e-3)

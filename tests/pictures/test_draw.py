@@ -13,7 +13,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def parsed(picture):
-    return ET.fromstring(picture.svg)  # noqa: S314
+    return ET.fromstring(picture.svg)
 
 
 def test_a_filament_is_drawn_as_its_developmental_sequence():
@@ -65,7 +65,7 @@ def test_too_many_strokes_become_a_picture_of_pixels():
     with limits(segments=100):
         svg = draw(system("K5"), 3).svg
     assert "data:image/png;base64," in svg
-    ET.fromstring(svg)  # noqa: S314
+    ET.fromstring(svg)
 
 
 @pytest.mark.parametrize("id", ["J4", "K5"])
