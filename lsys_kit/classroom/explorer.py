@@ -226,8 +226,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         else:
             self._diagram.value = diagram
         states = sum(count > 0 for count in sight.tokens)
-        self._status.value = (f'<span role="status" style="font:14px sans-serif;color:{INK}">'
-                              f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.picture.scene}</span>")
+        said = f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.picture.scene}"
+        self._status.value = f'<span role="status" style="font:14px sans-serif;color:{INK}">{said}</span>'
         self.sight = sight
 
     def _offer_stages(self, net: Stages) -> None:
