@@ -93,13 +93,13 @@ class Derivation(Sequence[Word]):
         """
         if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
             raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
+        for step, counts in enumerate(self._counts[:int(steps) + 1]):
+            self._check(step, counts.total())
         until = time.monotonic() + current().seconds
         while len(self._counts) <= steps:
             step, before = len(self._counts), self._counts[-1]
             self._check(step, sum(count * self.states.width(state) for state, count in before.items()))
             self._counts.append(counted(self.states, before, partial(self._watch, step, until)))
-        for step in range(int(steps) + 1):
-            self._check(step, self._counts[step].total())
         return Derivation(self.states, int(steps), self)
 
     def _check(self, step: int, size: int) -> None:

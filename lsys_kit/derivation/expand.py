@@ -15,7 +15,7 @@ import numpy as np
 from lsys_kit.derivation.states import States
 
 PIECE = 64
-"""Pieces up to this length are put together as tuples and written at once."""
+"""Pieces up to this length, at least 1, are put together as tuples and written at once."""
 
 
 def code_type(states: int) -> np.dtype[Any]:

@@ -123,11 +123,7 @@ def shortened(word: Word, characters: int) -> str:
     'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
     """
     half = max(1, characters // 2)
-    if len(word) <= half:
-        text = str(word)
-        if len(text) <= characters:
-            return text
-    front, back = str(word[:half]), str(word[-half:])
-    if len(word) <= 2 * half and len(str(word)) <= characters:
+    if len(word) <= characters and len(str(word)) <= characters:
         return str(word)
+    front, back = str(word[:half]), str(word[-half:])
     return f"{front[:half]} ... {back[-half:]} ({len(word):,} modules)"

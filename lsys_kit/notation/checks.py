@@ -69,7 +69,8 @@ def check_constants(constants: Iterable[Constant], source: str) -> None:
     values: dict[str, Value] = {}
     for constant in constants:
         if constant.name in values:
-            raise ModelNameError(f'The constant "{constant.name}" is declared twice', source, *span(constant))
+            raise ModelNameError(f'The constant "{constant.name}" is declared twice', source, *span(constant),
+                                 "Keep one of the two lines.")
         if constant.name in _SETTINGS:
             raise ModelNameError(f'"{constant.name}" is no constant', source, *span(constant),
                                  f'Type "{constant.name.lower()}: {constant.value}".')
@@ -105,7 +106,8 @@ def check_production(production: Production, constants: Collection[str], source:
     for argument in production.predecessor.arguments:
         if isinstance(argument, Name) and argument.name not in constants:
             if argument.name in parameters:
-                raise ModelNameError(f'The parameter "{argument.name}" is named twice', source, *span(argument))
+                raise ModelNameError(f'The parameter "{argument.name}" is named twice', source, *span(argument),
+                                     "Give each parameter a name of its own.")
             parameters.append(argument.name)
         elif isinstance(argument, Apply):
             strange = sorted(names_in(argument) - set(constants))
@@ -132,7 +134,7 @@ def check_word(word: Iterable[Module], names: Collection[str], source: str) -> N
         if module.symbol in closing.values():
             opened.append(module)
             if len(opened) > current().brackets:
-                raise ModelSyntaxError(f"More than {current().brackets} brackets are open at once", source, *span(module))
+                raise ModelSyntaxError(f"More than {current().brackets:,} brackets are open at once", source, *span(module))
         elif module.symbol in closing and (not opened or opened.pop().symbol != closing[module.symbol]):
             raise ModelSyntaxError(f'This "{module.symbol}" closes nothing', source, *span(module),
                                    f'Every branch begins with "{closing[module.symbol]}".')

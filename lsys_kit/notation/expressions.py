@@ -73,7 +73,8 @@ class Apply:
         if operator.precedence is None:
             return f"{self.operator}({', '.join(map(str, self.operands))})"
         if len(self.operands) == 1:
-            return self.operator[0] + _within(self.operands[0], operator.precedence)
+            tightly = 7 if self.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
+            return self.operator[0] + _within(self.operands[0], tightly)
         left, right = self.operands
         power = self.operator == "^"
         return (_within(left, operator.precedence + power) + operator.spelling(self.operator)

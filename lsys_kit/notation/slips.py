@@ -22,11 +22,12 @@ _ALSO = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", 
 """What other programs and books say for a keyword."""
 _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
 """The characters beyond ASCII that the grammars know."""
-_OPERATORS = frozenset(("TIMES", "SIGN", "POWER"))
+_OPERATORS, _A_VALUE = frozenset(("TIMES", "SIGN", "POWER")), frozenset(("NUMBER", "LPAR"))
 _WORDS = {
     "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',
     "COMMA": '","', "COLON": '":"', "RELATION": "a comparison", "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
 }
+_NOT_IN_STRINGS = {"(": "values", ":": "conditions"}
 _AN_ARROW, _PRODUCTION = "This is no arrow", 'A production reads "A -> B": what is replaced, an arrow, what replaces it.'
 _BEFORE_ARROW, _NO_ARROW = rf"(?=.*(?:{ARROW.pattern}))", rf"(?!.*(?:{ARROW.pattern}))"
 
@@ -40,6 +41,7 @@ SPELT: Sequence[tuple[str, str, str]] = (
     (r"\bor\b|\|", "This joins no conditions", '"Or" is typed "||".'),
     (r"\bnot\s+", "This denies no condition", '"Not" is typed "!", as in "!(t < 5)".'),
     (r"\*\*", "This is no operator", 'A power is typed "t^2".'),
+    (r"\d,\d", "A number is typed with a point", 'Type "1.4", not "1,4".'),
     (r"\d\.(?![\d.])", "This number is not finished", 'Type "1" or "1.0".'),
     (r"\*/", "This comment was never opened", 'A comment begins with "/*".'),
     (r";", 'This ";" parts no values', 'Values are parted by ",", as in "A(1, 2)".'),
@@ -138,10 +140,12 @@ def _comment(stumble: Stumble) -> ModelSyntaxError | None:
 
 def _parentheses(stumble: Stumble) -> ModelSyntaxError | None:
     found, opened = stumble.found, _unclosed(stumble.text[stumble.start:stumble.at])
-    if opened is not None and (not found or found == ":" or ARROW.match(found)) and not _wants_value(stumble):
+    if opened is not None and (not found or found == ":" or ARROW.match(found)) and not stumble.accepted >= _A_VALUE:
         return stumble.error('This "(" is never closed', 'Every "(" needs a ")" behind it.', stumble.start + opened, 1)
     if found.startswith(")") and opened is None:
-        return stumble.error('This ")" closes nothing', 'Every ")" needs a "(" before it.')
+        branch = stumble.before.count("[") > stumble.before.count("]")
+        return stumble.error('This ")" closes nothing', 'A branch that begins with "[" ends with "]".' if branch else
+                             'Every ")" needs a "(" before it.')
     if found.startswith(")") and stumble.before.endswith("("):
         return stumble.error("Nothing stands in these parentheses", "Write a value there, or leave the parentheses out.",
                              stumble.start + len(stumble.before) - 1, stumble.at + 2 - stumble.start - len(stumble.before))
@@ -187,6 +191,8 @@ def _predecessor(stumble: Stumble) -> ModelSyntaxError | None:
     """What stands between the module to replace and the arrow."""
     if not {"ARROW", "COLON"} & stumble.accepted or not ARROW.search(stumble.after) or ARROW.search(stumble.before):
         return None
+    if stumble.accepted == {"ARROW"} and stumble.found in _NOT_IN_STRINGS and ":" not in stumble.before:
+        return stumble.error(f"A plant string has no {_NOT_IN_STRINGS[stumble.found]}", _PRODUCTION)
     if "COLON" in stumble.accepted and re.match(r"if\b|when\b|\w+\s*[<>=!]=?", stumble.after):
         return stumble.error('A ":" is missing before the condition', 'A condition stands between ":" and the arrow, as in '
                              '"A(t) : t < 5 -> B".')
@@ -215,15 +221,12 @@ def _comparison(stumble: Stumble) -> ModelSyntaxError | None:
     return stumble.error("A second comparison stands here", f'Compare twice, as in "{twice}".')
 
 
-def _wants_value(stumble: Stumble) -> bool:
-    return {"NUMBER", "LPAR"} <= stumble.accepted
-
-
 def _value(stumble: Stumble) -> ModelSyntaxError | None:
     """A value too few, or an operator too few."""
-    if _wants_value(stumble):
+    if stumble.accepted >= _A_VALUE:
         return stumble.error("A value is missing here", 'Possible here: a number, a name or "(".')
-    if _unclosed(stumble.before) is not None and re.search(r"[\w)]$", stumble.before) and re.match(r"[\w(.]", stumble.found):
+    inside = _unclosed(stumble.before) is not None and "SYMBOL" not in stumble.accepted
+    if inside and re.search(r"[\w)]$", stumble.before) and re.match(r"[\w(.]", stumble.found):
         return stumble.error(f"An operator is missing before {_quoted(stumble.found)}", 'To multiply, type "*", as in "2*t".')
     return None
 
@@ -239,11 +242,12 @@ def _constant(stumble: Stumble) -> ModelSyntaxError | None:
 
 def _in_a_word(stumble: Stumble) -> ModelSyntaxError | None:
     """What stands in a word, but is no module."""
-    if stumble.found[:1] in ("ε", "*"):
-        return stumble.error(f"Nothing else may stand beside {_quoted(stumble.found)}", "It says that the successor is empty.")
+    empty = stumble.found if stumble.found in ("ε", "*") else stumble.before[-1:]
+    if empty in ("ε", "*") and ARROW.search(stumble.before):
+        return stumble.error(f"Nothing else may stand beside {_quoted(empty)}", "It says that the successor is empty.")
     if stumble.found == ":" and ARROW.search(stumble.before):
         return stumble.error('This ":" stands behind the arrow', 'A condition stands before it, as in "A(t) : t < 5 -> B".')
-    if not {"SYMBOL", "NAME"} & stumble.accepted or _unclosed(stumble.before) is not None:
+    if not {"SYMBOL", "NAME"} & stumble.accepted or stumble.accepted >= _A_VALUE:
         return None
     if stumble.found[:1].isdigit():
         hint = 'Values stand in parentheses behind a symbol, as in "A(2)".' if "NAME" in stumble.accepted \
@@ -255,10 +259,8 @@ def _in_a_word(stumble: Stumble) -> ModelSyntaxError | None:
 
 
 def _missing_arrow(stumble: Stumble) -> ModelSyntaxError | None:
-    statement = stumble.text[stumble.start:stumble.end]
-    if "ARROW" not in stumble.accepted or ARROW.search(statement):
-        return None
-    return stumble.error("An arrow is missing here", _PRODUCTION)
+    missing = "ARROW" in stumble.accepted and not ARROW.search(stumble.text, stumble.start, stumble.end)
+    return stumble.error("An arrow is missing here", _PRODUCTION) if missing else None
 
 
 def _anything_else(stumble: Stumble) -> ModelSyntaxError:
@@ -277,8 +279,8 @@ def _unclosed(text: str) -> int | None:
     for match in re.finditer(r"[()]", text):
         if match.group() == "(":
             opened.append(match.start())
-        elif opened:
-            opened.pop()
+        else:
+            opened[-1:] = []
     return opened[-1] if opened else None
 
 

@@ -1,0 +1,427 @@
+"""What the kit says of the slips that students make, word for word: each message is a small lesson."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+
+from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.read import read
+
+NO_NAMES = 'A parameter is named before the arrow, as in "A(t) -> A(t+1)"; a constant on a line before, as in "dt = 0.5".'
+PRODUCTION = 'A production reads "A -> B": what is replaced, an arrow, what replaces it.'
+A_VALUE = 'Possible here: a number, a name or "(".'
+KEEP_OUT = "A condition before the arrow can keep such values out."
+
+UNREADABLE = [
+    ("axiom: A(0)\nA(t) : t = 1 -> B",
+     'A single "=" cannot be used here', 2, 10, 'To compare two values, type "==".'),
+    ("axiom: A\nA B C",
+     "An arrow is missing here", 2, 3, PRODUCTION),
+    ("axiom: A(0)\nA(t : t < 1 -> B",
+     'This "(" is never closed', 2, 2, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A(0)\nA(t) -> B(t",
+     'This "(" is never closed', 2, 10, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A(0)\nA(t) -> B(t))",
+     'This ")" closes nothing', 2, 13, 'Every ")" needs a "(" before it.'),
+    ("axiom: A(0)\nA(t) -> B(t+1",
+     'This "(" is never closed', 2, 10, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A(0)\nA(t) -> B((t+1)",
+     'This "(" is never closed', 2, 10, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A\nA -> [B",
+     'This "[" is never closed', 2, 6, 'Every branch ends with "]".'),
+    ("axiom: A\nA -> B]",
+     'This "]" closes nothing', 2, 7, 'Every branch begins with "[".'),
+    ("axiom: A\nA ->",
+     "Nothing stands behind the arrow", 2, 3, 'To erase A, write "ε" or "*" there.'),
+    ("axiom: A(0)\nA(t) -> A(sqrt(t, 2))",
+     "sqrt(...) takes 1 value, not 2", 2, 11, None),
+    ("axiom: A(0)\nA(t) -> A(max(t))",
+     "max(...) takes 2 or more values, not 1", 2, 11, None),
+    ("axiom: A(0)\nA(t) -> A(sqrt())",
+     "Nothing stands in these parentheses", 2, 15, "Write a value there, or leave the parentheses out."),
+    ("axiom: A\n\u0410 -> B",
+     'I cannot read the character "А" (CYRILLIC CAPITAL LETTER A)', 2, 1,
+     "Names are made of the letters A to Z, digits and _."),
+    ("axiom: A\nA\u202e -> B",
+     "I cannot read the character RIGHT-TO-LEFT OVERRIDE", 2, 2, "Names are made of the letters A to Z, digits and _."),
+    ("axiom: A\nA -> B -> C",
+     "A second arrow stands in this production", 2, 8, "Write one production a line."),
+    ("axiom: A\nA - > B",
+     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("axiom: A\nA => B",
+     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("axiom: A\nA = B C",
+     'I did not expect "C" here', 2, 7,
+     'A constant reads "dt = 0.5", or "dt = 0.5 in 0.1 .. 2 by 0.1"; a production, "A -> B".'),
+    ("axiom: A\nA := B",
+     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("axiom: A\nA > B",
+     "An arrow is missing here", 2, 3, PRODUCTION),
+    ("axiom: A\nA - B",
+     "An arrow is missing here", 2, 3, PRODUCTION),
+    ("axiom: A\nA : B",
+     "An arrow is missing here", 2, 6, PRODUCTION),
+    ("axiom: A(0)\nA(t) = A(t+1)",
+     "This is no arrow", 2, 6, PRODUCTION),
+    ("axiom: A(0)\nA(t) : 1 < t < 3 -> B",
+     "A second comparison stands here", 2, 14, 'Compare twice, as in "1 < t && t < 3".'),
+    ("A -> B",
+     "There is no axiom", 1, 7, 'Give the first word on a line of its own, as in "axiom: A".'),
+    ("",
+     "There is no axiom", 1, 1, 'Give the first word on a line of its own, as in "axiom: A".'),
+    ("axiom: A\naxiom: B\nA -> B",
+     "A second axiom stands here", 2, 1, "A system has one axiom."),
+    ("axiom A\nA -> B",
+     'A ":" is missing behind "axiom"', 1, 1, 'Type "axiom: A".'),
+    ("axiom:\nA -> B",
+     'Nothing stands behind "axiom:"', 1, 1, "Possible here: a name or a symbol."),
+    ("axioma: A\nA -> B",
+     'I do not know "axioma:"', 1, 1, 'Did you mean "axiom:"?'),
+    ("start: A\nA -> B",
+     'I do not know "start:"', 1, 1, 'Did you mean "axiom:"?'),
+    ("dt = 3 in 1 .. \naxiom: A",
+     "A value is missing here", 1, 15, A_VALUE),
+    ("dt = 3 in 1 - 6\naxiom: A",
+     "The line ends too early", 1, 16, 'Possible here: "..".'),
+    ("dt = 3 in 1 to 6\naxiom: A",
+     'I did not expect "to" here', 1, 13, 'Possible here: "..".'),
+    ("dt = 3 in 1 ... 6\naxiom: A",
+     "A value is missing here", 1, 15, A_VALUE),
+    ("dt = 3 in 1..6 by\naxiom: A",
+     "A value is missing here", 1, 18, A_VALUE),
+    ("dt = 3 in 1..6 step 2\naxiom: A",
+     'I did not expect "step" here', 1, 16, 'A constant reads "dt = 0.5", or "dt = 0.5 in 0.1 .. 2 by 0.1".'),
+    ("dt: 3\naxiom: A",
+     'I do not know "dt:"', 1, 1, 'A constant is declared with "=", as in "dt = 3".'),
+    ("#define dt 3\naxiom: A",
+     "This is no production", 1, 1, 'A constant is declared with "=", as in "dt = 0.5".'),
+    ("dt = \naxiom: A",
+     "A value is missing here", 1, 5, A_VALUE),
+    ("axiom: A(1e999999999)",
+     "This number is too long", 1, 10, "Numbers go up to about 10^308."),
+    ("axiom: A\n/* A -> B",
+     "This comment is never closed", 2, 1, 'A comment ends with "*/".'),
+    ("axiom: A\nA -> B */",
+     "This comment was never opened", 2, 8, 'A comment begins with "/*".'),
+    ("axiom: A\n# comment\nA -> B",
+     "This is no production", 2, 1, 'A comment stands between "/*" and "*/".'),
+    ("axiom: A\nA -> B; C -> D",
+     "A second arrow stands in this production", 2, 11, "Write one production a line."),
+    ("axiom: A, B\nA -> B",
+     'A "," is not needed here', 1, 9, "Modules and names stand side by side, with blanks between them."),
+    ("axiom: A\nA(t+1 -> B",
+     'This "(" is never closed', 2, 2, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A\nA() -> B",
+     "Nothing stands in these parentheses", 2, 2, "Write a value there, or leave the parentheses out."),
+    ("axiom: A(1;2)\nA(x;y) -> B",
+     'This ";" parts no values', 1, 11, 'Values are parted by ",", as in "A(1, 2)".'),
+    ("axiom: A(1 2)",
+     'An operator is missing before "2"', 1, 12, 'To multiply, type "*", as in "2*t".'),
+    ("axiom: A(0)\nA(t) : t < -> B",
+     "A value is missing here", 2, 12, A_VALUE),
+    ("axiom: A(0)\nA(t) : -> B",
+     "There is no condition before the arrow", 2, 8, 'Write one, as in "t < 5", or leave the ":" out.'),
+    ("axiom: A(0)\nA(t) t < 5 -> B",
+     'A ":" is missing before the condition', 2, 6,
+     'A condition stands between ":" and the arrow, as in "A(t) : t < 5 -> B".'),
+    ("axiom: A(0)\nA(t) : t < 5 and t > 2 -> B",
+     "This joins no conditions", 2, 14, '"And" is typed "&&".'),
+    ("axiom: A(0)\nA(t) : t < 5 & t > 2 -> B",
+     "This joins no conditions", 2, 14, '"And" is typed "&&".'),
+    ("axiom: A(0)\nA(t) : not t < 5 -> B",
+     "This denies no condition", 2, 8, '"Not" is typed "!", as in "!(t < 5)".'),
+    ("axiom: A(0)\nA(t) : t =< 5 -> B",
+     "This is no comparison", 2, 10, '"At most" is typed "<=".'),
+    ("axiom: A(0)\nA(t) : t => 5 -> B",
+     "This is no comparison", 2, 10, '"At least" is typed ">=".'),
+    ("axiom: A(0)\nA(t) : t <> 5 -> B",
+     "This is no comparison", 2, 10, '"Not equal" is typed "!=".'),
+    ("axiom: A(0)\nA(t) : t === 5 -> B",
+     "This is no comparison", 2, 10, 'To compare two values, type "==".'),
+    ("axiom: A(0)\nA(t) -> A(2t)",
+     'An operator is missing before "t"', 2, 12, 'To multiply, type "*", as in "2*t".'),
+    ("axiom: A(0)\nA(t) -> A(t**2)",
+     "This is no operator", 2, 12, 'A power is typed "t^2".'),
+    ("axiom: A(0)\nA(t) -> A(t%2)",
+     'I did not expect "%" here', 2, 12, 'Possible here: "(", ")" or ",".'),
+    ("axiom: A(1.)\n",
+     "This number is not finished", 1, 10, 'Type "1" or "1.0".'),
+    ('axiom: "A"',
+     "A quotation mark stands here", 1, 8, "Words are typed without quotation marks."),
+    ("axiom: 2",
+     "A number stands alone in a word", 1, 8, 'Values stand in parentheses behind a symbol, as in "A(2)".'),
+    ("axiom: A\n-> B",
+     "Nothing stands before the arrow", 2, 1, PRODUCTION),
+    ("axiom: A\n(A) -> B",
+     'I did not expect "(" here', 2, 1, "Possible here: a name or a symbol."),
+    ("axiom: A\nA B -> C",
+     "Only one module can be replaced", 2, 3, 'Write a production for each: "A -> ...", then "B -> ...".'),
+    ("axiom: A\nA < B -> C",
+     "A context stands here", 2, 3, "Before the arrow stands one module, and perhaps a condition."),
+    ("axiom: A\nA -> B : 0.5",
+     'This ":" stands behind the arrow', 2, 8, 'A condition stands before it, as in "A(t) : t < 5 -> B".'),
+    ("axiom: A [ B",
+     'This "[" is never closed', 1, 10, 'Every branch ends with "]".'),
+    ("axiom: A\nA ⇒ B",
+     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("axiom: A\nA \u2013> B",
+     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("angle 60\naxiom: A",
+     'A ":" is missing behind "angle"', 1, 1, 'Type "angle: 60".'),
+    ("angle: \naxiom: A",
+     'Nothing stands behind "angle:"', 1, 1, 'Possible here: "(", a name or a number.'),
+    ("angle: 60°\naxiom: A",
+     "This sign is not needed", 1, 10, "Angles are in degrees."),
+    ("alphabet:\naxiom: A",
+     'Nothing stands behind "alphabet:"', 1, 1, "Possible here: a name."),
+    ("alphabet: a,b\naxiom: A",
+     'A "," is not needed here', 1, 12, "Modules and names stand side by side, with blanks between them."),
+    ("produktions:\naxiom: A\nA -> B",
+     'I do not know "produktions:"', 1, 1, 'Did you mean "productions:"?'),
+    ("axiom: A\nA(1)(2) -> B",
+     'I did not expect "(" here', 2, 5, 'Possible here: ":" or an arrow.'),
+    ("axiom: A\0B",
+     "I did not expect U+0000 here", 1, 9, 'Possible here: "(", a name, a symbol or the end of the line.'),
+    ("axiom: A\ud800B",
+     "I cannot read the character U+D800", 1, 9, "Names are made of the letters A to Z, digits and _."),
+    ("axiom: Ä",
+     'I cannot read the character "Ä" (LATIN CAPITAL LETTER A WITH DIAERESIS)', 1, 8,
+     "Names are made of the letters A to Z, digits and _."),
+    ("axiom: A\nA -> ε B",
+     'Nothing else may stand beside "ε" (GREEK SMALL LETTER EPSILON)', 2, 8, "It says that the successor is empty."),
+    ("axiom: A\nA -> B *",
+     'Nothing else may stand beside "*"', 2, 8, "It says that the successor is empty."),
+    ("angle: 60\nangle: 90\naxiom: A",
+     '"angle:" stands here a second time', 2, 1, "A system has one of it."),
+    ("axiom: A\nA -> B\nA -> “C”",
+     "A quotation mark stands here", 3, 6, "Words are typed without quotation marks."),
+    ("axiom: A(1e400)",
+     "This number is too large", 1, 10, "Numbers go up to about 10^308."),
+    ("axiom: A\nA(t) : t < 5\n  -> A(t + 1",
+     'This "(" is never closed', 3, 7, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A\n  A -> B\n  B -> ",
+     "Nothing stands behind the arrow", 3, 5, 'To erase B, write "ε" or "*" there.'),
+    ("axiom: A(1/3, 2)\nA(x, y) : x < 1 | y < 1 -> B",
+     "This joins no conditions", 2, 17, '"Or" is typed "||".'),
+    ("axiom: A\nA -> [B)",
+     'This ")" closes nothing', 2, 8, 'A branch that begins with "[" ends with "]".'),
+    ("axiom: A(0)\nA(t) : t ≤ 5 ≤ 7 -> B",
+     "A second comparison stands here", 2, 14, 'Compare twice, as in "t ≤ 5 && 5 ≤ 7".'),
+    ("axiom: A\nA ->-> B",
+     "A second arrow stands in this production", 2, 5, "Write one production a line."),
+    ("axiom: A(0)\nA(t) : t != -> B",
+     "A value is missing here", 2, 13, A_VALUE),
+    ("axiom: A(0)\nA(t) ->\n",
+     "Nothing stands behind the arrow", 2, 6, 'To erase A(t), write "ε" or "*" there.'),
+    ("axiom: A(0)\nA(t) : (t < 5 -> B",
+     'This "(" is never closed', 2, 8, 'Every "(" needs a ")" behind it.'),
+    ("axiom: A(0)\nA(t) : t < 5) -> B",
+     'This ")" closes nothing', 2, 13, 'Every ")" needs a "(" before it.'),
+    ("axiom: A(0)\nA(t) :: t < 5 -> B",
+     "A value is missing here", 2, 7, A_VALUE),
+    ("axiom: A\n/* ( */ A -> B -> C",
+     "A second arrow stands in this production", 2, 16, "Write one production a line."),
+    ("axiom: A\nA /* \u202e */ ->",
+     "Nothing stands behind the arrow", 2, 11, 'To erase A, write "ε" or "*" there.'),
+    ("axiom: A\nA(t) : t < 1, t > 3 -> B",
+     'I did not expect "," here', 2, 13, "Possible here: an arrow."),
+    ("dt 3\naxiom: A",
+     "An arrow is missing here", 1, 4, PRODUCTION),
+    ("axiom: A\nA -> B axiom: B",
+     'This ":" stands behind the arrow', 2, 13, 'A condition stands before it, as in "A(t) : t < 5 -> B".'),
+    ("axiom: A(2^0.5^)",
+     "A value is missing here", 1, 16, A_VALUE),
+    ("axiom: A(floor())",
+     "Nothing stands in these parentheses", 1, 15, "Write a value there, or leave the parentheses out."),
+]
+"""A model, what is said of it, the line and the column, and the hint."""
+UNKNOWN = [
+    ("axiom: A(0)\nA(t) : tt < 5 -> A(t+1)",
+     'I do not know the name "tt"', 2, 8, 'Did you mean "t"?'),
+    ("axiom: A(0)\nA(time) : tme < 5 -> A(time+1)",
+     'I do not know the name "tme"', 2, 11, 'Did you mean "time"?'),
+    ("lifeTimeA = 3\naxiom: A(0)\nA(t) : t < lifetimeA -> A(t+1)",
+     'I do not know the name "lifetimeA"', 3, 12, 'Did you mean "lifeTimeA"?'),
+    ("axiom: A\nA -> A(t)",
+     'I do not know the name "t"', 2, 8, NO_NAMES),
+    ("axiom: A(0)\nA(t) -> A(sqr(t))",
+     'I do not know the function "sqr"', 2, 11, 'Did you mean "sqrt"?'),
+    ("axiom: A(0)\nA(t) -> A(sin(t))",
+     'I do not know the function "sin"', 2, 11, "Functions are: abs, ceil, exp, floor, log, max, min, sqrt."),
+    ("axiom: A\nA = B",
+     'I do not know the name "B"', 2, 5, 'A production reads "A -> B".'),
+    ("Axiom = A\nA -> B",
+     '"Axiom" is no constant', 1, 1, 'Type "axiom: A".'),
+    ("dt = 1\ndt = 2\naxiom: A",
+     'The constant "dt" is declared twice', 2, 1, "Keep one of the two lines."),
+    ("dt = x\naxiom: A",
+     'I do not know the name "x"', 1, 6, 'A production reads "dt -> x".'),
+    ("axiom: A(1, 2)\nA(x, x) -> B",
+     'The parameter "x" is named twice', 2, 6, "Give each parameter a name of its own."),
+    ("axiom: A\nA(t+1) -> B",
+     'Before the arrow a parameter stands alone, not as "t + 1"', 2, 3, 'Write "A(t)" there.'),
+    ("angle: x\naxiom: A",
+     'I do not know the name "x"', 1, 8, NO_NAMES),
+    ("angle = 60\naxiom: A",
+     '"angle" is no constant', 1, 1, 'Type "angle: 60".'),
+    ("axiom: A(t)\n",
+     'I do not know the name "t"', 1, 10, NO_NAMES),
+    ("dt = 2\nangle: dt\naxiom: A",
+     'The constant "dt" cannot be used here', 2, 8, '"angle:" is set to a number.'),
+]
+"""Names that stand for nothing."""
+SENSELESS = [
+    ("axiom: A(0)\nA(t) : t -> B",
+     '"t" is a number, but something true or false is needed here', 2, 8, 'Compare it with something, as in "t > 0".'),
+    ("axiom: A(0)\nA(t) -> B(t < 1)",
+     '"t < 1" is true or false, but a number is needed here', 2, 11, None),
+    ("axiom: A(0)\nA(t) : t && 1 -> B",
+     '"t" is a number, but something true or false is needed here', 2, 8, 'Compare it with something, as in "t > 0".'),
+    ("dt = 9 in 1 .. 6\naxiom: A",
+     '"dt" is 9, which is not in its range 1 .. 6', 1, 6, "Choose a value in the range, or a wider range."),
+    ("dt = 3 in 6 .. 1\naxiom: A",
+     'The range of "dt" is upside down', 1, 11, 'Write the smaller end first: "in 1 .. 6".'),
+    ("dt = 3 in 1 .. 6 by 0\naxiom: A",
+     'The step of "dt" must be greater than 0', 1, 21, 'It says how far one move of the slider goes, as in "by 0.1".'),
+    ("dt = 1/0\naxiom: A",
+     '"1/0" has no value: division by zero', 1, 6, None),
+    ("x = 9^9^9^9\naxiom: A",
+     '"9^9^9^9" has no value: the result is too large', 1, 5, None),
+    ("steps: 2.5\naxiom: A",
+     '"2.5" is no number of steps', 1, 8, "Steps are counted from 0: 0, 1, 2, ..."),
+    ("heading: 1/0\naxiom: A",
+     '"1/0" has no value: division by zero', 1, 10, None),
+]
+"""Values that cannot be what the model makes of them."""
+WITHOUT_VALUE = [
+    ("axiom: A(9^9^9^9)",
+     "The axiom has no value: the result is too large", 1, 8, None),
+    ("axiom: A(0)\nA(t) -> A(9^9^9^9)",
+     "A(0) under production 1, A(t) -> A(9^9^9^9), has no value: the result is too large", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A(1/t)",
+     "A(0) under production 1, A(t) -> A(1/t), has no value: division by zero", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A(log(t-1))",
+     "A(0) under production 1, A(t) -> A(log(t - 1)), has no value: log(-1) is not a number", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A(sqrt(t-1))",
+     "A(0) under production 1, A(t) -> A(sqrt(t - 1)), has no value: sqrt(-1) is not a number", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A((t-1)^0.5)",
+     "A(0) under production 1, A(t) -> A((t - 1)^0.5), has no value: (-1)^(0.5) is not a number", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A(0^(t-1))",
+     "A(0) under production 1, A(t) -> A(0^(t - 1)), has no value: division by zero", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A(0.5^0.5^(t-5000))",
+     "A(0) under production 1, A(t) -> A(0.5^0.5^(t - 5000)), has no value: the result is too large", 2, 1, KEEP_OUT),
+    ("axiom: A(0)\nA(t) -> A(exp(t+1000))",
+     "A(0) under production 1, A(t) -> A(exp(t + 1000)), has no value: the result is too large", 2, 1, KEEP_OUT),
+]
+"""Values that cannot be computed: the module and the production are named."""
+PLANT_STRINGS = [
+    ("Axiom: I\nI -> I[A",
+     'This "[" is never closed', 2, 7, 'Every branch ends with "]".'),
+    ("Axiom: I\nI -> I(A]",
+     'This "]" closes nothing', 2, 9, 'Every branch begins with "[".'),
+    ("Axiom: I\nI -> I)A",
+     'This ")" closes nothing', 2, 7, 'Every branch begins with "(".'),
+    ("Axiom: I\nI(1) -> A",
+     "A plant string has no values", 2, 2, PRODUCTION),
+    ("Axiom: I\nI -> I 2",
+     "A number stands alone in a word", 2, 8, 'A plant string has no values: "(" and ")" are branches.'),
+    ("Axiom: I\nI -> I(A 2)A",
+     "A number stands alone in a word", 2, 10, 'A plant string has no values: "(" and ")" are branches.'),
+    ("Axiom: I\nI -> I)(A 2",
+     "A number stands alone in a word", 2, 11, 'A plant string has no values: "(" and ")" are branches.'),
+    ("Axiom: I\nIA -> I",
+     "Only one module can be replaced", 2, 2, 'Write a production for each: "A -> ...", then "B -> ...".'),
+    ("Axiom: I\nI -> A -> I",
+     "A second arrow stands in this production", 2, 8, "Write one production a line."),
+    ("Axiom: I\nI ->",
+     "Nothing stands behind the arrow", 2, 3, 'To erase I, write "ε" or "*" there.'),
+    ("I -> A",
+     "There is no axiom", 1, 7, 'Give the first word on a line of its own, as in "axiom: A".'),
+    ("Axiom I\nI -> A",
+     'A ":" is missing behind "Axiom"', 1, 1, 'Type "axiom: I".'),
+    ("Axiom: I\nI = A",
+     "This is no arrow", 2, 3, PRODUCTION),
+    ("Axiom: I\nI -> \u0406",
+     'I cannot read the character "І" (CYRILLIC CAPITAL LETTER BYELORUSSIAN-UKRAINIAN I)', 2, 6,
+     "Names are made of the letters A to Z, digits and _."),
+    ("Axiom: I\nI -> I*A",
+     'Nothing else may stand beside "*"', 2, 7, "It says that the successor is empty."),
+    ("Axiom: I\nangle: x",
+     'I did not expect "x" here', 2, 8, "Possible here: a number."),
+    ("Axiom: I\nangle: 45\nangle: 60",
+     '"angle:" stands here a second time', 3, 1, "A system has one of it."),
+    ("Axiom: I\nAxiom: A",
+     "A second axiom stands here", 2, 1, "A system has one axiom."),
+    ("Axiom: I\nsteps: 1.5",
+     '"1.5" is no number of steps', 2, 8, "Steps are counted from 0: 0, 1, 2, ..."),
+    ("Axiom: I\nI => A",
+     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("Axiom: I\nI : t < 1 -> A",
+     "A plant string has no conditions", 2, 3, PRODUCTION),
+    ("Axiom: I\nI -> I_A",
+     'I did not expect "_" here', 2, 7, "Possible here: a symbol or the end of the line."),
+    ("Axiom: I\nI -> A,B",
+     'A "," is not needed here', 2, 7, "Modules and names stand side by side, with blanks between them."),
+]
+"""The same in plant strings."""
+
+
+KINDS = [(ModelSyntaxError, UNREADABLE), (ModelNameError, UNKNOWN), (ModelValueError, SENSELESS),
+         (ModelValueError, WITHOUT_VALUE)]
+
+
+def slip(text: str, notation: str = "abop") -> LSystemError:
+    """The error that a model ends in, while it is read or derived."""
+    with pytest.raises(LSystemError) as caught:
+        derive(read(text, notation), 3)
+    return caught.value
+
+
+@pytest.mark.parametrize(("kind", "row"), [(kind, row) for kind, rows in KINDS for row in rows])
+def test_a_slip_is_explained(kind: type[LSystemError], row: Sequence[object]) -> None:
+    text, *expected = row
+    error = slip(str(text))
+    assert [error.message, error.line, error.column, error.hint] == expected
+    assert type(error) is kind
+
+
+@pytest.mark.parametrize("row", PLANT_STRINGS)
+def test_a_slip_in_a_plant_string_is_explained(row: Sequence[object]) -> None:
+    text, *expected = row
+    error = slip(str(text), "plant-string")
+    assert [error.message, error.line, error.column, error.hint] == expected
+
+
+@pytest.mark.parametrize("row", [row for _, rows in KINDS for row in rows if row[0].isascii() and row[0].isprintable()])
+def test_the_caret_stands_under_the_place(row: Sequence[object]) -> None:
+    said = str(slip(str(row[0]))).split("\n")
+    assert said[-2] == "  " + str(row[0]).split("\n")[int(str(row[2])) - 1].rstrip()
+    assert said[-1].index("^") == int(str(row[3])) + 1
+
+
+def test_a_long_line_is_quoted_around_the_place() -> None:
+    said = str(slip("axiom: " + "A " * 500 + ", B")).split("\n")
+    assert len(said[-2]) < 110
+    assert said[-2][said[-1].index("^")] == ","
+
+
+def test_a_message_names_what_cannot_be_printed() -> None:
+    for text in ("axiom: A\u202eB", "axiom: A\ud800", "axiom: A\x07", "A /* \u202e */ ->", "axiom \u202e"):
+        assert all(part.isprintable() for part in str(slip(text)).split("\n"))
+
+
+@pytest.mark.parametrize("notation", ["cpfg", "ABOP", "", "plant"])
+def test_an_unknown_notation_is_named(notation: str) -> None:
+    if not notation:
+        assert str(read("axiom: A", notation)) == "axiom: A"
+        return
+    with pytest.raises(ModelNameError, match=f'There is no notation called "{notation}"\\. Notations are: abop, plant-string'):
+        read("axiom: A", notation)
+
+
+def test_a_model_is_text() -> None:
+    with pytest.raises(ModelValueError, match="A model is read from text, not from int"):
+        read(5)  # type: ignore[arg-type]

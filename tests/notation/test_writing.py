@@ -1,0 +1,102 @@
+"""Records to text: what is written reads back as the same system."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.expressions import Apply, Name, Number
+from lsys_kit.notation.model import Constant, LSystem, Module, Production
+from lsys_kit.notation.read import read
+from lsys_kit.notation.write import joined_in, write
+
+FULL = """dt = 0.7 in 0.1 .. 2 by 0.1
+T = 1
+alphabet: al FF
+angle: 25.7
+heading: 0
+steps: 4
+axiom: A(0)[+al]FF
+A(t) : t + dt < T && !(t > 3) -> A(t + dt)
+A(T) -> ε
+interpretation:
+A(t) -> F(t)"""
+
+
+def test_a_system_prints_as_it_was_laid_out() -> None:
+    assert str(read(FULL)) == FULL
+    assert read(str(read(FULL))) == read(FULL)
+
+
+def test_what_is_usual_is_not_written() -> None:
+    assert write(read("angle: 90\nheading: 90\naxiom: A")) == "axiom: A"
+
+
+def test_a_system_changes_its_notation() -> None:
+    system = read("angle: 30\naxiom: I\nI -> I[A]I\nA -> ε")
+    assert write(system, "plant-string") == "angle: 30\nAxiom: I\nI -> I[A]I\nA -> ε"
+    assert read(write(system, "plant-string"), "plant-string") == system
+
+
+@pytest.mark.parametrize(("text", "lacking"), [
+    ("axiom: A(1)", "parameters"), ("axiom: al", "symbols of several letters"), ("axiom: A\nA : 1 < 2 -> B", "conditions"),
+    ("k = 1\naxiom: A", "constants"), ("axiom: A\ninterpretation:\nA -> F", "interpretation rules"),
+    ("heading: 0\naxiom: A", "starting direction"), ("axiom: A_", "symbols of several letters"),
+    ("axiom: A\nA -> B(1)", "parameters"),
+])
+def test_what_a_plant_string_lacks_is_named(text: str, lacking: str) -> None:
+    with pytest.raises(ModelValueError, match=f"The notation plant-string has no {lacking}, which this system needs"):
+        write(read(text), "plant-string")
+
+
+def test_round_branches_are_for_plant_strings() -> None:
+    with pytest.raises(ModelValueError, match="The notation abop has no round brackets as branches"):
+        write(read("Axiom: I\nI -> I(A)", "plant-string"), "abop")
+
+
+def test_an_unknown_notation_is_named() -> None:
+    with pytest.raises(ModelNameError, match='There is no notation called "cpfg"'):
+        write(read("axiom: A"), "cpfg")
+
+
+def test_names_are_kept_apart_and_nothing_else() -> None:
+    word = tuple(map(Module, ("A", "B", "[", "+", "F", "]", "al", "_b", "(")))
+    assert joined_in("abop", word) == "A B[+F]al _b("
+    assert joined_in("plant-string", word) == "AB[+F]al_b("
+
+
+@pytest.mark.parametrize(("expression", "text"), [
+    (Apply("*", (Apply("+", (Name("a"), Name("b"))), Name("c"))), "(a + b) * c"),
+    (Apply("-", (Name("a"), Apply("-", (Name("b"), Name("c"))))), "a - (b - c)"),
+    (Apply("-", (Apply("-", (Name("a"), Name("b"))), Name("c"))), "a - b - c"),
+    (Apply("/", (Name("a"), Apply("*", (Name("b"), Name("c"))))), "a/(b * c)"),
+    (Apply("^", (Apply("^", (Name("a"), Name("b"))), Name("c"))), "(a^b)^c"),
+    (Apply("^", (Name("a"), Apply("^", (Name("b"), Name("c"))))), "a^b^c"),
+    (Apply("^", (Number(-2), Number(2))), "(-2)^2"),
+    (Apply("-x", (Apply("^", (Name("a"), Number(2))),)), "-a^2"),
+    (Apply("^", (Apply("-x", (Name("a"),)), Number(2))), "(-a)^2"),
+    (Apply("*", (Number(Fraction(1, 3)), Name("a"))), "1/3 * a"),
+    (Apply("^", (Number(Fraction(1, 3)), Name("a"))), "(1/3)^a"),
+    (Apply("!", (Apply("&&", (Apply("<", (Name("a"), Name("b"))), Apply("!", (Apply(">", (Name("a"), Name("b"))),)))),)),
+     "!(a < b && !(a > b))"),
+    (Apply("max", (Name("a"), Apply("-x", (Name("b"),)), Number(1))), "max(a, -b, 1)"),
+])
+def test_parentheses_stand_where_they_are_needed(expression: Apply, text: str) -> None:
+    assert str(expression) == text
+
+
+def test_equality_ignores_where_a_system_was_read() -> None:
+    one, other = read("axiom: A\nA -> B A"), read("\n\naxiom:   A\n/* x */ A -> B  A")
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one.source != other.source
+    assert one != read("axiom: A\nA -> A B")
+
+
+def test_records_print_as_the_notation() -> None:
+    assert str(Module("M", (Fraction(1, 2), -1))) == "M(0.5,-1)"
+    assert str(Production(Module("A"), ())) == "A -> ε"
+    assert str(Constant("k", Number(3))) == "k = 3"
+    assert str(LSystem((Module("A"),), ())) == "axiom: A"
