@@ -1,0 +1,108 @@
+"""Contexts: who stands to the left and to the right of a module, across brackets (ABOP, section 1.8; seed 003).
+
+The left context of a module goes back along its branch: it passes finished side branches and crosses an opening bracket to the
+parent. The right context goes on along its branch and passes side branches, unless the pattern names one: a named branch must
+match the beginning of a branch that stands there. Ignored symbols are passed on both sides. Nothing lies beyond the ends of
+the word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from lsys_kit.notation.model import Module
+
+OPENING, CLOSING = frozenset("[("), frozenset("])")
+NOBODY = -1
+"""The position of a neighbour that is not there."""
+Pattern: TypeAlias = Sequence["Module | Sequence[Module]"]
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """For each position of a word its neighbours' positions, or `NOBODY`.
+
+    Attributes
+    ----------
+    before
+        The module that the left context begins with.
+    after
+        The module that the right context begins with, side branches passed; for an opening bracket the module behind its
+        branch.
+    inside
+        For an opening bracket the first module of its branch.
+    closing
+        For an opening bracket the position of its closing one.
+
+    Examples
+    --------
+    >>> found = neighbours("ABC[DE][SG[HI]M]", ())
+    >>> "ABC[DE][SG[HI]M]"[found.before[8]], "ABC[DE][SG[HI]M]"[found.after[9]]
+    ('C', 'M')
+    """
+
+    before: Sequence[int]
+    after: Sequence[int]
+    inside: Sequence[int]
+    closing: Sequence[int]
+
+
+def neighbours(symbols: Sequence[str], ignored: Collection[str]) -> Neighbours:
+    """The neighbours of all positions of a word, in one pass in each direction."""
+    size = len(symbols)
+    before, after, inside, closing = ([NOBODY] * size for _ in range(4))
+    last, stack = NOBODY, []
+    for position, symbol in enumerate(symbols):
+        before[position] = last
+        if symbol in OPENING:
+            stack.append((last, position))
+        elif symbol in CLOSING:
+            if stack:
+                last, opened = stack.pop()
+                closing[opened] = position
+        elif symbol not in ignored:
+            last = position
+    following, behind = NOBODY, []
+    for position in range(size - 1, -1, -1):
+        symbol = symbols[position]
+        if symbol in OPENING:
+            inside[position] = following
+            following = behind.pop() if behind else NOBODY
+        after[position] = following
+        if symbol in CLOSING:
+            behind.append(following)
+            following = NOBODY
+        elif symbol not in OPENING and symbol not in ignored:
+            following = position
+    return Neighbours(before, after, inside, closing)
+
+
+def chain(links: Sequence[int], position: int, length: int) -> tuple[int, ...]:
+    """The first so many neighbours of a position, following `before` or `after`; fewer where the branch ends.
+
+    >>> chain([-1, 0, 1, 2], 3, 2)
+    (2, 1)
+    """
+    found: list[int] = []
+    while len(found) < length:
+        position = links[position]
+        if position == NOBODY:
+            break
+        found.append(position)
+    return tuple(found)
+
+
+def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored: Collection[str]) -> Iterator[int]:
+    """The opening brackets of the side branches that stand right behind a position, before the next module."""
+    position += 1
+    while position < len(symbols):
+        if symbols[position] in OPENING:
+            yield position
+            position = around.closing[position]
+            if position == NOBODY:
+                return
+        elif symbols[position] not in ignored:
+            return
+        position += 1
