@@ -147,9 +147,9 @@ class States:
 
     def _fault(self, module: Module, rule: Rule, fault: Exception) -> ModelValueError:
         what = "The axiom" if module is _AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
-        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None,
-                               *(rule.production.at or (None, None)),
-                               None if module is _AXIOM else "A condition before the arrow can keep such values out.")
+        start, end = rule.production.at or (None, None)
+        hint = None if module is _AXIOM else "A condition before the arrow can keep such values out."
+        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None, start, end, hint)
 
 
 def axiom_rule(system: LSystem, arithmetic: str) -> Rule:
