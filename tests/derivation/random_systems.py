@@ -1,17 +1,19 @@
 """Random systems for laws: symbols of one letter and of several, parameters, conditions, constants, brackets, erasing.
 
 Nearly everything that is drawn can happen: parameters start near the numbers that conditions ask for, and change by one.
+`systems` are context-free; `systems_with` have the other kinds of rules, one kind or several at once.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from fractions import Fraction
 
 from hypothesis import strategies as st
 
 from lsys_kit.notation.arithmetic import Value, tidy
 from lsys_kit.notation.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model import Constant, LSystem, Module, Production
+from lsys_kit.notation.model import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
 
 SYMBOLS = ("A", "B", "al", "u_1")
 """Symbols that productions rewrite; each has as many parameters as `ARITY` says."""
@@ -105,3 +107,146 @@ def systems(draw: st.DrawFn) -> LSystem:
     axiom = [Module(symbol, tuple(Number(draw(numbers)) for _ in range(ARITY[symbol]))) for symbol in started]
     return LSystem((*axiom, *draw(successors(names))), tuple(rules), tuple(constants),
                    alphabet=tuple(symbol for symbol in SYMBOLS if len(symbol) > 1))
+
+
+CONTEXT, CHANCE, DECOMPOSITION, CUT, REPETITION, META = KINDS = (
+    "context", "chance", "decomposition", "cut", "repetition", "meta")
+ARITIES = {"A": 0, "B": 0, "S": 1, "F": 0, "+": 0, "f": 1, "%": 0, "D": 1, "E": 0}
+LIVELY = ("A", "B", "S")
+WEIGHTS = tuple(map(Number, (1, 2, Fraction(1, 2), Fraction(1, 3), Fraction(33, 100))))
+OPEN, CLOSE = Module("["), Module("]")
+
+
+@st.composite
+def arguments(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str]) -> Expression:
+    """What stands in a module: an age that grows, a small number, perhaps one drawn by chance."""
+    if CHANCE in kinds and draw(st.integers(0, 2)) == 0:
+        return draw(st.sampled_from((
+            Apply("uniform", (Number(0), Number(3))), Apply("normal", (Number(1), Number(Fraction(1, 2)))),
+            Apply("binomial", (Number(3), Number(Fraction(1, 2)))), Apply("poisson", (Number(1),)),
+            Apply("table", (Number(1), Number(2), Number(1))),
+            Apply("+", (Apply("uniform", (Number(0), Number(1))), Apply("uniform", (Number(-1), Number(1))))))))
+    if names and draw(st.integers(0, 2)):
+        name = Name(draw(st.sampled_from(names)))
+        return draw(st.sampled_from((name, Apply("+", (name, Number(1))), Apply("-", (name, Number(1))))))
+    return Number(draw(st.integers(0, 3)))
+
+
+@st.composite
+def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more: tuple[str, ...] = ()) -> Module:
+    rare = tuple(symbol for kind, symbol in ((CUT, "%"), (CUT, "%"), (DECOMPOSITION, "D"), (DECOMPOSITION, "E"), (META, "f"), (META, "f"))
+                 if kind in kinds)
+    symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+", *rare, *more)))
+    return Module(symbol, tuple(draw(arguments(names, kinds)) for _ in range(ARITIES[symbol])))
+
+
+@st.composite
+def items(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], least: int = 0, most: int = 2) -> tuple[Item, ...]:
+    """A part of a word, perhaps with a branch in it, perhaps with a part written several times."""
+    word: list[Item] = list(draw(st.lists(lively(names, kinds), min_size=least, max_size=most)))
+    if word and draw(st.integers(0, 2)) == 0:
+        start, end = sorted((draw(st.integers(0, len(word))), draw(st.integers(0, len(word)))))
+        word[start:end] = [OPEN, *word[start:end], CLOSE]
+    if REPETITION in kinds and draw(st.booleans()):
+        word.insert(draw(st.sampled_from((0, len(word)))), draw(repeats(names, kinds)))
+    return tuple(word)
+
+
+@st.composite
+def repeats(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], depth: int = 1) -> Repeat:
+    count: Expression = Number(draw(st.integers(0, 2)))
+    if names and draw(st.booleans()):
+        whole = Apply("floor", (Name(draw(st.sampled_from(names))),))
+        count = Apply("min", (Apply("max", (whole, Number(0))), Number(2)))
+    index = draw(st.sampled_from(("", "i", "j")[:2 + depth]))
+    known = (*dict.fromkeys((*names, index)),) if index else names
+    body: list[Item] = [draw(lively(known, kinds, ("S",)))]
+    if depth and draw(st.integers(0, 3)) == 0:
+        body.append(draw(repeats(known, kinds, 0)))
+    return Repeat(count, tuple(body) if draw(st.booleans()) else (OPEN, *body, CLOSE), index)
+
+
+@st.composite
+def patterns(draw: st.DrawFn, names: str, branches: bool) -> tuple[Module, ...]:
+    """Up to two neighbours; to the right some of them may stand on branches."""
+    word = []
+    for name in names[:draw(st.sampled_from((1, 1, 2)))]:
+        symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+")))
+        word.append(Module(symbol, (Name(name),) * ARITIES[symbol]))
+    if branches and draw(st.integers(0, 2)) == 0:
+        ways = [[OPEN, word[0], CLOSE, *word[1:]], [OPEN, *word, CLOSE]]
+        if len(word) == 2:
+            ways += [[word[0], OPEN, word[1], CLOSE], [OPEN, word[0], CLOSE, OPEN, word[1], CLOSE],
+                     [OPEN, word[0], OPEN, word[1], CLOSE, CLOSE]]
+        word = draw(st.sampled_from(ways))
+    return tuple(word)
+
+
+@st.composite
+def rules(draw: st.DrawFn, kinds: Collection[str]) -> Production:
+    symbol = draw(st.sampled_from(("S", *LIVELY, "S", "+")))
+    asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name("x")
+    predecessor = Module(symbol, (asked,) * ARITIES[symbol])
+    sides = draw(st.sampled_from(("left", "right", "right", "both", ""))) if CONTEXT in kinds else ""
+    left = draw(patterns("lm", branches=False)) if sides in ("left", "both") else ()
+    right = draw(patterns("rs", branches=True)) if sides in ("right", "both") else ()
+    names = tuple(a.name for module in (*left, predecessor, *right) for a in module.arguments if isinstance(a, Name))
+    condition = draw(conditions(names, 0)) if names and draw(st.integers(0, 3)) else None
+    probability = draw(st.sampled_from(WEIGHTS)) if CHANCE in kinds and draw(st.integers(0, 3)) else None
+    successor = draw(items(names, kinds, least=draw(st.sampled_from((0, 1, 1, 1)))))
+    return Production(predecessor, successor, condition, left, right, probability)
+
+
+@st.composite
+def decompositions(draw: st.DrawFn, kinds: Collection[str]) -> Production:
+    """A rule for D(n), which makes D of less than n where n is 1 or more, or for E, which makes neither."""
+    plain = tuple(kind for kind in kinds if kind not in (DECOMPOSITION, CUT))
+    probability = draw(st.sampled_from(WEIGHTS)) if CHANCE in kinds and draw(st.booleans()) else None
+    if draw(st.integers(0, 2)) == 0:
+        return Production(Module("E"), draw(items((), plain, least=1)), probability=probability)
+    less = draw(st.sampled_from((Apply("-", (Name("n"), Number(1))), Apply("/", (Name("n"), Number(2))))))
+    rest = draw(items(("n",), plain, most=1))
+    successor = (Module("D", (less,)), *rest, *draw(st.sampled_from(((), (Module("E"),)))))
+    bound = Number(draw(st.sampled_from((1, 1, 2))))
+    return Production(Module("D", (Name("n"),)), successor[::draw(st.sampled_from((1, 1, -1))) if not rest else 1],
+                      Apply(">=", (Name("n"), bound)), probability=probability)
+
+
+@st.composite
+def metas(draw: st.DrawFn) -> MetaRule:
+    """A rule that joins two modules, or removes them."""
+    if draw(st.booleans()):
+        moves = Module("f", (Name("x"),)), Module("f", (Name("y"),))
+        made = draw(st.sampled_from(((Module("f", (Apply("+", (Name("x"), Name("y"))),)),), ())))
+        return MetaRule(moves, made, draw(conditions(("x", "y"), 0)) if draw(st.booleans()) else None)
+    pair = tuple(Module(draw(st.sampled_from("ABF"))) for _ in range(2))
+    return MetaRule(pair, tuple(Module(symbol) for symbol in draw(st.sampled_from(("", "A", "F")))))
+
+
+@st.composite
+def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
+    """A system with some kinds of rules; with none named, with any mixture of them."""
+    if not kinds:
+        kinds = tuple(draw(st.lists(st.sampled_from(KINDS), min_size=2, max_size=len(KINDS), unique=True)))
+    rewriting = tuple(draw(st.lists(rules(kinds), min_size=4, max_size=8)))
+    meta = tuple(draw(st.lists(metas(), min_size=1, max_size=3))) if META in kinds else ()
+    plain = tuple(kind for kind in kinds if kind not in (CHANCE, REPETITION, CUT))
+    decomposed = (Module("D", (Number(draw(st.integers(1, 3))),)), Module("E")) if DECOMPOSITION in kinds else ()
+    axiom = [*draw(items((), plain, most=4)), *decomposed, *draw(instances(rewriting[:4], meta))]
+    ignored = draw(st.sampled_from(((), ("+",), ("+", "F")))) if CONTEXT in kinds else ()
+    return LSystem(
+        tuple(axiom), rewriting,  # type: ignore[arg-type]
+        decomposition=tuple(draw(st.lists(decompositions(kinds), min_size=1, max_size=3))) if DECOMPOSITION in kinds else (),
+        meta=meta, ignored=ignored,
+        considered=draw(st.sampled_from(((), (), LIVELY))) if CONTEXT in kinds and not ignored else ())
+
+
+@st.composite
+def instances(draw: st.DrawFn, rewriting: Collection[Production], meta: Collection[MetaRule]) -> list[Module]:
+    """A word in which rules find what they look for, as far as numbers and their neighbours allow."""
+    word: list[Module] = []
+    for rule in rewriting:
+        word += [*rule.left, rule.predecessor, *rule.right]
+    for joined in meta:
+        word += joined.predecessors
+    return [Module(m.symbol, tuple(Number(draw(st.integers(0, 3))) for _ in m.arguments)) for m in word]
