@@ -49,6 +49,10 @@ class Limits:
     """bits of an exact number while it is computed"""
     exponent: int = 1_000
     """absolute value of an exact exponent"""
+    repetitions: int = 100_000
+    """how often a part of a successor is repeated"""
+    decomposition: int = 100
+    """decompositions of what a decomposition made"""
     brackets: int = 10_000
     """nested brackets of a word"""
     segments: int = 20_000

@@ -10,8 +10,8 @@ from types import MappingProxyType
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, reason, sound
-from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, function_of, gives, names_in
-from lsys_kit.notation.model import Constant, Module, Production
+from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, function_of, gives, names_in
+from lsys_kit.notation.model import Constant, Item, MetaRule, Module, Production, Repeat
 
 
 def span(thing: object) -> tuple[int | None, int | None]:
@@ -31,6 +31,7 @@ def suggestion(name: str, known: Collection[str], likeness: float = 0.6) -> str 
 
 
 _NO_NAMES = 'A parameter is named before the arrow, as in "A(t) -> A(t+1)"; a constant on a line before, as in "dt = 0.5".'
+_RANDOM = 'Random numbers stand behind the arrow of a production, as in "A -> F(uniform(1, 2))".'
 _SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))
 """What is set with a colon and is no constant."""
 
@@ -48,15 +49,21 @@ def value_of(expression: Expression, source: str, values: Mapping[str, Value] = 
         raise ModelValueError(f'"{expression}" has no value: {reason(fault)}', source, *span(expression)) from None
 
 
-def check_expression(expression: Expression, names: Collection[str], source: str, wanted: str = "number") -> None:
-    """Every name is known, every operator gets what it takes, and the whole is what is wanted of it."""
+def check_expression(expression: Expression, names: Collection[str], source: str, wanted: str = "number",
+                     chance: bool = False) -> None:
+    """Every name is known, every operator gets what it takes, nothing is random where chance has no place, and the whole is
+    what is wanted of it."""
     if isinstance(expression, Name) and expression.name not in names:
         known = ", ".join(f'"{name}"' for name in sorted(names))
         hint = suggestion(expression.name, names) or (f"Known here: {known}." if known else _NO_NAMES)
         raise ModelNameError(f'I do not know the name "{expression.name}"', source, *span(expression), hint)
     if isinstance(expression, Apply):
-        for operand in expression.operands:
-            check_expression(operand, names, source, OPERATORS[expression.operator].takes)
+        operator = OPERATORS[expression.operator]
+        if operator.random and not chance:
+            raise ModelValueError(f'"{expression}" is another number at every use, which cannot be here', source,
+                                  *span(expression), _RANDOM)
+        for index, operand in enumerate(expression.operands):
+            check_expression(operand, names, source, operator.wanted(index), chance)
     if gives(expression) != wanted:
         if wanted == "truth":
             raise ModelValueError(f'"{expression}" is a number, but something true or false is needed here', source,
@@ -100,10 +107,67 @@ def check_range(constant: Constant, values: Mapping[str, Value], source: str) ->
                               *span(constant.value), "Choose a value in the range, or a wider range.")
 
 
-def check_production(production: Production, constants: Collection[str], source: str) -> None:
-    """Parameters are distinct, names known, the condition a truth, the brackets closed."""
+def check_production(production: Production, constants: Collection[str], source: str, section: str = "productions") -> None:
+    """Parameters are distinct, names known, the condition a truth, the brackets closed, contexts where they are possible."""
+    names = {*check_parameters(production.parameters, constants, source), *constants}
+    if section != "productions" and (production.left or production.right):
+        raise ModelSyntaxError(f"A rule of the {section} has no context", source, *span(production),
+                               "It is applied to one module at a time.")
+    bracket = next((module for module in (*production.left, production.predecessor) if module.symbol in "[]()"), None)
+    if bracket is not None:
+        raise ModelSyntaxError("A bracket cannot stand here", source, *span(bracket),
+                               "A right context may name branches; a left context passes them.")
+    check_word(production.right, constants, source, arguments=False)
+    if production.condition is not None:
+        check_expression(production.condition, names, source, "truth")
+    check_probability(production, names, source, section)
+    check_word(production.successor, names, source, chance=section != "interpretation")
+
+
+def check_probability(production: Production, names: Collection[str], source: str, section: str) -> None:
+    """A probability is a number, and stands where something is left to chance."""
+    probability = production.probability
+    if probability is None:
+        return
+    if section == "interpretation":
+        raise ModelValueError("A rule of the interpretation has no probability", source, *span(probability),
+                              "A word is always drawn alike; what is left to chance stands in the productions.")
+    if gives(probability) == "truth":
+        raise ModelValueError(f'A probability stands behind the successor, but "{probability}" is true or false', source,
+                              *span(probability), 'A condition stands before the arrow, as in "A(t) : t < 5 -> B".')
+    check_expression(probability, names, source)
+    if isinstance(probability, Number) and probability.value < 0:
+        raise ModelValueError("A probability is not negative", source, *span(probability))
+
+
+def check_repeat(repeat: Repeat, names: Collection[str], source: str, chance: bool) -> None:
+    """The count is a number, whole and not too great where it is written out; the name that counts is new."""
+    check_expression(repeat.count, names, source, chance=chance)
+    if repeat.index in names:
+        raise ModelNameError(f'The name "{repeat.index}" is already used', source, *span(repeat),
+                             "Give what counts the repetitions a name of its own.")
+    if isinstance(repeat.count, Number) and not (isinstance(repeat.count.value, int)
+                                                 and 0 <= repeat.count.value <= current().repetitions):
+        raise ModelValueError(f'"{repeat.count}" is no number of repetitions', source, *span(repeat.count),
+                              f"Repetitions are counted from 0 up to {current().repetitions:,}.")
+    check_word(repeat.body, {*names, repeat.index} - {""}, source, chance=chance)
+
+
+def check_meta(rule: MetaRule, constants: Collection[str], source: str) -> None:
+    """A meta-rule makes a word shorter, and knows its names."""
+    names = {*check_parameters(rule.predecessors, constants, source), *constants}
+    if rule.condition is not None:
+        check_expression(rule.condition, names, source, "truth")
+    check_word(rule.successor, names, source)
+    if any(isinstance(item, Repeat) for item in rule.successor) or len(rule.successor) >= len(rule.predecessors):
+        raise ModelSyntaxError("A meta-rule must make the word shorter", source, *span(rule),
+                               "Let fewer modules stand behind the arrow than before it.")
+
+
+def check_parameters(modules: Iterable[Module], constants: Collection[str], source: str) -> list[str]:
+    """The parameters that some modules name: each once, each alone."""
     parameters: list[str] = []
-    for argument in production.predecessor.arguments:
+    for argument in (argument for module in modules for argument in module.arguments):
         if isinstance(argument, Name) and argument.name not in constants:
             if argument.name in parameters:
                 raise ModelNameError(f'The parameter "{argument.name}" is named twice', source, *span(argument),
@@ -113,24 +177,24 @@ def check_production(production: Production, constants: Collection[str], source:
             strange = sorted(names_in(argument) - set(constants))
             if strange:
                 raise ModelNameError(f'Before the arrow a parameter stands alone, not as "{argument}"', source, *span(argument),
-                                     f'Write "{production.predecessor.symbol}({strange[0]})" there.')
+                                     f'Write "{strange[0]}" there, and the calculation behind the arrow.')
             check_expression(argument, constants, source)
-    names = {*parameters, *constants}
-    if production.condition is not None:
-        check_expression(production.condition, names, source, "truth")
-    check_word(production.successor, names, source)
+    return parameters
 
 
-def check_word(word: Iterable[Module], names: Collection[str], source: str) -> None:
+def check_word(word: Iterable[Item], names: Collection[str], source: str, arguments: bool = True, chance: bool = False) -> None:
     """The arguments are numbers, not too many, and the brackets close."""
     opened: list[Module] = []
     closing = {"]": "[", ")": "("}
     for module in word:
+        if isinstance(module, Repeat):
+            check_repeat(module, names, source, chance)
+            continue
         if len(module.arguments) > current().parameters:
             raise ModelSyntaxError(f'"{module.symbol}" has more than {current().parameters} parameters', source, *span(module))
-        for argument in module.arguments:
+        for argument in module.arguments if arguments else ():
             if isinstance(argument, Expression):
-                check_expression(argument, names, source)
+                check_expression(argument, names, source, chance=chance)
         if module.symbol in closing.values():
             opened.append(module)
             if len(opened) > current().brackets:

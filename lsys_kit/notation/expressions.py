@@ -1,28 +1,28 @@
 """Arithmetic expressions: trees that are read from text, printed, run as functions and shown by sympy.
 
-An expression is a number, a name, or an operator applied to expressions. One table, `OPERATORS`, says for each operator
-how it is written, what it computes and whether it deals in numbers or in truths; everything else here walks the tree.
-Nothing is ever compiled from text: a function is put together from the functions of its operands.
+An expression is a number, a name, or an operator applied to expressions. The table `OPERATORS` says what each operator is;
+everything here walks the tree. Nothing is ever compiled from text: a function is put together from the functions of its
+operands.
 
 Decimal literals are rational numbers, and arithmetic is exact (see `arithmetic`).
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from lsys_kit.notation.arithmetic import Value, divide, exact, number_text, power, real, rounded
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.arithmetic import Value, number_text
+from lsys_kit.notation.operators import OPERATORS as OPERATORS
+from lsys_kit.notation.operators import Function as Function
 
 if TYPE_CHECKING:
     import sympy
 
 Place: TypeAlias = tuple[int, int] | None
 """The offsets in the text between which something was read."""
-Function: TypeAlias = Callable[[tuple[Value, ...]], Any]
-"""What an expression is run as: from the values of its names, in a fixed order, to its own value."""
 
 
 @dataclass(frozen=True)
@@ -95,82 +95,6 @@ def _within(expression: Expression, precedence: int) -> str:
     return f"({expression})" if own is not None and own < precedence else str(expression)
 
 
-def _strict(function: Callable[..., Any]) -> Callable[..., Function]:
-    """An operator that needs all its operands: run them, then it."""
-
-    def build(*operands: Function) -> Function:
-        if len(operands) == 2:
-            left, right = operands
-            return lambda v: function(left(v), right(v))
-        if len(operands) == 1:
-            (only,) = operands
-            return lambda v: function(only(v))
-        return lambda v: function(*[operand(v) for operand in operands])
-
-    return build
-
-
-@dataclass(frozen=True)
-class Operator:
-    """How an operator runs, binds and what it deals in.
-
-    Attributes
-    ----------
-    build
-        From the functions of the operands to the function of the whole.
-    precedence
-        How tightly it binds; None for a function that is written `name(...)`.
-    takes, gives
-        "number" or "truth".
-    arity
-        The least and the greatest number of operands.
-    """
-
-    build: Callable[..., Function]
-    precedence: int | None
-    takes: str = "number"
-    gives: str = "number"
-    arity: tuple[int, int] = (2, 2)
-
-    def spelling(self, operator: str) -> str:
-        return operator if self.precedence in (5, 7) and operator in "/^" else f" {operator} "
-
-
-def _and(left: Function, right: Function) -> Function:
-    return lambda v: left(v) and right(v)
-
-
-def _or(left: Function, right: Function) -> Function:
-    return lambda v: left(v) or right(v)
-
-
-OPERATORS: Mapping[str, Operator] = {
-    "||": Operator(_or, 0, "truth", "truth"),
-    "&&": Operator(_and, 1, "truth", "truth"),
-    "!": Operator(_strict(lambda x: not x), 2, "truth", "truth", (1, 1)),
-    "==": Operator(_strict(lambda x, y: x == y), 3, gives="truth"),
-    "!=": Operator(_strict(lambda x, y: x != y), 3, gives="truth"),
-    "<": Operator(_strict(lambda x, y: x < y), 3, gives="truth"),
-    "<=": Operator(_strict(lambda x, y: x <= y), 3, gives="truth"),
-    ">": Operator(_strict(lambda x, y: x > y), 3, gives="truth"),
-    ">=": Operator(_strict(lambda x, y: x >= y), 3, gives="truth"),
-    "+": Operator(_strict(lambda x, y: exact(x + y)), 4),
-    "-": Operator(_strict(lambda x, y: exact(x - y)), 4),
-    "*": Operator(_strict(lambda x, y: exact(x * y)), 5),
-    "/": Operator(_strict(divide), 5),
-    "-x": Operator(_strict(lambda x: -x), 6, arity=(1, 1)),
-    "^": Operator(_strict(power), 7),
-    "abs": Operator(_strict(abs), None, arity=(1, 1)),
-    "floor": Operator(_strict(real("floor", rounded(math.floor))), None, arity=(1, 1)),
-    "ceil": Operator(_strict(real("ceil", rounded(math.ceil))), None, arity=(1, 1)),
-    "min": Operator(_strict(min), None, arity=(2, 16)),
-    "max": Operator(_strict(max), None, arity=(2, 16)),
-    "sqrt": Operator(_strict(real("sqrt", math.sqrt)), None, arity=(1, 1)),
-    "exp": Operator(_strict(real("exp", math.exp)), None, arity=(1, 1)),
-    "log": Operator(_strict(real("log", math.log)), None, arity=(1, 1)),
-}
-
-
 def gives(expression: Expression) -> str:
     """What an expression is: a "number" or a "truth"."""
     return OPERATORS[expression.operator].gives if isinstance(expression, Apply) else "number"
@@ -189,6 +113,16 @@ def names_in(expression: Expression) -> frozenset[str]:
     return frozenset()
 
 
+def is_random(expression: Expression) -> bool:
+    """Whether an expression draws a number, so that it may have another value at every use.
+
+    >>> is_random(Apply("+", (Name("t"), Apply("uniform", (Number(0), Number(1))))))
+    True
+    """
+    return isinstance(expression, Apply) and (OPERATORS[expression.operator].random
+                                              or any(map(is_random, expression.operands)))
+
+
 def function_of(expression: Expression, order: Mapping[str, int], arithmetic: str = "exact") -> Function:
     """The function that an expression stands for.
 
@@ -197,7 +131,8 @@ def function_of(expression: Expression, order: Mapping[str, int], arithmetic: st
     expression
         Any expression whose names are all in `order`.
     order
-        For each name its index in the tuple of values that the function takes.
+        For each name its index in the tuple of values that the function takes. Where the expression is random, the last
+        element of that tuple is what draws the numbers: it has the methods `uniform`, `normal`, and so on.
     arithmetic
         "exact", or "float" to compute in doubles throughout, as cpfg and L-Py do.
 
@@ -220,6 +155,13 @@ def function_of(expression: Expression, order: Mapping[str, int], arithmetic: st
 def to_sympy(expression: Expression) -> sympy.Basic:
     """The expression as a sympy expression, to be shown as mathematics or solved; built from the tree, never from text.
 
+    Raises
+    ------
+    ModelValueError
+        The expression is random: no formula stands for it.
+
+    Examples
+    --------
     >>> from fractions import Fraction
     >>> to_sympy(Apply("*", (Number(Fraction(1, 2)), Name("t"))))
     t/2
@@ -231,11 +173,24 @@ def to_sympy(expression: Expression) -> sympy.Basic:
         return sympy.Float(value) if isinstance(value, float) else sympy.Rational(value.numerator, value.denominator)
     if isinstance(expression, Name):
         return sympy.Symbol(expression.name)
-    table: dict[str, Callable[..., sympy.Basic]] = {
+    if OPERATORS[expression.operator].random:
+        raise ModelValueError(f'"{expression}" is drawn anew at every use: no formula stands for it')
+    return _sympy_table()[expression.operator](*map(to_sympy, expression.operands))
+
+
+def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
+    """For each operator what builds it in sympy."""
+    import sympy
+
+    degree = sympy.pi / 180
+    return {
         "||": sympy.Or, "&&": sympy.And, "!": sympy.Not, "==": sympy.Eq, "!=": sympy.Ne,
         "<": sympy.Lt, "<=": sympy.Le, ">": sympy.Gt, ">=": sympy.Ge,
         "+": sympy.Add, "-": lambda x, y: x - y, "*": sympy.Mul, "/": lambda x, y: x / y, "-x": lambda x: -x,
         "^": sympy.Pow, "abs": sympy.Abs, "floor": sympy.floor, "ceil": sympy.ceiling, "min": sympy.Min,
-        "max": sympy.Max, "sqrt": sympy.sqrt, "exp": sympy.exp, "log": sympy.log,
+        "max": sympy.Max, "mod": sympy.Mod, "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
+        "sqrt": sympy.sqrt, "exp": sympy.exp, "log": sympy.log,
+        "sin": lambda x: sympy.sin(x * degree), "cos": lambda x: sympy.cos(x * degree), "tan": lambda x: sympy.tan(x * degree),
+        "asin": lambda x: sympy.asin(x) / degree, "acos": lambda x: sympy.acos(x) / degree,
+        "atan": lambda x: sympy.atan(x) / degree,
     }
-    return table[expression.operator](*map(to_sympy, expression.operands))

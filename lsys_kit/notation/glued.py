@@ -11,13 +11,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.model import Item, LSystem, Module, Repeat
 
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
 
 
-def unglued(word: Iterable[Module], system: LSystem) -> tuple[tuple[Module, ...], list[str]]:
+def unglued(word: Iterable[Item], system: LSystem) -> tuple[tuple[Item, ...], list[str]]:
     """A word with its glued names parted, and a note for each name that was.
 
     >>> from lsys_kit.notation.read import read
@@ -25,9 +25,14 @@ def unglued(word: Iterable[Module], system: LSystem) -> tuple[tuple[Module, ...]
     (Module(symbol='a', arguments=()), Module(symbol='b', arguments=()))
     """
     whole, parts = _symbols(system)
-    result: list[Module] = []
+    result: list[Item] = []
     notes: list[str] = []
     for module in word:
+        if isinstance(module, Repeat):
+            body, said = unglued(module.body, system)
+            result.append(replace(module, body=body))
+            notes += said
+            continue
         pieces = [] if len(module.symbol) < 2 or module.symbol in whole else _partings(module.symbol, parts)
         if not pieces:
             result.append(module)
@@ -41,9 +46,9 @@ def unglued(word: Iterable[Module], system: LSystem) -> tuple[tuple[Module, ...]
 @cache
 def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     """The names that stay whole, and the symbols of which a name may be made."""
-    rules = (*system.productions, *system.interpretation)
-    rewritten = {rule.predecessor.symbol for rule in rules}
-    shown = [m.symbol for m in (*system.axiom, *(m for rule in rules for m in rule.successor))]
+    rewritten = {rule.predecessor.symbol for rule in system.rules}
+    rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
+    shown = [m.symbol for m in (*system.axiom, *(m for rule in system.rules for m in rule.modules))]
     whole = rewritten | set(system.alphabet)
     return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
 

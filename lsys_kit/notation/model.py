@@ -6,7 +6,7 @@ may have a condition or none. `str` of a record is its text in the kit's own not
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -55,8 +55,56 @@ def _word_like(character: str) -> bool:
 
 
 @dataclass(frozen=True)
+class Repeat:
+    """A part of a successor that is written several times (GROGRA's `&(n) < ... >`).
+
+    >>> from lsys_kit.notation.expressions import Name
+    >>> print(Repeat(Name("n"), (Module("F"), Module("B", (Name("i"),))), "i"))
+    repeat(n,i) <F B(i)>
+
+    Attributes
+    ----------
+    count
+        How many times.
+    body
+        What is written.
+    index
+        The name that counts 0, 1, 2, ... in the body; empty where nothing counts.
+    """
+
+    count: Expression
+    body: tuple[Module | Repeat, ...]
+    index: str = ""
+    at: Place = field(default=None, compare=False, repr=False)
+    depth: int = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "depth", 1 + max((item.depth for item in self.body if isinstance(item, Repeat)), default=0))
+
+    def __str__(self) -> str:
+        return f"repeat({self.count}{f',{self.index}' if self.index else ''}) <{joined(map(str, self.body))}>"
+
+
+Item: TypeAlias = Module | Repeat
+"""What stands in a successor."""
+
+
+def flat(items: Iterable[Item]) -> Iterator[Module]:
+    """The modules of a successor, those of repeated parts once.
+
+    >>> [str(module) for module in flat((Module("A"), Repeat(2, (Module("B"),))))]
+    ['A', 'B']
+    """
+    for item in items:
+        if isinstance(item, Repeat):
+            yield from flat(item.body)
+        else:
+            yield item
+
+
+@dataclass(frozen=True)
 class Production:
-    """What a module becomes in one step: predecessor, optional condition, successor.
+    """What a module becomes in one step: predecessor and successor, perhaps contexts, a condition, a probability.
 
     Attributes
     ----------
@@ -66,16 +114,57 @@ class Production:
         The modules that replace it; none erases it.
     condition
         A truth that must hold, or None.
+    left, right
+        The modules that must stand to its left and right; a right context may name branches, with their brackets.
+    probability
+        How likely it is chosen among the productions with a probability that match; None where nothing is left to chance.
     """
 
     predecessor: Module
-    successor: tuple[Module, ...]
+    successor: tuple[Item, ...]
+    condition: Expression | None = None
+    left: tuple[Module, ...] = ()
+    right: tuple[Module, ...] = ()
+    probability: Expression | None = None
+    at: Place = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        left = f"{joined(map(str, self.left))} < " if self.left else ""
+        right = f" > {joined(map(str, self.right))}" if self.right else ""
+        condition = f" : {self.condition}" if self.condition is not None else ""
+        probability = f" : {self.probability}" if self.probability is not None else ""
+        return f"{left}{self.predecessor}{right}{condition} -> {joined(map(str, self.successor)) or 'ε'}{probability}"
+
+    @property
+    def modules(self) -> Iterator[Module]:
+        """All its modules, in the order written."""
+        yield from (*self.left, self.predecessor, *self.right)
+        yield from flat(self.successor)
+
+    @property
+    def parameters(self) -> tuple[Module, ...]:
+        """The modules whose arguments name its parameters."""
+        return *self.left, self.predecessor, *self.right
+
+
+@dataclass(frozen=True)
+class MetaRule:
+    """A rule that shortens a word after a step: neighbouring modules and what stands for them (seed 003, on movement).
+
+    >>> from lsys_kit.notation.expressions import Apply, Name
+    >>> print(MetaRule((Module("f", (Name("a"),)), Module("f", (Name("b"),))),
+    ...                (Module("f", (Apply("+", (Name("a"), Name("b"))),)),)))
+    meta: f(a)f(b) -> f(a + b)
+    """
+
+    predecessors: tuple[Module, ...]
+    successor: tuple[Item, ...]
     condition: Expression | None = None
     at: Place = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         condition = f" : {self.condition}" if self.condition is not None else ""
-        return f"{self.predecessor}{condition} -> {joined(map(str, self.successor)) or 'ε'}"
+        return f"meta: {joined(map(str, self.predecessors))}{condition} -> {joined(map(str, self.successor)) or 'ε'}"
 
 
 @dataclass(frozen=True)
@@ -111,6 +200,14 @@ class LSystem:
         Declared names, each of which may use those before it.
     interpretation
         Productions that turn a word into what is drawn, without changing the derivation.
+    decomposition
+        Productions that are applied after each step to what they themselves make too, until none applies.
+    meta
+        Rules that shorten the word after a step, until none applies.
+    ignored, considered
+        Symbols that contexts pass over; or, where these are given, the only ones that they do not pass over.
+    depth
+        How often interpretation rules are applied to what they make.
     angle, heading
         Degrees: by how much `+` and `-` turn, and in which direction the turtle starts (90 is up).
     steps
@@ -131,6 +228,11 @@ class LSystem:
     heading: Value = 90
     steps: int | None = None
     alphabet: tuple[str, ...] = ()
+    decomposition: tuple[Production, ...] = ()
+    meta: tuple[MetaRule, ...] = ()
+    ignored: tuple[str, ...] = ()
+    considered: tuple[str, ...] = ()
+    depth: int = 1
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
@@ -140,6 +242,11 @@ class LSystem:
 
         return write(self)
 
+    @property
+    def rules(self) -> tuple[Production, ...]:
+        """Productions, decomposition rules and interpretation rules."""
+        return *self.productions, *self.decomposition, *self.interpretation
+
 
 def symbols(system: LSystem) -> tuple[str, ...]:
     """All symbols of a system, in the order in which they are first read.
@@ -147,9 +254,12 @@ def symbols(system: LSystem) -> tuple[str, ...]:
     >>> symbols(LSystem((Module("A"),), (Production(Module("A"), (Module("A"), Module("B"))),)))
     ('A', 'B')
     """
-    modules = [*system.axiom, *(m for rule in system.productions for m in (rule.predecessor, *rule.successor))]
+    modules = [*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)]
     return tuple(dict.fromkeys(module.symbol for module in modules))
 
+
+OPENING, CLOSING = frozenset("[("), frozenset("])")
+"""The brackets of branches; round ones stand in plant strings only."""
 
 CELLS = ("L", "R")
 """The cells of a filament, pointing left and right: `L(length, width, shade)` and `R(length, width, shade)`, the modules

@@ -17,10 +17,11 @@ from lark.visitors import merge_transformers
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.arithmetic import Value
-from lsys_kit.notation.checks import check_constants, check_expression, check_production, check_word, span, value_of
+from lsys_kit.notation.checks import check_constants, check_expression, check_meta, check_production, check_word, span, value_of
 from lsys_kit.notation.expressions import Expression, names_in
+from lsys_kit.notation.foresight import check_decomposition, idle
 from lsys_kit.notation.glued import unglued
-from lsys_kit.notation.model import Constant, LSystem, Module, Production
+from lsys_kit.notation.model import Constant, LSystem, MetaRule, Module, Production, flat
 from lsys_kit.notation.records import Expressions, Misread, Statements
 from lsys_kit.notation.slips import explained
 from lsys_kit.notation.statements import statements
@@ -83,7 +84,8 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     check_word(word, (), text)
     if system is not None and notation == "abop":
         word, _ = unglued(word, system)
-    return tuple(replace(m, arguments=tuple(value_of(a, text) for a in m.arguments)) for m in word)
+    return tuple(replace(module, arguments=tuple(value_of(a, text) for a in module.arguments if isinstance(a, Expression)))
+                 for module in flat(word))
 
 
 def read_expression(text: str) -> Expression:
@@ -106,6 +108,10 @@ def read_number(text: str) -> Value:
     return value_of(expression, text)
 
 
+_SYMBOLS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
+"""The settings that are rows of symbols, and where a system has them."""
+
+
 @dataclass
 class _Draft:
     """What the statements read so far make of a system."""
@@ -113,7 +119,9 @@ class _Draft:
     source: str
     axiom: tuple[Module, ...] | None = None
     constants: list[Constant] = field(default_factory=list)
-    sections: dict[str, list[Production]] = field(default_factory=lambda: {"productions": [], "interpretation": []})
+    sections: dict[str, list[Production]] = field(
+        default_factory=lambda: {"productions": [], "decomposition": [], "interpretation": []})
+    meta: list[MetaRule] = field(default_factory=list)
     settings: dict[str, Any] = field(default_factory=dict)
     section: str = "productions"
 
@@ -131,6 +139,11 @@ class _Draft:
                                       source=self.source, start=at[0])
         elif kind == "section":
             self.section = record
+        elif kind == "meta":
+            self.meta.append(replace(record, at=at))
+        elif kind in ("ignore", "consider") and {"ignore", "consider"} & self.settings.keys() - {kind}:
+            raise ModelSyntaxError('Both "ignore:" and "consider:" stand here', self.source, *at,
+                                   "Say either what contexts pass over, or what they do not pass over.")
         elif kind in self.settings:
             raise ModelSyntaxError(f'"{kind}:" stands here a second time', self.source, *at, "A system has one of it.")
         else:
@@ -143,17 +156,23 @@ class _Draft:
             raise ModelSyntaxError("There is no axiom", source, len(source), None,
                                    'Give the first word on a line of its own, as in "axiom: A".')
         check_word(self.axiom, names, source)
-        for production in (*self.sections["productions"], *self.sections["interpretation"]):
-            check_production(production, names, source)
-        system = LSystem(self.axiom, tuple(self.sections["productions"]), tuple(self.constants),
-                         tuple(self.sections["interpretation"]), notation=notation, source=source, **self._settings())
-        return _with_parted_names(system) if notation == "abop" else system
+        for section, productions in self.sections.items():
+            for production in productions:
+                check_production(production, names, source, section)
+        for rule in self.meta:
+            check_meta(rule, names, source)
+        sections = {section: tuple(productions) for section, productions in self.sections.items()}
+        system = LSystem(self.axiom, constants=tuple(self.constants), meta=tuple(self.meta), notation=notation, source=source,
+                         **sections, **self._settings())  # type: ignore[arg-type]
+        system = _with_parted_names(system) if notation == "abop" else system
+        check_decomposition(system)
+        return replace(system, notes=(*system.notes, *idle(system)))
 
     def _settings(self) -> dict[str, Any]:
         result = {}
         for name, setting in self.settings.items():
-            if name == "alphabet":
-                result[name] = setting
+            if name in _SYMBOLS:
+                result[_SYMBOLS[name]] = setting
                 continue
             used = sorted(names_in(setting) & {constant.name for constant in self.constants})
             if used:
@@ -161,9 +180,10 @@ class _Draft:
                                      f'"{name}:" is set to a number.')
             check_expression(setting, (), self.source)
             result[name] = value_of(setting, self.source)
-            if name == "steps" and not (isinstance(result[name], int) and result[name] >= 0):
-                raise ModelValueError(f'"{setting}" is no number of steps', self.source, *span(setting),
-                                      "Steps are counted from 0: 0, 1, 2, ...")
+            if name in ("steps", "depth") and not (isinstance(result[name], int) and result[name] >= 0):
+                counted = "steps" if name == "steps" else "rounds"
+                raise ModelValueError(f'"{setting}" is no number of {counted}', self.source, *span(setting),
+                                      f"{counted.capitalize()} are counted from 0: 0, 1, 2, ...")
         return result
 
 
@@ -171,16 +191,18 @@ def _with_parted_names(system: LSystem) -> LSystem:
     """The system with letters that were written together parted, and a note that says so."""
     notes: dict[str, None] = {}
 
-    def part(word: tuple[Module, ...]) -> tuple[Module, ...]:
+    def part(word: tuple[Any, ...]) -> tuple[Any, ...]:
         parted, said = unglued(word, system)
         notes.update(dict.fromkeys(said))
         return parted
 
     def parted_rules(rules: tuple[Production, ...]) -> tuple[Production, ...]:
-        return tuple(replace(rule, successor=part(rule.successor)) for rule in rules)
+        return tuple(replace(rule, left=part(rule.left), right=part(rule.right), successor=part(rule.successor))
+                     for rule in rules)
 
     return replace(system, axiom=part(system.axiom), productions=parted_rules(system.productions),
-                   interpretation=parted_rules(system.interpretation), notes=tuple(notes))
+                   decomposition=parted_rules(system.decomposition), interpretation=parted_rules(system.interpretation),
+                   meta=tuple(replace(rule, successor=part(rule.successor)) for rule in system.meta), notes=tuple(notes))
 
 
 def _parse(notation: str, rule: str, text: str, start: int, end: int) -> Any:

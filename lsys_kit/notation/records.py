@@ -17,7 +17,7 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.arithmetic import tidy
 from lsys_kit.notation.checks import suggestion
 from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, Place
-from lsys_kit.notation.model import Constant, Module, Production
+from lsys_kit.notation.model import Constant, MetaRule, Module, Production, Repeat
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*"}
 
@@ -49,6 +49,11 @@ def _number(token: Token) -> Number:
     if value > float_info.max:
         raise Misread(ModelSyntaxError, "This number is too large", _around(token), "Numbers go up to about 10^308.")
     return Number(value, _around(token))
+
+
+def _named(part: Any) -> bool:
+    """Whether a part of a statement comes with its name."""
+    return isinstance(part, tuple) and len(part) == 2 and isinstance(part[0], str)
 
 
 @v_args(inline=True)
@@ -113,15 +118,44 @@ class Statements(Transformer[Any, Any]):
     def erased(self, _: Token) -> tuple[Module, ...]:
         return ()
 
-    def condition(self, expression: Expression) -> Expression:
-        return expression
+    def left(self, *modules: Any) -> tuple[str, tuple[Module, ...]]:
+        return "left", modules[0] if modules else ()
 
-    def always(self) -> None:
-        return None
+    def right(self, *modules: Any) -> tuple[str, tuple[Module, ...]]:
+        return "right", modules[0] if modules else ()
 
-    def production(self, predecessor: Module, *rest: Any) -> tuple[str, Production]:
-        condition = rest[0] if len(rest) == 3 else None
-        return "production", Production(predecessor, rest[-1], condition)
+    def probability(self, expression: Expression) -> tuple[str, Expression]:
+        return "probability", expression
+
+    def condition(self, expression: Expression) -> tuple[str, Expression]:
+        return "condition", expression
+
+    def always(self) -> tuple[str, None]:
+        return "condition", None
+
+    def repeat(self, keyword: Token, count: Expression, *rest: Any) -> Repeat:
+        repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", _around(keyword, rest[-1][-1]))
+        if repeat.depth > current().depth:
+            raise Misread(ModelSyntaxError, f"Repetitions are nested more than {current().depth} deep", _around(keyword))
+        return repeat
+
+    def production(self, *parts: Any) -> tuple[str, Production]:
+        modules = [part for part in parts if isinstance(part, Module)]
+        successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
+        return "production", Production(modules[0], successor, **dict(part for part in parts if _named(part)))
+
+    def meta(self, _: Token, predecessors: tuple[Module, ...], *parts: Any) -> tuple[str, MetaRule]:
+        successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
+        return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _named(part)))
+
+    def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
+        for name in names:
+            _check_name(name)
+            if name in "[]":
+                raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(name),
+                              "Contexts follow the branches in any case.")
+        return (keyword.rstrip(": \t").lower(),
+                tuple(dict.fromkeys(_SPELLINGS.get(name, str(name)) for name in names)))
 
     def axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, tuple[Module, ...]]:
         return "axiom", word

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import number_text
-from lsys_kit.notation.model import LSystem, Module, joined
+from lsys_kit.notation.model import LSystem, Module, Repeat, flat, joined
 
 NOTATIONS = ("abop", "plant-string")
 """The notations that can be read and written."""
@@ -74,21 +74,28 @@ def _head(system: LSystem) -> Iterator[str]:
         yield f"heading: {number_text(system.heading)}"
     if system.steps is not None:
         yield f"steps: {system.steps}"
+    if system.depth != 1:
+        yield f"depth: {system.depth}"
+    for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
+        if symbols:
+            yield f"{keyword}: {' '.join(symbols)}"
 
 
 def _productions(system: LSystem, notation: str) -> Iterator[str]:
     for production in system.productions:
-        condition = f" : {production.condition}" if production.condition is not None else ""
-        yield f"{production.predecessor}{condition} -> {joined_in(notation, production.successor) or 'ε'}"
-    if system.interpretation:
-        yield "interpretation:"
-        yield from map(str, system.interpretation)
+        yield (f"{production.predecessor} -> {joined_in(notation, tuple(flat(production.successor))) or 'ε'}"
+               if notation == "plant-string" else str(production))
+    yield from map(str, system.meta)
+    for keyword, rules in (("decomposition", system.decomposition), ("interpretation", system.interpretation)):
+        if rules:
+            yield f"{keyword}:"
+            yield from map(str, rules)
 
 
 def _lacking(system: LSystem, notation: str) -> str | None:
     """The first thing that a system has and a notation lacks, in words."""
-    rules = (*system.productions, *system.interpretation)
-    modules = [*system.axiom, *(m for rule in rules for m in (rule.predecessor, *rule.successor))]
+    rules = system.rules
+    modules = [*system.axiom, *(m for rule in rules for m in rule.modules)]
     if notation == "abop":
         round_branches = any(module.symbol in "()" for module in modules)
         return "round brackets as branches" if round_branches else None
@@ -96,8 +103,13 @@ def _lacking(system: LSystem, notation: str) -> str | None:
         return "parameters"
     if any(len(module.symbol) > 1 for module in modules):
         return "symbols of several letters"
-    if any(rule.condition is not None for rule in rules):
-        return "conditions"
-    if system.constants:
-        return "constants"
-    return "interpretation rules" if system.interpretation else "starting direction" if system.heading != 90 else None
+    parts = {
+        "conditions": any(rule.condition is not None for rule in rules),
+        "contexts": any(rule.left or rule.right for rule in rules),
+        "probabilities": any(rule.probability is not None for rule in rules),
+        "repetition": any(isinstance(item, Repeat) for rule in rules for item in rule.successor),
+        "constants": bool(system.constants), "decomposition rules": bool(system.decomposition), "meta-rules": bool(system.meta),
+        "interpretation rules": bool(system.interpretation), "starting direction": system.heading != 90,
+        "ignored symbols": bool(system.ignored or system.considered),
+    }
+    return next((name for name, there in parts.items() if there), None)

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.arithmetic import Value, brief, exact, number_text, power, reason, sound, tidy
 from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, function_of, gives, names_in, to_sympy
 from lsys_kit.notation.read import read, read_expression
@@ -202,7 +203,11 @@ def test_every_operator_can_be_shown_as_mathematics() -> None:
     t, x = Name("t"), Name("x")
     truths = (Apply("<", (t, x)), Apply("==", (t, x)))
     for operator, entry in OPERATORS.items():
-        operands = (truths if entry.takes == "truth" else (t, x))[:entry.arity[0]]
+        operands = tuple(truths[i % 2] if entry.wanted(i) == "truth" else (t, x)[i % 2] for i in range(entry.arity[0]))
+        if entry.random:
+            with pytest.raises(ModelValueError, match="is drawn anew at every use: no formula stands for it"):
+                to_sympy(Apply(operator, operands))
+            continue
         names = {name for operand in operands for name in names_in(operand)}
         assert {symbol.name for symbol in to_sympy(Apply(operator, operands)).free_symbols} == names
     assert to_sympy(Number(0.5)) == sympy.Float(0.5)

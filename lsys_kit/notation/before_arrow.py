@@ -1,0 +1,87 @@
+"""What a parser stumbled over before the arrow of a production: contexts, the module to replace, a condition without ":"."""
+
+from __future__ import annotations
+
+import re
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.statements import ARROW
+from lsys_kit.notation.stumble import Stumble, outside
+
+PRODUCTION = 'A production reads "A -> B": what is replaced, an arrow, what replaces it.'
+_NOT_IN_STRINGS = {"(": "values", ":": "conditions", "<": "contexts", ">": "contexts"}
+_OPERATORS = frozenset(("TIMES", "SIGN", "POWER"))
+_SIDES = 'A left context ends with "<", a right context begins with ">", as in "A < B > C -> D".'
+_CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠])\s*(\S?)")
+
+
+def before_arrow(stumble: Stumble) -> ModelSyntaxError | None:
+    """What is wrong where the module to replace, its contexts and the colon are expected."""
+    arrow = ARROW.search(stumble.text, stumble.start, stumble.end)
+    if arrow is None:
+        return _missing_arrow(stumble)
+    head = stumble.text[stumble.start:arrow.start()]
+    if head.rstrip().endswith("<") and ":" not in head:
+        return stumble.error("The module to replace is missing", _SIDES, arrow.start(), len(arrow.group()))
+    if stumble.at > arrow.start() or (":" in stumble.before and not head.startswith("meta")):
+        return None
+    if stumble.accepted == {"ARROW"} and stumble.found in _NOT_IN_STRINGS:
+        return stumble.error(f"A plant string has no {_NOT_IN_STRINGS[stumble.found]}", PRODUCTION)
+    return _condition(stumble, head) or _context(stumble) or _several(stumble, head)
+
+
+def _missing_arrow(stumble: Stumble) -> ModelSyntaxError | None:
+    if not {"ARROW", "LESSTHAN"} & stumble.accepted or stumble.found.startswith("="):
+        return None
+    at = _behind_first(stumble) if stumble.accepted == {"LESSTHAN"} else stumble.at
+    return stumble.error("An arrow is missing here", PRODUCTION, at)
+
+
+def _behind_first(stumble: Stumble) -> int:
+    """The offset of what follows the first module of a statement."""
+    text = stumble.text[stumble.start:stumble.end]
+    symbol = re.match(r"\s*([A-Za-z_]\w*|\S)?", text)
+    rest = outside(text)[symbol.end() if symbol else 0:]
+    return stumble.end - len(rest.lstrip())
+
+
+def _condition(stumble: Stumble, head: str) -> ModelSyntaxError | None:
+    """A condition before which no ":" stands: what is compared is a parameter, or compared with a number."""
+    second = _behind_first(stumble)
+    found = _CONDITION.match(stumble.text, second, stumble.start + len(head))
+    if not found or head.startswith("meta") or not {"COLON", "LESSTHAN", "NAME"} & stumble.accepted:
+        return None
+    parameters = re.findall(r"\w+", stumble.text[stumble.start:second])[1:]
+    if found[1] or found[3] not in "<>" or found[2] in parameters or found[4].isdigit():
+        return stumble.error('A ":" is missing before the condition', 'A condition stands between ":" and the arrow, as in '
+                             '"A(t) : t < 5 -> B".', second)
+    return None
+
+
+def _context(stumble: Stumble) -> ModelSyntaxError | None:
+    """A "<" or ">" where none can stand."""
+    found, before = stumble.found, stumble.before
+    if found not in ("<", ">") or "RELATION" in stumble.accepted:
+        return None
+    if before.startswith("meta"):
+        return stumble.error("A meta-rule has no contexts", 'It says what stands for a row of modules, as in '
+                             '"meta: f(x) f(y) -> f(x+y)".')
+    if before.endswith("<"):
+        return stumble.error("The module to replace is missing", _SIDES)
+    if found in before:
+        side = 'left context: "A B < C -> D"' if found == "<" else 'right context: "A > B C -> D"'
+        return stumble.error(f'A second "{found}" stands here', f"A production has one {side}.")
+    if ">" in before:
+        return stumble.error("A left context stands here", "It stands before the module that is replaced. " + _SIDES)
+    return None
+
+
+def _several(stumble: Stumble, head: str) -> ModelSyntaxError | None:
+    """More than one module to replace."""
+    hint = _SIDES if "<" in head or ">" in head else 'Write a production for each: "A -> ...", then "B -> ...".'
+    if "LESSTHAN" in stumble.accepted and "ARROW" not in stumble.accepted and (
+            stumble.found in (":", ">") or ARROW.match(stumble.found)):
+        return stumble.error("Only one module can be replaced", hint, _behind_first(stumble), 1)
+    if "ARROW" in stumble.accepted and not _OPERATORS & stumble.accepted and stumble.found[:1].isalpha():
+        return stumble.error("Only one module can be replaced", hint)
+    return None
