@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -20,11 +23,11 @@ from lsys_kit.derivation.stages import stages
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.expressions import Number
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.model import LSystem, Module, Production, Repeat
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference
-from tests.derivation.random_systems import SYMBOLS, systems
+from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, KINDS, META, REPETITION, SYMBOLS, systems, systems_with
 
 STEPS = 4
 
@@ -217,3 +220,146 @@ def test_a_part_of_a_word_is_a_word(system: LSystem, start: int, end: int) -> No
     assert isinstance(part, Word)
     assert modules(part) == modules(word)[start:end]
     assert word[:start] == derive(system, STEPS)[-1][:start]
+
+
+# Systems with contexts, chance, decomposition, cuts, repetitions and meta-rules
+
+MIXED = [(kind,) for kind in KINDS] + [(CONTEXT, CHANCE), (CONTEXT, CUT), ()]
+"""Kinds of rules that are tested alone and together; `()` is any mixture."""
+seeds = st.integers(-3, 2**40)
+
+
+def defined(system: LSystem, seed: int = 0) -> list[reference.PlainWord]:
+    """The words after the definition, where they stay small."""
+    with limits(modules=10**6):
+        found = reference.words(system, STEPS, seed)[0]
+    assume(max(map(len, found)) <= 1_000)
+    return found
+
+
+@pytest.mark.parametrize("kinds", MIXED)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@given(data=st.data(), seed=seeds)
+def test_the_engine_follows_the_definition_of_every_kind(kinds: tuple[str, ...], data: st.DataObject, seed: int) -> None:
+    system = data.draw(systems_with(*kinds))
+    expected = defined(system, seed)
+    assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
+
+
+@pytest.mark.parametrize("kinds", MIXED)
+def test_the_random_systems_of_every_kind_are_not_idle(kinds: tuple[str, ...]) -> None:
+    seen: Counter[str] = Counter()
+
+    @settings(derandomize=True, max_examples=200, database=None, suppress_health_check=list(HealthCheck))
+    @given(systems_with(*kinds))
+    def look(system: LSystem) -> None:
+        words, applied = reference.words(system, STEPS)
+        rules = [system.productions[number] for number in applied]
+        seen.update({
+            "all": 1,
+            "condition": any(rule.condition is not None for rule in rules),
+            CONTEXT: any(rule.left or rule.right for rule in rules),
+            "named branch": any(module.symbol == "[" for rule in rules for module in rule.right),
+            CHANCE: any(rule.probability is not None for rule in rules),
+            CUT: any(symbol == "%" for word in words[:-1] for symbol, _ in word),
+            REPETITION: any(isinstance(item, Repeat) for rule in rules for item in rule.successor),
+            DECOMPOSITION: words != reference.words(replace(system, decomposition=()), STEPS)[0],
+            META: words != reference.words(replace(system, meta=()), STEPS)[0],
+        })
+
+    look()
+    for what in ("condition", *kinds):
+        assert seen[what] >= 0.3 * seen["all"], (what, seen)
+    if CONTEXT in kinds:
+        assert seen["named branch"] >= 0.15 * seen["all"], seen
+    assert kinds or min(seen[kind] for kind in KINDS) >= 0.25 * seen["all"], seen
+
+
+@given(systems_with(CONTEXT))
+def test_an_empty_context_is_none(system: LSystem) -> None:
+    for rule in system.productions:
+        condition = f": {rule.condition}" if rule.condition is not None else ""
+        bare = replace(rule, left=(), right=(), condition=None, successor=(Module("B"),))
+        assert read(f"axiom: A\n < {rule.predecessor} > -> B").productions == (bare,)
+        if not set(condition) & set("lmrs"):
+            text = f"axiom: A\n < {rule.predecessor} > {condition} -> B"
+            assert read(text).productions == (replace(bare, condition=rule.condition),)
+
+
+@given(systems_with(CONTEXT), st.sampled_from((1, 0.25, 7)), seeds)
+def test_what_has_no_rival_happens_whatever_its_probability(system: LSystem, probability: float, seed: int) -> None:
+    first = {rule.predecessor.symbol: rule for rule in reversed(system.productions)}
+    certain = replace(system, productions=tuple(first.values()))
+    chancy = tuple(replace(rule, probability=Number(probability)) for rule in first.values())
+    defined(certain)
+    assert list(map(modules, derive(replace(certain, productions=chancy), STEPS, seed=seed))) == list(
+        map(modules, derive(certain, STEPS)))
+
+
+@given(systems_with(), systems())
+def test_interpretation_never_changes_a_word(system: LSystem, other: LSystem) -> None:
+    defined(system)
+    drawn = replace(system, interpretation=tuple(
+        Production(Module(symbol), (Module("F"), Module("%"), Module("B"))) for symbol in ("A", "B", "F", "+", "E")))
+    assert list(map(modules, derive(drawn, STEPS))) == list(map(modules, derive(system, STEPS)))
+
+
+@given(systems_with(DECOMPOSITION), seeds)
+def test_a_decomposed_word_cannot_be_decomposed(system: LSystem, seed: int) -> None:
+    defined(system, seed)
+    for word in map(plain, list(derive(system, STEPS, seed=seed))[1:]):
+        assert all(reference.names_for(system, rule, [module], 0, {}) is None
+                   for module in word for rule in system.decomposition)
+
+
+@given(systems_with(META))
+def test_a_shortened_word_cannot_be_shortened(system: LSystem) -> None:
+    defined(system)
+    for word in map(plain, list(derive(system, STEPS))[1:]):
+        assert reference.shortened(system, word, {}) == word
+
+
+@given(systems(), systems())
+def test_what_stands_behind_a_cut_makes_no_difference(system: LSystem, other: LSystem) -> None:
+    known = {constant.name for constant in system.constants}
+    behind = tuple(module for module in other.axiom if not reference_names(module) - known)
+    cut = derive(replace(system, axiom=(*system.axiom, Module("%"), *behind)), STEPS)
+    assert list(map(modules, cut))[1:] == list(map(modules, derive(system, STEPS)))[1:]
+
+
+@pytest.mark.parametrize("kinds", [(CONTEXT,), (CHANCE,), ()])
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@given(data=st.data(), seed=seeds, steps=st.permutations(range(STEPS + 1)))
+def test_the_same_seed_gives_the_same_word_in_whatever_order(
+        kinds: tuple[str, ...], data: st.DataObject, seed: int, steps: list[int]) -> None:
+    system = data.draw(systems_with(*kinds))
+    defined(system, seed)
+    one_by_one = list(map(modules, derive(system, STEPS, seed=seed)))
+    asked = derive(system, STEPS, seed=seed)
+    assert {step: modules(asked[step]) for step in steps} == dict(enumerate(one_by_one))
+    for step in steps:
+        assert modules(derive(system, step, seed=seed)[-1]) == one_by_one[step]
+
+
+CHANCY = """axiom: A(1) S
+A(x) -> A(x + uniform(0, 1)) [ B ] : 0.5
+A(x) -> B A(normal(x, 2)) : 0.5
+S < A(x) > B -> A(poisson(2)) A(x)
+B -> [ + S ] B : 1/3
+B -> - B : 2/3"""
+
+
+def test_seeds_make_a_difference() -> None:
+    assert len({str(derive(read(CHANCY), 6, seed=seed)[-1]) for seed in range(10)}) == 10
+
+
+def test_words_do_not_depend_on_the_hashes_of_a_process() -> None:
+    program = f"from lsys_kit import derive, read; print([str(w) for w in derive(read({CHANCY!r}), 8, seed=3)])"
+    printed = {subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": number}, check=True,
+                              capture_output=True, text=True).stdout for number in ("0", "1", "2")}
+    assert len(printed) == 1
+
+
+@given(systems_with())
+def test_what_was_written_of_any_kind_reads_back(system: LSystem) -> None:
+    assert read(write(system)) == system

@@ -1,0 +1,142 @@
+"""What cpfg, the program of the Virtual Laboratory, derives from its own models: counts at every step, and words.
+
+The listings of `cases/cpfg.json` are in cpfg's notation; `abop` below writes them in the kit's: letters apart, `,` `0` and `1`
+under names, constants declared, a statement block put into the successor.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Iterator
+from math import isclose
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lsys_kit.derivation.derive import derive
+from lsys_kit.derivation.interpret import images
+from lsys_kit.notation.read import read
+from tests.derivation import reference
+
+CASES = {case["name"]: case for case in json.loads((Path(__file__).parent / "cases" / "cpfg.json").read_text(encoding="utf-8"))}
+NAMES = {",": "comma", "0": "zero", "1": "one"}
+"""What cpfg calls symbols that are no symbols in the kit's notation."""
+LETTERS = {name: letter for letter, name in NAMES.items()}
+MODULE = re.compile(r"([^\s(])(\([^()]*(?:\([^()]*\)[^()]*)*\))?")
+DROPPED = ("Lsystem:", "derivation length:", "endlsystem", "maximum depth:")
+
+
+def apart(word: str) -> str:
+    """A word of glued letters, apart."""
+    if word.strip() == "*":
+        return "ε"
+    return " ".join(NAMES.get(symbol, symbol) + arguments for symbol, arguments in MODULE.findall(word))
+
+
+def block_put_in(condition: str, successor: str) -> tuple[str, str]:
+    """A condition without its block of statements, and a successor with what the block computes."""
+    condition, _, block = condition.partition("{")
+    for name, computed in re.findall(r"(\w+)=([^;]*);", block):
+        successor = re.sub(rf"\b{name}\b", f"({computed})", successor)
+    return "" if condition.strip() == "1" else condition, successor
+
+
+def rule(line: str) -> str:
+    before, successor = line.split("-->")
+    pattern, _, condition = before.partition(":")
+    condition, successor = block_put_in(condition, successor)
+    sides = re.sub(r"[^<>]+", lambda side: f" {apart(side[0])} ", pattern)
+    return f"{sides.strip()}{' :' if condition else ''}{condition} -> {apart(successor)}"
+
+
+def abop(listing: str) -> Iterator[str]:
+    """The lines of a listing in the kit's notation."""
+    yield f"alphabet: {' '.join(LETTERS)}"
+    for line in listing.splitlines():
+        if line.startswith("#define"):
+            yield "{1} = {2}".format(*line.split())
+        elif line.startswith(("Axiom:", "ignore:", "consider:")):
+            keyword, word = line.split(":")
+            yield f"{keyword}: {apart(word)}"
+        elif "-->" in line:
+            yield rule(line)
+        elif line in ("decomposition", "homomorphism"):
+            yield {"decomposition": "decomposition:", "homomorphism": "interpretation:"}[line]
+        elif line.strip() and not line.startswith(DROPPED):
+            raise ValueError(line)
+
+
+def printed(word: Iterable[tuple[str, tuple[Any, ...]]]) -> str:
+    """A word as cpfg prints it."""
+    return "".join(LETTERS.get(symbol, symbol) + (f"({','.join(f'{float(v):g}' for v in values)})" if values else "")
+                   for symbol, values in word)
+
+
+KIT = {name: read("\n".join(abop(case["source"]))) for name, case in CASES.items()}
+NUMBER = re.compile(r"(?<=[(,])-?\d[\d.e+-]*")
+IN_SINGLES = {"anabaena_heterocysts_t_gt_0": "float", "timed_leaf_decomposition": "exact"}
+"""Models in which cpfg's single precision shows, and the kit's arithmetic for them: 4 + 20 * 0.1 is less than 6 in singles and
+doubles, so that cells divide a step late; and the sixth digit of a product may be another."""
+
+
+def words(name: str) -> Iterator[list[reference.PlainModule]]:
+    """The kit's words of all steps."""
+    steps = len(CASES[name]["steps"]) - 1
+    for word in derive(KIT[name], steps, arithmetic=IN_SINGLES.get(name, "exact")):
+        yield [(module.symbol, module.arguments) for module in word]
+
+
+def defined(name: str) -> Iterator[list[reference.PlainModule]]:
+    """The words of all steps after the definition."""
+    return iter(reference.words(KIT[name], len(CASES[name]["steps"]) - 1)[0])
+
+
+def same_but_for_precision(word: str, expected: str) -> bool:
+    """Whether two words have the same modules, with arguments that agree in five digits."""
+    numbers = zip(map(float, NUMBER.findall(word)), map(float, NUMBER.findall(expected)), strict=True)
+    return NUMBER.sub("", word) == NUMBER.sub("", expected) and all(isclose(a, b, rel_tol=2e-5) for a, b in numbers)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_kit_counts_what_cpfg_counts(name: str) -> None:
+    assert [len(word) for word in words(name)] == [step["modules"] for step in CASES[name]["steps"]]
+
+
+@pytest.mark.parametrize("name", CASES.keys() - IN_SINGLES.keys())
+def test_the_kit_derives_the_words_of_cpfg(name: str) -> None:
+    for word, step in zip(words(name), CASES[name]["steps"], strict=True):
+        assert printed(word) == step.get("string", printed(word)), step["n"]
+        assert hashlib.sha256(printed(word).encode()).hexdigest() == step["sha256"], step["n"]
+
+
+@pytest.mark.parametrize("name", IN_SINGLES)
+def test_the_kit_derives_the_words_of_cpfg_up_to_single_precision(name: str) -> None:
+    for word, step in zip(words(name), CASES[name]["steps"], strict=True):
+        assert same_but_for_precision(printed(word), step.get("string", printed(word))), step["n"]
+
+
+@pytest.mark.parametrize("name", CASES.keys() - IN_SINGLES.keys() - {"hogeweg_hesper_b"})
+def test_the_definition_gives_the_words_of_cpfg(name: str) -> None:
+    for word, step in zip(defined(name), CASES[name]["steps"], strict=True):
+        assert hashlib.sha256(printed(word).encode()).hexdigest() == step["sha256"], step["n"]
+
+
+def test_exact_ages_divide_a_step_earlier_than_those_of_cpfg() -> None:
+    """4 + 20 * 0.1 is 6: the cell divides at step 20, and cpfg's at step 21."""
+    system = KIT["anabaena_heterocysts_t_gt_0"]
+    lengths = {arithmetic: [len(word) for word in derive(system, 22, arithmetic=arithmetic)] for arithmetic in ("exact", "float")}
+    assert lengths["exact"].index(6) + 1 == lengths["float"].index(6) == 22
+
+
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if "steps_after_homomorphism" in case])
+def test_what_is_drawn_is_what_cpfg_draws(name: str) -> None:
+    for step in CASES[name]["steps_after_homomorphism"]:
+        derivation = derive(KIT[name], step["n"])
+        numbers = list(derivation[-1].numbers())
+        drawn = images(derivation.states, numbers)
+        text = printed((m.symbol, m.arguments) for number in numbers for m in drawn[number])
+        assert text == step.get("string", text)
+        assert sum(len(drawn[number]) for number in numbers) == step["modules"]
