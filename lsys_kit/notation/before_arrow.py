@@ -72,7 +72,7 @@ def _context(stumble: Stumble) -> ModelSyntaxError | None:
         side = 'left context: "A B < C -> D"' if found == "<" else 'right context: "A > B C -> D"'
         return stumble.error(f'A second "{found}" stands here', f"A production has one {side}.")
     if ">" in before:
-        return stumble.error("A left context stands here", "It stands before the module that is replaced. " + _SIDES)
+        return stumble.error("A left context stands here", 'It stands before the module that is replaced: "C < A > B -> D".')
     return None
 
 

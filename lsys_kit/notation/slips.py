@@ -106,7 +106,8 @@ def _arrows(stumble: Stumble) -> ModelSyntaxError | None:
         if stumble.before.endswith(":"):
             return stumble.error("There is no condition before the arrow", 'Write one, as in "t < 5", or leave the ":" out.')
     if not stumble.found and first and first.end() == len(stumble.before):
-        predecessor = printed(stumble.before[:first.start()].split(":")[0].strip())
+        head = re.sub(r"^meta[ \t]*:", "", stumble.before[:first.start()], flags=re.IGNORECASE)
+        predecessor = printed(head.split(":")[0].split("<")[-1].split(">")[0].strip())
         return stumble.error("Nothing stands behind the arrow", f'To erase {predecessor}, write "ε" or "*" there.',
                              stumble.start + first.start(), len(first.group()))
     return None
@@ -145,7 +146,10 @@ def _repetition(stumble: Stumble) -> ModelSyntaxError | None:
     if found == ">" and stumble.before.endswith("<"):
         return stumble.error("Nothing is repeated here", _REPEAT)
     if found in ("<", ">") and stumble.accepted != {"RPAR"}:
-        return stumble.error(f"I did not expect {quoted(found)} here", "Contexts stand before the arrow. " + _REPEAT)
+        return stumble.error(f"I did not expect {quoted(found)} here",
+                             'A context stands before the arrow; behind it "<" and ">" go with "repeat(3)".')
+    if stumble.accepted == {"NAME"} and stumble.before.endswith(","):
+        return stumble.error("A name that counts the repetitions is missing here", _REPEAT)
     return None
 
 
