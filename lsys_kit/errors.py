@@ -8,6 +8,7 @@ caret under the place, and suggests what to try. Faults of the kit itself are ne
 from __future__ import annotations
 
 import unicodedata
+from typing import Self
 
 
 class LSystemError(Exception):
@@ -52,6 +53,12 @@ class LSystemError(Exception):
             self.column = start - line_start + 1
             self.end = max(min(line_end, end or start + 1) - line_start + 1, self.column + 1)
         super().__init__(self._text())
+
+    def with_hint(self, hint: str) -> Self:
+        """The same error with another hint."""
+        self.hint = hint
+        self.args = (self._text(),)
+        return self
 
     def _text(self) -> str:
         where = f" (line {self.line}, column {self.column})" if self.line else ""

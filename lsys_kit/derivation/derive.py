@@ -8,28 +8,21 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import overload
 
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.expand import code_type, expanded
-from lsys_kit.derivation.states import States
+from lsys_kit.derivation.courses import Counting, Origins, Stepping, check_size, check_time, counted, course_of
+from lsys_kit.derivation.states import States, check_settled
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model import LSystem
 
-PLAIN = 4_096
-"""Words up to this length are lists, which are quicker than arrays at that size."""
-STATE_BYTES = 600
-"""About what one state takes in the table."""
-OFTEN = 1_024
-"""After how many states somebody looks at the clock."""
 
-
-def derive(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Derivation:
+def derive(system: LSystem, steps: int, *, seed: int = 0, arithmetic: str = "exact", **constants: object) -> Derivation:
     """Derive a system: the words of steps 0 to `steps`.
 
     Parameters
@@ -38,6 +31,8 @@ def derive(system: LSystem, steps: int, *, arithmetic: str = "exact", **constant
         Any L-system.
     steps
         How many steps.
+    seed
+        Where chance begins: the same seed gives the same words, on every machine.
     arithmetic
         "exact", or "float" to compute in doubles as cpfg and L-Py do.
     **constants
@@ -64,7 +59,9 @@ def derive(system: LSystem, steps: int, *, arithmetic: str = "exact", **constant
     >>> derive(fibonacci, 30).lengths[-1]
     2178309
     """
-    return Derivation(States(system, constants, arithmetic)).to(steps)
+    if isinstance(seed, bool) or not isinstance(seed, int):
+        raise ModelValueError(f"The seed must be a whole number, not {seed!r}")
+    return Derivation(course_of(States(system, constants, arithmetic), seed)).to(steps)
 
 
 class Derivation(Sequence[Word]):
@@ -78,10 +75,9 @@ class Derivation(Sequence[Word]):
         The last step.
     """
 
-    def __init__(self, states: States, steps: int = 0, shared: Derivation | None = None) -> None:
-        self.states, self.steps = states, steps
-        self._counts: list[Counter[int]] = shared._counts if shared else [Counter(states.axiom)]
-        self._words: dict[int, Word] = shared._words if shared else {}
+    def __init__(self, course: Counting | Stepping, steps: int = 0) -> None:
+        self.steps, self._course = steps, course
+        self.states = course.states
 
     def to(self, steps: int) -> Derivation:
         """The same derivation up to another step; what is known already is not computed again.
@@ -93,41 +89,21 @@ class Derivation(Sequence[Word]):
         """
         if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
             raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
-        for step, counts in enumerate(self._counts[:int(steps) + 1]):
-            self._check(step, counts.total())
-        until = time.monotonic() + current().seconds
-        while len(self._counts) <= steps:
-            step, before = len(self._counts), self._counts[-1]
-            self._check(step, sum(count * self.states.width(state) for state, count in before.items()))
-            self._counts.append(counted(self.states, before, partial(self._watch, step, until)))
-        return Derivation(self.states, int(steps), self)
+        until, reached = time.monotonic() + current().seconds, 0
+        try:
+            for reached in range(int(steps) + 1):
+                if reached > self._course.known:
+                    self._course.advance(until)
+                check_size(self.states, reached, self._course.size(reached))
+        except ModelLimitError as error:
+            raise self._refusal(error, reached) from None
+        return Derivation(self._course, int(steps))
 
-    def _check(self, step: int, size: int) -> None:
-        """Refuse a step whose word would be past a limit, before it is built."""
-        limit = current().modules
-        if size > limit:
-            raise self._refusal(f"Step {step} would have {_grouped(size)} modules; the limit is {_grouped(limit)}",
-                                step, limit, size, "modules")
-        self._check_bytes(step, size * code_type(len(self.states)).itemsize)
-
-    def _check_bytes(self, step: int, word: int) -> None:
-        needed, limit = word + len(self.states) * STATE_BYTES, current().bytes
-        if needed > limit:
-            raise self._refusal(f"Step {step} would take {_grouped(needed)} bytes; the limit is {_grouped(limit)}", step, limit,
-                                needed, "bytes")
-
-    def _watch(self, step: int, until: float) -> None:
-        """Refuse a step while it is counted, because it meets too many different modules."""
-        self._check_bytes(step, 0)
-        if time.monotonic() > until:
-            seconds = current().seconds
-            raise self._refusal(f"Step {step} was not reached in {seconds:g} seconds", step, seconds, None, "seconds")
-
-    def _refusal(self, message: str, step: int, limit: float, needed: int | None, name: str) -> ModelLimitError:
-        kept = Derivation(self.states, step - 1, self) if step else None
-        which = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
-        return ModelLimitError(message, limit=limit, needed=needed, partial=kept,
-                               hint=f"{which}Take fewer steps, or set limits({name}=...).")
+    def _refusal(self, error: ModelLimitError, step: int) -> ModelLimitError:
+        """The error with the steps that are kept."""
+        error.partial = Derivation(self._course, step - 1) if step else None
+        kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
+        return error.with_hint(kept + (error.hint or ""))
 
     def __len__(self) -> int:
         return self.steps + 1
@@ -142,9 +118,7 @@ class Derivation(Sequence[Word]):
         step = index + len(self) if index < 0 else index
         if not 0 <= step <= self.steps:
             raise IndexError(f"step {index} of a derivation of {self.steps} steps")
-        if step not in self._words:
-            self._words[step] = self._built(step)
-        return self._words[step]
+        return self._course.word(step)
 
     def __iter__(self) -> Iterator[Word]:
         return (self[step] for step in range(len(self)))
@@ -155,7 +129,7 @@ class Derivation(Sequence[Word]):
     @property
     def lengths(self) -> list[int]:
         """The number of modules at each step, known without building a word."""
-        return [counts.total() for counts in self._counts[:len(self)]]
+        return [self._course.size(step) for step in range(len(self))]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -166,14 +140,25 @@ class Derivation(Sequence[Word]):
         ('From step 7 on values outgrow 128 bits and are doubles, such as F(0.11270011762177155).',)
         """
         notes, inexact = self.states.system.notes, self.states.inexact
-        for step, counts in enumerate(self._counts[:len(self)] if inexact else ()):
-            if any(self.states.modules[state] == inexact for state in counts):
+        for step in range(len(self) if inexact else 0):
+            if any(self.states.modules[state] == inexact for state in self._course.counts(step)):
                 return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")
         return notes
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a step, known without building its word."""
-        return self._counts[step]
+        return self._course.counts(step)
+
+    def origins(self, step: int) -> Origins:
+        """Where the modules of a step's word come from: from which module of the word before, by which production.
+
+        >>> from lsys_kit.notation.read import read
+        >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
+        Origins(parents=[0, 0, 1], productions=[0, 0, 1])
+        """
+        if not 1 <= step <= self.steps:
+            raise ModelValueError(f"Only the words of steps 1 to {self.steps} come from a word before, not that of step {step}")
+        return self._course.origins(step)
 
     def column(self, centred: bool = False, coding: Mapping[str, str] | None = None) -> Column:
         """The words below one another, as in seed 000's `ColumnForm`.
@@ -199,16 +184,6 @@ class Derivation(Sequence[Word]):
         digits = len(str(self.steps))
         return Column("\n".join(f"{step:>{digits}} {text.center(width)}".rstrip() for step, text in enumerate(texts)))
 
-    def _built(self, step: int) -> Word:
-        size = self._counts[step].total()
-        before = self._words.get(step - 1)
-        if step == 0:
-            return Word(self.states, list(self.states.axiom))
-        if size <= PLAIN and before is not None:
-            return Word(self.states, [code for state in before.codes for code in self.states.successor(state)])
-        array = expanded(self.states, self._counts[:step + 1])
-        return Word(self.states, array.tolist() if size <= PLAIN else array)
-
 
 class Column(str):
     """Lines of text that a notebook shows as they are."""
@@ -217,18 +192,6 @@ class Column(str):
 
     def __repr__(self) -> str:
         return str(self)
-
-
-def counted(states: States, counts: Counter[int], watch: Callable[[], None] = lambda: None) -> Counter[int]:
-    """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
-    after: Counter[int] = Counter()
-    for number, (state, count) in enumerate(counts.items(), 1):
-        for successor in states.successor(state):
-            after[successor] += count
-        if number % OFTEN == 0:
-            watch()
-    watch()
-    return after
 
 
 def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Iterator[int]:
@@ -243,23 +206,11 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
     ModelLimitError
         Counting takes too long, because there are too many different modules.
     """
-    states = States(system, constants, arithmetic)
-    counts, left = Counter(states.axiom), current().seconds
+    states, left = States(system, constants, arithmetic), current().seconds
+    check_settled(states, "The number of modules of a step that is not derived")
+    counts = Counter(states.axiom)
     for step in range(steps + 1):
         started = time.monotonic()
-        counts = counted(states, counts, partial(_check_time, step, started + left)) if step else counts
+        counts = counted(states, counts, partial(check_time, states, step, started + left)) if step else counts
         left -= time.monotonic() - started  # the time between two steps is the asker's
         yield counts.total()
-
-
-def _check_time(step: int, until: float) -> None:
-    seconds = current().seconds
-    if time.monotonic() > until:
-        raise ModelLimitError(f"Step {step} was not counted in {seconds:g} seconds", limit=seconds,
-                              hint="Take fewer steps, or set limits(seconds=...).")
-
-
-def _grouped(number: float) -> str:
-    """A number with its digits in groups of three; a very long one by its number of digits."""
-    text = f"{number:,}"
-    return text if len(text) <= 40 else f"about 10^{len(str(int(number))) - 1}"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+from lsys_kit.derivation.chance import Chance
 from lsys_kit.derivation.rules import rules_of
 from lsys_kit.derivation.states import States
-from lsys_kit.notation.model import CELLS, LSystem, Module
+from lsys_kit.notation.model import CELLS, LSystem, Module, flat
 
 
 def images(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
@@ -17,13 +18,19 @@ def images(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ..
     >>> {str(states.modules[s]): " ".join(map(str, image)) for s, image in images(states, states.axiom).items()}
     {'A(2)': 'F(2) F(1)', '[': '[', 'B': 'B', ']': ']'}
     """
-    rules = rules_of(states.system, states.arithmetic, interpretation=True)
-    found: dict[int, tuple[Module, ...]] = {}
-    for state in dict.fromkeys(numbers):
-        module = states.modules[state]
-        rule = states.matching(module, rules)
-        found[state] = (module,) if rule is None else tuple(Module(*made) for made in states.made(rule, module))
-    return found
+    return {state: tuple(_image(states, states.modules[state], states.system.depth)) for state in dict.fromkeys(numbers)}
+
+
+def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
+    """What a module is drawn as; what that consists of is interpreted in turn, `depth` times in all."""
+    rules = rules_of(states.system, states.arithmetic, "interpretation")
+    chance = Chance(0, 0, 0)
+    rule = states.matching(module, rules, chance) if depth else None
+    if rule is None:
+        yield module
+        return
+    for made in states.made(rule, module, None, chance):
+        yield from _image(states, Module(*made), depth - 1)
 
 
 def is_filament(system: LSystem) -> bool:
@@ -33,5 +40,5 @@ def is_filament(system: LSystem) -> bool:
     >>> is_filament(read("axiom: a\\ninterpretation:\\na -> R(2,1)"))
     True
     """
-    made = [module for rule in system.interpretation for module in rule.successor]
+    made = [module for rule in system.interpretation for module in flat(rule.successor)]
     return bool(made) and all(module.symbol in CELLS and len(module.arguments) >= 2 for module in made)

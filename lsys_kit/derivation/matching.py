@@ -8,16 +8,15 @@ the word.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
-from lsys_kit.notation.model import Module
+from lsys_kit.derivation.rules import Branch, Rule
+from lsys_kit.notation.arithmetic import Value
+from lsys_kit.notation.model import CLOSING, OPENING, Module
 
-OPENING, CLOSING = frozenset("[("), frozenset("])")
 NOBODY = -1
 """The position of a neighbour that is not there."""
-Pattern: TypeAlias = Sequence["Module | Sequence[Module]"]
 
 
 @dataclass(frozen=True)
@@ -49,7 +48,7 @@ class Neighbours:
     closing: Sequence[int]
 
 
-def neighbours(symbols: Sequence[str], ignored: Collection[str]) -> Neighbours:
+def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
     """The neighbours of all positions of a word, in one pass in each direction."""
     size = len(symbols)
     before, after, inside, closing = ([NOBODY] * size for _ in range(4))
@@ -94,7 +93,7 @@ def chain(links: Sequence[int], position: int, length: int) -> tuple[int, ...]:
     return tuple(found)
 
 
-def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored: Collection[str]) -> Iterator[int]:
+def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored: Container[str]) -> Iterator[int]:
     """The opening brackets of the side branches that stand right behind a position, before the next module."""
     position += 1
     while position < len(symbols):
@@ -106,3 +105,60 @@ def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored:
         elif symbols[position] not in ignored:
             return
         position += 1
+
+
+def context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
+            ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of the modules that a rule names, in the order written, where its contexts match; else None."""
+    left = chain(around.before, position, len(rule.left))
+    if len(left) < len(rule.left) or any(_kind(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
+        return None
+    right = _followed(rule.right, word, symbols, around, position, ignored)
+    return None if right is None else (*reversed(left), position, *right)
+
+
+def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
+    """The values of the modules at some positions, one after another."""
+    return tuple(value for at in positions for value in word[at].arguments)  # type: ignore[misc]
+
+
+def _kind(module: Module) -> tuple[str, int]:
+    return module.symbol, len(module.arguments)
+
+
+def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
+              ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of a row of modules and branches that begins behind a position, or None."""
+    if not row:
+        return ()
+    first, rest = row[0], row[1:]
+    if isinstance(first[0], str):
+        at = around.inside[position] if symbols[position] in OPENING else around.after[position]
+        if at == NOBODY or _kind(word[at]) != first:
+            return None
+        found = _followed(rest, word, symbols, around, at, ignored)
+        return None if found is None else (at, *found)
+    return _branched(row, word, symbols, around, position, position, ignored)
+
+
+def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int, behind: int,
+              ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of a row that begins with branches, which stand behind a position and behind the branches named already."""
+    named: list[Branch] = []
+    for item in row:
+        if isinstance(item[0], str):
+            break
+        named.append(item)  # type: ignore[arg-type]
+    there = list(branches(symbols, around, position, ignored))
+    found: list[int] = []
+    for branch in named:
+        for opened in there:
+            inside = _followed(branch, word, symbols, around, opened, ignored) if opened > behind else None
+            if inside is not None:
+                found += inside
+                behind = around.closing[opened]
+                break
+        else:
+            return None
+    rest = _followed(row[len(named):], word, symbols, around, position, ignored)
+    return None if rest is None else (*found, *rest)

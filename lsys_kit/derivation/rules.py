@@ -8,18 +8,40 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, reason, sound, tidy
 from lsys_kit.notation.checks import suggestion
-from lsys_kit.notation.expressions import Function, Name, function_of
-from lsys_kit.notation.model import LSystem, Production
+from lsys_kit.notation.expressions import Expression, Function, Name, function_of, is_random
+from lsys_kit.notation.model import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, flat
 from lsys_kit.notation.read import read_number
+
+
+Kind: TypeAlias = tuple[str, int]
+"""What a rule asks of a module first: its symbol and the number of its parameters."""
+Branch: TypeAlias = tuple["Kind | Branch", ...]
+"""A row of modules, some of them branches: what a right context asks for."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A module of a successor: its symbol and the functions of its arguments."""
+
+    symbol: str
+    arguments: tuple[Function, ...]
+
+
+@dataclass(frozen=True)
+class Parts:
+    """A repeated part of a successor: the function that counts, and what is written each time."""
+
+    count: Function
+    body: tuple[Part | Parts, ...]
 
 
 @dataclass(frozen=True)
@@ -30,50 +52,113 @@ class Rule:
     ----------
     number
         The production's place in the order written, from 0.
+    left, right
+        What must stand to the left, the nearest first, and to the right, the nearest first.
     equalities
         Pairs of a parameter's index and a function whose value it must have.
-    condition
-        A truth, or None.
+    condition, probability
+        A truth and a weight, or None.
     successor
-        Pairs of a symbol and the functions of its arguments.
+        What it makes.
+    random
+        Whether what it makes is left to chance.
     """
 
     number: int
     production: Production
+    left: tuple[Kind, ...]
+    right: Branch
     equalities: tuple[tuple[int, Function], ...]
     condition: Function | None
-    successor: tuple[tuple[str, tuple[Function, ...]], ...]
+    probability: Function | None
+    successor: tuple[Part | Parts, ...]
+    random: bool
+
+    @property
+    def settled(self) -> bool:
+        """Whether a module alone decides what the rule does: no neighbour and no chance."""
+        return not (self.left or self.right or self.random or self.probability is not None)
 
 
-Rules = Mapping[tuple[str, int], tuple[Rule, ...]]
+Rules: TypeAlias = Mapping[Kind, tuple[Rule, ...]]
 """For each symbol and number of parameters its rules, in the order written."""
 
 
 @lru_cache(maxsize=256)
-def rules_of(system: LSystem, arithmetic: str = "exact", interpretation: bool = False) -> Rules:
+def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
     """The rules of a system, by the symbol and the number of parameters that they rewrite.
 
+    Parameters
+    ----------
+    system
+        Any L-system.
+    arithmetic
+        "exact" or "float".
+    section
+        "productions", "decomposition" or "interpretation".
+
+    Examples
+    --------
     >>> from lsys_kit.notation.read import read
     >>> sorted(rules_of(read("axiom: A(0)\\nA(t) : t < 5 -> A(t+1) B")))
     [('A', 1)]
     """
-    constants = [constant.name for constant in system.constants]
-    rules: dict[tuple[str, int], list[Rule]] = {}
-    for number, production in enumerate(system.interpretation if interpretation else system.productions):
-        arguments = production.predecessor.arguments
-        order = {name: len(arguments) + index for index, name in enumerate(constants)}
-        formal = [isinstance(a, Name) and a.name not in order for a in arguments]
-        order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
-
-        def ready(expression: Any, order: Mapping[str, int] = order) -> Function:
-            return function_of(expression, order, arithmetic)
-
-        rules.setdefault((production.predecessor.symbol, len(arguments)), []).append(Rule(
-            number, production,
-            tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
-            None if production.condition is None else ready(production.condition),
-            tuple((m.symbol, tuple(map(ready, m.arguments))) for m in production.successor)))
+    rules: dict[Kind, list[Rule]] = {}
+    for number, production in enumerate(getattr(system, section)):
+        rules.setdefault(kind_of(production.predecessor), []).append(rule_for(system, number, production, arithmetic))
     return {kind: tuple(found) for kind, found in rules.items()}
+
+
+def kind_of(module: Module) -> Kind:
+    """A module's symbol and the number of its parameters."""
+    return module.symbol, len(module.arguments)
+
+
+def rule_for(system: LSystem, number: int, production: Production, arithmetic: str) -> Rule:
+    """A production made ready; its functions take the values of all its parameters, then those of the system's constants."""
+    constants = [constant.name for constant in system.constants]
+    arguments = [argument for module in production.parameters for argument in module.arguments]
+    order = {name: len(arguments) + index for index, name in enumerate(constants)}
+    formal = [isinstance(a, Name) and a.name not in order for a in arguments]
+    order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
+
+    def ready(expression: Any) -> Function:
+        return function_of(expression, order, arithmetic)
+
+    given = [expression for module in flat(production.successor) for expression in module.arguments]
+    return Rule(
+        number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
+        tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
+        None if production.condition is None else ready(production.condition),
+        None if production.probability is None else ready(production.probability),
+        _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
+        any(isinstance(expression, Expression) and is_random(expression) for expression in given))
+
+
+def _parts(items: Sequence[Item], order: Mapping[str, int], size: int, arithmetic: str) -> tuple[Part | Parts, ...]:
+    """A successor's functions; those of a repeated part take one value more, what counts in it."""
+    found: list[Part | Parts] = []
+    for item in items:
+        if isinstance(item, Repeat):
+            inner = {**order, item.index: size} if item.index else order
+            found.append(Parts(function_of(item.count, order, arithmetic), _parts(item.body, inner, size + 1, arithmetic)))
+        else:
+            found.append(Part(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
+    return tuple(found)
+
+
+def _nested(modules: Sequence[Module]) -> Branch:
+    """A right context with its branches as rows of their own."""
+    rows: list[list[Any]] = [[]]
+    for module in modules:
+        if module.symbol in OPENING:
+            rows.append([])
+        elif module.symbol in CLOSING:
+            branch = tuple(rows.pop())
+            rows[-1].append(branch)
+        else:
+            rows[-1].append(kind_of(module))
+    return tuple(rows[0])
 
 
 def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> tuple[Value, ...]:

@@ -5,8 +5,8 @@ modules of a word. In an ordinary Petri net one transition fires at a time; here
 
 A place stands for one state. Cells that differ in their polarity only share a place, as in the paper, where tokens ignore
 order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where
-the states do not end, or cannot all be computed, a place stands for all modules of one symbol, and its transitions carry the
-productions' conditions.
+the states do not end, or cannot all be computed, a place stands for all modules of one symbol, and its transitions carry what the
+productions ask for: contexts, conditions, probabilities.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ from collections import Counter
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
-from lsys_kit.derivation.rules import rules_of
+from lsys_kit.derivation.interpret import images
+from lsys_kit.derivation.rules import kind_of, rules_of
 from lsys_kit.derivation.states import States, closure
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model import CELLS, LSystem, Module
+from lsys_kit.notation.model import CELLS, LSystem, Module, Production, flat, joined
 
 MOST_PLACES = 40
 """A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""
@@ -167,7 +168,7 @@ def stages(system: LSystem, polarity: bool = False, **constants: object) -> Stag
     """
     states = States(system, dict(constants))
     try:
-        known = closure(states, 4 * MOST_PLACES)
+        known = closure(states, 4 * MOST_PLACES) if states.settled else None
     except ModelValueError:  # a state further on has no successor; the earlier ones are worth a diagram
         known = None
     if known is None:
@@ -220,29 +221,34 @@ def _numbered(keys: Sequence[Hashable]) -> list[int]:
 def _look(states: States, state: int) -> Hashable:
     """What a state looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
     module = states.modules[state]
-    rules = rules_of(states.system, states.arithmetic, interpretation=True)
-    rule = states.matching(module, rules)
-    if rule is None or any(symbol not in CELLS for symbol, _ in rule.successor):
-        return module
-    return tuple(values for _, values in states.made(rule, module))
+    image = images(states, (state,))[state]
+    return tuple(cell.arguments for cell in image) if all(cell.symbol in CELLS for cell in image) else module
 
 
 def _by_symbol(system: LSystem, states: States) -> Stages:
     """The net whose places are symbols, and whose transitions carry conditions."""
     rules = rules_of(system)
-    kinds = dict.fromkeys((m.symbol, len(m.arguments)) for m in system.axiom)
-    for production in system.productions:
-        for module in (production.predecessor, *production.successor):
-            kinds.setdefault((module.symbol, len(module.arguments)))
+    kinds = dict.fromkeys(map(kind_of, system.axiom))
+    for production in (*system.productions, *system.decomposition):
+        for module in (production.predecessor, *flat(production.successor)):
+            kinds.setdefault(kind_of(module))
     where = {kind: number for number, kind in enumerate(kinds)}
     transitions: list[Transition] = []
     arcs: list[Arc] = []
     for kind, number in where.items():
         for rule in rules.get(kind, ()):
-            made = [where[symbol, len(arguments)] for symbol, arguments in rule.successor]
+            made = [where[kind_of(module)] for module in flat(rule.production.successor)]
             for target, copies in Counter(made).items():
                 arcs.append(Arc(len(transitions), target, copies, tuple(i for i, p in enumerate(made, 1) if p == target)))
-            condition = rule.production.condition
-            transitions.append(Transition(number, rule.number, "" if condition is None else str(condition)))
+            transitions.append(Transition(number, rule.number, _terms(rule.production)))
     places = tuple(Place(symbol, (), arity) for symbol, arity in kinds)
     return Stages(system, places, tuple(transitions), tuple(arcs), True, dict(where))
+
+
+def _terms(production: Production) -> str:
+    """What a production asks for besides its predecessor: contexts, condition, probability."""
+    left = f"{joined(map(str, production.left))} <" if production.left else ""
+    right = f"> {joined(map(str, production.right))}" if production.right else ""
+    condition = str(production.condition) if production.condition is not None else ""
+    chance = f"with {production.probability}" if production.probability is not None else ""
+    return " ".join(filter(None, (left, right, condition, chance)))

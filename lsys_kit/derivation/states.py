@@ -1,24 +1,26 @@
 """The table of states: each distinct module that a derivation meets, numbered in the order in which it is met.
 
-A module's fate in a context-free system depends on its symbol and values alone, so its successor is computed once, here,
-however often the module occurs. A word is then an array of states, the growth matrix counts states in successors, and the
-stage diagram is this table drawn.
+Where a module's fate depends on its symbol and values alone, its successor is computed once, here, however often the module
+occurs. A word is then an array of states, the growth matrix counts states in successors, and the stage diagram is this
+table drawn. Where neighbours or chance have a say, the table still numbers the modules, and what they become is computed
+for each combination that occurs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
 
-from lsys_kit.derivation.rules import Rule, Rules, constants_of, rules_of
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.budget import current
+from lsys_kit.derivation.chance import Chance, chosen
+from lsys_kit.derivation.rules import Kind, Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, reason, sound
 from lsys_kit.notation.model import LSystem, Module, Production
 
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
-
-
+CUT = "%"
+"""The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
 _AXIOM = Module("axiom")
 """What the axiom is made of."""
 
@@ -39,6 +41,10 @@ class States:
     ----------
     modules
         The module of each state.
+    settled
+        Whether every module's fate depends on itself alone: no contexts, no chance, no cut, no meta-rules.
+    parts_settled
+        Whether decomposition leaves nothing to chance.
     inexact
         The first module that was met with a value that had outgrown 128 bits and become a double, or None.
 
@@ -62,8 +68,13 @@ class States:
         self._outgrown = False
         self._numbers: dict[tuple[object, ...], int] = {}
         self._successors: dict[int, tuple[int, ...]] = {}
-        self._rules: dict[int, Rule | None] = {}
-        self._ready = rules_of(system, arithmetic)
+        self._fates: dict[int, Rule | None] = {}
+        self._decomposed: dict[int, tuple[int, ...]] = {}
+        self.rules = rules_of(system, arithmetic)
+        self.decomposition = rules_of(system, arithmetic, "decomposition")
+        self.parts_settled = all(rule.settled for rules in self.decomposition.values() for rule in rules)
+        self.settled = not system.meta and self.parts_settled and CUT not in _symbols(system) and all(
+            rule.settled for rules in self.rules.values() for rule in rules)
         self.axiom = tuple(self._axiom())
 
     def __len__(self) -> int:
@@ -79,61 +90,133 @@ class States:
             self._numbers[key] = found  # last, so that an interrupt leaves no number without its module
         return found
 
+    def candidates(self, state: int) -> tuple[Rule, ...]:
+        """The productions for modules of a state's symbol and number of parameters, in the order written."""
+        return self.rules.get(kind_of(self.modules[state]), ())
+
+    def is_settled(self, state: int) -> bool:
+        """Whether the state alone decides what becomes of it."""
+        return self.parts_settled and all(rule.settled for rule in self.candidates(state))
+
     def successor(self, state: int) -> tuple[int, ...]:
-        """The states that replace a state in one step: itself, where no production matches."""
+        """The states that replace a settled state in one step: itself, where no production matches."""
         found = self._successors.get(state)
         if found is None:
-            rule = self._rule(state)
-            found = self._successors[state] = (state,) if rule is None else tuple(self._made(rule, self.modules[state]))
+            rule = self._fate(state)
+            made = (state,) if rule is None else self.made_numbers(rule, self.modules[state], self.modules[state].arguments)
+            found = self._successors[state] = tuple(self.decomposed(made))
         return found
 
     def width(self, state: int) -> int:
-        """How many modules replace a state in one step, known before any of them is made."""
-        rule = self._rule(state)
-        return 1 if rule is None else len(rule.successor)
+        """How many modules at least replace a settled state in one step, known before any of them is made."""
+        rule = self._fate(state)
+        return 1 if rule is None or self.decomposition else sum(isinstance(part, Part) for part in rule.successor)
 
     def production(self, state: int) -> int | None:
-        """Which production rewrites a state: its place in the order written, from 0, or None."""
-        rule = self._rule(state)
+        """Which production rewrites a settled state: its place in the order written, from 0, or None."""
+        rule = self._fate(state)
         return None if rule is None else rule.number
 
-    def _rule(self, state: int) -> Rule | None:
-        if state not in self._rules:
-            self._rules[state] = self.matching(self.modules[state], self._ready)
-        return self._rules[state]
+    def _fate(self, state: int) -> Rule | None:
+        if state not in self._fates:
+            self._fates[state] = self.matching(self.modules[state], self.rules)
+        return self._fates[state]
 
-    def matching(self, module: Module, rules: Rules) -> Rule | None:
-        """The first rule that matches a module."""
+    def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
+        """The rule that rewrites a module, of rules that need no context."""
         values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
+        return self.drawn([(rule, values) for rule in rules.get(kind_of(module), ()) if self.holds(rule, values, module)], chance)
+
+    def holds(self, rule: Rule, values: tuple[Value, ...], module: Module) -> bool:
+        """Whether a rule's values are what it asks for and its condition is true."""
         given = values + self.constants
-        for rule in rules.get((module.symbol, len(values)), ()):
-            try:
-                if (all(values[i] == wanted(given) for i, wanted in rule.equalities)
-                        and (rule.condition is None or rule.condition(given))):
-                    return rule
-            except (ArithmeticError, ValueError) as fault:
-                raise self._fault(module, rule, fault) from None
-        return None
-
-    def made(self, rule: Rule, module: Module) -> Iterable[tuple[str, tuple[Value, ...]]]:
-        """The symbols and values that a rule makes of a module."""
-        given = (*module.arguments, *self.constants)
         try:
-            for symbol, arguments in rule.successor:
-                yield symbol, tuple([self._kept(argument(given)) for argument in arguments])  # type: ignore[arg-type]
+            return (all(values[i] == wanted(given) for i, wanted in rule.equalities)
+                    and (rule.condition is None or bool(rule.condition(given))))
         except (ArithmeticError, ValueError) as fault:
-            raise self._fault(module, rule, fault) from None
+            raise self.fault(module, rule, fault) from None
 
-    def _made(self, rule: Rule, module: Module) -> Iterable[int]:
+    def drawn(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None) -> Rule | None:
+        """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
+        if not matched or matched[0][0].probability is None:
+            return matched[0][0] if matched else None
+        lots = [(rule, rule.probability(values + self.constants)) for rule, values in matched if rule.probability]
+        unit = chance.unit() if chance else 0.0
+        try:
+            return lots[chosen([weight for _, weight in lots], unit)][0]
+        except ValueError as fault:
+            raise self.fault(lots[0][0].production.predecessor, lots[0][0], fault) from None
+
+    def made(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
+             chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
+        given = (*(module.arguments if values is None else values), *self.constants)
+        try:
+            yield from self._written(rule.successor, given, chance)
+        except (ArithmeticError, ValueError) as fault:
+            raise self.fault(module, rule, fault) from None
+
+    def _written(self, parts: Iterable[Part | Parts], given: tuple[object, ...],
+                 chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        values: tuple[object, ...] = (*given, chance)
+        for part in parts:
+            if isinstance(part, Part):
+                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])  # type: ignore[arg-type]
+            else:
+                for index in range(_times(part.count(values))):  # type: ignore[arg-type]
+                    yield from self._written(part.body, (*given, index), chance)
+
+    def made_numbers(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
+                     chance: Chance | None = None) -> tuple[int, ...]:
+        """The states that a rule makes of a module."""
+        found = []
         self._outgrown = False
-        for symbol, values in self.made(rule, module):
+        for symbol, made in self.made(rule, module, values, chance):  # type: ignore[arg-type]
             if self._outgrown and self.inexact is None:
-                self.inexact = Module(symbol, values)
-            yield self.number(symbol, values)
+                self.inexact = Module(symbol, made)
+            found.append(self.number(symbol, made))
+        return tuple(found)
+
+    def decomposed(self, states: Sequence[int], chance: Chance | None = None) -> Sequence[int]:
+        """States after decomposition: each replaced by what it consists of, and that in turn, until nothing is left to replace."""
+        if not self.decomposition:
+            return states
+        found: list[int] = []
+        for state in states:
+            if self.parts_settled and state in self._decomposed:
+                found += self._decomposed[state]
+            else:
+                parts = self._taken_apart(state, chance)
+                if self.parts_settled:
+                    self._decomposed[state] = tuple(parts)
+                found += parts
+        return found
+
+    def _taken_apart(self, state: int, chance: Chance | None) -> list[int]:
+        found: list[int] = []
+        deepest, most = current().decomposition, current().modules
+        todo = [(state, 0)]
+        while todo:
+            state, depth = todo.pop()
+            module = self.modules[state]
+            rule = self.matching(module, self.decomposition, chance)
+            if rule is None:
+                found.append(state)
+            elif depth == deepest:
+                raise ModelLimitError(f"{module} is decomposed more than {deepest} times, last by {rule.production}",
+                                      limit=deepest, source=self.system.source or None, start=(rule.production.at or (None,))[0],
+                                      hint="A condition before the arrow can bring it to an end.")
+            else:
+                todo += [(made, depth + 1) for made in reversed(self.made_numbers(rule, module, None, chance))]
+            if len(found) + len(todo) > most:
+                raise ModelLimitError(f"{module} is decomposed into more than {most:,} modules", limit=most)
+        return found
 
     def _axiom(self) -> Iterable[int]:
         """The axiom's states: its arguments may use the constants, so it is made like a successor."""
-        return self._made(axiom_rule(self.system, self.arithmetic), _AXIOM)
+        places = [module.at for module in self.system.axiom if module.at]
+        start = Production(_AXIOM, self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
+        return self.made_numbers(rule_for(self.system, 0, start, self.arithmetic), _AXIOM)
 
     def _kept(self, value: Value) -> Value:
         """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
@@ -145,18 +228,40 @@ class States:
         self._outgrown = True
         return float(value)
 
-    def _fault(self, module: Module, rule: Rule, fault: Exception) -> ModelValueError:
+    def fault(self, module: Module, rule: Rule, fault: Exception) -> LSystemError:
+        """What went wrong in a rule, with the module and the production."""
         what = "The axiom" if module is _AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
-        start, end = rule.production.at or (None, None)
-        hint = None if module is _AXIOM else "A condition before the arrow can keep such values out."
-        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None, start, end, hint)
+        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None,
+                               *(rule.production.at or (None, None)),
+                               None if module is _AXIOM else "A condition before the arrow can keep such values out.")
 
 
-def axiom_rule(system: LSystem, arithmetic: str) -> Rule:
-    """The axiom as the rule that makes the first word out of nothing."""
-    places = [module.at for module in system.axiom if module.at]
-    start = Production(_AXIOM, system.axiom, at=(places[0][0], places[-1][1]) if places else None)
-    return rules_of(replace(system, productions=(start,), interpretation=()), arithmetic)[_AXIOM.symbol, 0][0]
+def _symbols(system: LSystem) -> set[str]:
+    """The symbols that words of a system may hold."""
+    return {m.symbol for m in system.axiom} | {m.symbol for rule in (*system.productions, *system.decomposition)
+                                               for m in rule.modules}
+
+
+def _times(count: Value) -> int:
+    """How often something is repeated."""
+    most = current().repetitions
+    if count != int(count) or count < 0:
+        raise ValueError(f"it is repeated {float(count):g} times, which is no whole number from 0 on")
+    if count > most:
+        raise ValueError(f"it is repeated {int(count):,} times; the limit is {most:,}")
+    return int(count)
+
+
+def check_settled(states: States, what: str) -> None:
+    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
+    if not states.settled:
+        raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
+                              hint="Derive this system, and look at its words.")
+
+
+def kinds_met(states: States) -> set[Kind]:
+    """The symbols met so far, with their numbers of parameters."""
+    return {kind_of(module) for module in states.modules}
 
 
 def closure(states: States, limit: int) -> Sequence[int] | None:

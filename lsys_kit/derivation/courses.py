@@ -1,0 +1,241 @@
+"""The two ways in which a derivation runs its course, behind one door.
+
+Where every module's fate depends on itself alone, the course counts: the size of every step is known before a word is built,
+and the word of any step is built without those between. Where neighbours or chance have a say, it goes step by step.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.bulk import Bulk, possible
+from lsys_kit.derivation.expand import code_type, expanded
+from lsys_kit.derivation.meta import shortened_by_rules
+from lsys_kit.derivation.states import States
+from lsys_kit.derivation.stepping import Stepper
+from lsys_kit.derivation.words import Word, state_counts
+from lsys_kit.errors import ModelLimitError
+
+PLAIN = 4_096
+"""Words up to this length are lists, which are quicker than arrays at that size."""
+BULK = 1_000
+"""Words from this length on are stepped in bulk, where that is possible."""
+STATE_BYTES = 600
+"""About what one state takes in the table."""
+OFTEN = 1_024
+"""After how many states or modules somebody looks at the clock."""
+
+
+@dataclass(frozen=True)
+class Origins:
+    """Where the modules of a word come from.
+
+    Attributes
+    ----------
+    parents
+        For each module the position, in the word before, of the module that it comes from.
+    productions
+        For each module the place of the production that made it, or None where the module stayed as it was.
+    """
+
+    parents: Sequence[int]
+    productions: Sequence[int | None]
+
+
+class Counting:
+    """The course of a system in which every module's fate depends on itself alone."""
+
+    def __init__(self, states: States) -> None:
+        self.states = states
+        self._counts = [Counter(states.axiom)]
+        self._words: dict[int, Word] = {}
+
+    @property
+    def known(self) -> int:
+        """The last step whose size is known."""
+        return len(self._counts) - 1
+
+    def size(self, step: int) -> int:
+        """How many modules a known step has."""
+        return self._counts[step].total()
+
+    def counts(self, step: int) -> Counter[int]:
+        """How often each state occurs at a known step."""
+        return self._counts[step]
+
+    def advance(self, until: float) -> None:
+        """Make one step more known."""
+        step, before = self.known + 1, self._counts[-1]
+        check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
+        after = counted(self.states, before, lambda: check_time(self.states, step, until))
+        check_size(self.states, step, after.total())
+        self._counts.append(after)
+
+    def word(self, step: int) -> Word:
+        """The word of a known step."""
+        if step not in self._words:
+            self._words[step] = self._built(step)
+        return self._words[step]
+
+    def _built(self, step: int) -> Word:
+        if step == 0:
+            return Word(self.states, list(self.states.axiom))
+        before, small = self._words.get(step - 1), self.size(step) <= PLAIN
+        if small and before is not None:
+            return Word(self.states, [code for state in before.codes for code in self.states.successor(state)])
+        array = expanded(self.states, self._counts[:step + 1])
+        return Word(self.states, array.tolist() if small else array)
+
+    def origins(self, step: int) -> Origins:
+        """Where the modules of a step's word come from."""
+        parents: list[int] = []
+        productions: list[int | None] = []
+        for position, state in enumerate(self.word(step - 1).numbers()):
+            made = len(self.states.successor(state))
+            parents += [position] * made
+            productions += [self.states.production(state)] * made
+        return Origins(parents, productions)
+
+
+class Stepping:
+    """The course of a system in which neighbours or chance have a say."""
+
+    def __init__(self, states: States, seed: int) -> None:
+        self.states = states
+        self._stepper = Stepper(states, seed)
+        self._bulk = Bulk(self._stepper) if possible(self._stepper) else None
+        self._words = [Word(states, list(states.axiom))]
+        self._origins: list[Callable[[], Origins]] = [lambda: Origins((), ())]
+
+    @property
+    def known(self) -> int:
+        """The last step whose word is known."""
+        return len(self._words) - 1
+
+    def size(self, step: int) -> int:
+        """How many modules a known step has."""
+        return len(self._words[step])
+
+    def counts(self, step: int) -> Counter[int]:
+        """How often each state occurs at a known step."""
+        return state_counts(self._words[step])
+
+    def advance(self, until: float) -> None:
+        """Make one step more known: nothing is kept of it before it is finished."""
+        step, before = self.known + 1, self._words[-1]
+        if self._bulk and len(before) > BULK:
+            word, origins = self._in_bulk(self._bulk, before, step)
+        else:
+            word, origins = self._one_by_one(before.numbers(), step, until)
+        check_time(self.states, step, until)
+        self._origins.append(origins)
+        self._words.append(word)
+
+    def _in_bulk(self, bulk: Bulk, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
+        """The next word and its origins, all modules at once."""
+        codes = np.asarray(before.codes)
+        chosen = bulk.chosen(codes, step - 1)
+        check_size(self.states, step, bulk.fates.size(chosen))
+        word = Word(self.states, bulk.fates.gathered(chosen, code_type(len(self.states))))
+
+        def origins() -> Origins:
+            sizes = bulk.fates.laid_out()[2][chosen]
+            productions = [replacement.production for replacement in bulk.fates.replacements]
+            return Origins(np.repeat(np.arange(len(chosen)), sizes).tolist(),
+                           [productions[fate] for fate in np.repeat(chosen, sizes).tolist()])
+
+        return self._shortened(word.codes, origins) if self.states.system.meta else (word, origins)
+
+    def _one_by_one(self, codes: Sequence[int], step: int, until: float) -> tuple[Word, Callable[[], Origins]]:
+        """The next word and its origins, module by module."""
+        made = []
+        size = 0
+        for number, replacement in enumerate(self._stepper.replacements(codes, step - 1)):
+            made.append(replacement)
+            size += len(replacement.states)
+            if number % OFTEN == 0:
+                check_time(self.states, step, until)
+                check_size(self.states, step, size)
+        check_size(self.states, step, size)
+        word = [code for replacement in made for code in replacement.states]
+        parents = [position for position, replacement in enumerate(made) for _ in replacement.states]
+        productions = [replacement.production for replacement in made for _ in replacement.states]
+        origins = Origins(parents, productions)
+        if self.states.system.meta:
+            return self._shortened(word, lambda: origins)
+        return self._word(word), lambda: origins
+
+    def _shortened(self, codes: Sequence[int], origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
+        """A word after its meta-rules, with its origins."""
+        short, first = shortened_by_rules(self.states, codes)
+
+        def after() -> Origins:
+            old = origins()
+            return Origins([old.parents[at] for at in first], [old.productions[at] for at in first])
+
+        return self._word(short), after
+
+    def _word(self, codes: Sequence[int]) -> Word:
+        return Word(self.states, codes if len(codes) <= PLAIN else np.array(codes, code_type(len(self.states))))
+
+    def word(self, step: int) -> Word:
+        """The word of a known step."""
+        return self._words[step]
+
+    def origins(self, step: int) -> Origins:
+        """Where the modules of a step's word come from."""
+        return self._origins[step]()
+
+
+def course_of(states: States, seed: int) -> Counting | Stepping:
+    """The course that a system's derivation takes."""
+    return Counting(states) if states.settled else Stepping(states, seed)
+
+
+def counted(states: States, counts: Counter[int], watch: Callable[[], None] = lambda: None) -> Counter[int]:
+    """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
+    after: Counter[int] = Counter()
+    for number, (state, count) in enumerate(counts.items(), 1):
+        for successor in states.successor(state):
+            after[successor] += count
+        if number % OFTEN == 0:
+            watch()
+    watch()
+    return after
+
+
+def check_size(states: States, step: int, size: int) -> None:
+    """Refuse a step whose word would be past a limit."""
+    limit = current().modules
+    if size > limit:
+        raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(limit)}", limit=limit,
+                              needed=size, hint="Take fewer steps, or set limits(modules=...).")
+    _check_bytes(states, step, size * code_type(len(states)).itemsize)
+
+
+def check_time(states: States, step: int, until: float) -> None:
+    """Refuse a step that takes too long, or meets too many different modules."""
+    _check_bytes(states, step, 0)
+    if time.monotonic() > until:
+        seconds = current().seconds
+        raise ModelLimitError(f"Step {step} was not reached in {seconds:g} seconds", limit=seconds,
+                              hint="Take fewer steps, or set limits(seconds=...).")
+
+
+def _check_bytes(states: States, step: int, word: int) -> None:
+    needed, limit = word + len(states) * STATE_BYTES, current().bytes
+    if needed > limit:
+        raise ModelLimitError(f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(limit)}", limit=limit,
+                              needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
+
+
+def grouped(number: float) -> str:
+    """A number with its digits in groups of three; a very long one by its number of digits."""
+    text = f"{number:,}"
+    return text if len(text) <= 40 else f"about 10^{len(str(int(number))) - 1}"

@@ -1,0 +1,156 @@
+"""A step, production by production: which rule was applied to which module, and why the others were not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.matching import chain, context, values_at
+from lsys_kit.derivation.rules import Rule
+from lsys_kit.derivation.states import States
+from lsys_kit.derivation.stepping import Old, Stepper, uncut
+from lsys_kit.derivation.words import Word
+from lsys_kit.notation.arithmetic import number_text
+from lsys_kit.notation.expressions import Name, names_in
+from lsys_kit.notation.model import Module, joined
+
+
+@dataclass(frozen=True)
+class Fate:
+    """What became of one module in a step.
+
+    Attributes
+    ----------
+    position
+        Its place in the old word, from 1, as a reader counts.
+    module
+        The module.
+    successor
+        What replaced it.
+    production
+        The production that was applied, in words with its number; or why none was.
+    refused
+        For each production of its symbol that was not applied, why not.
+    """
+
+    position: int
+    module: Module
+    successor: tuple[Module, ...]
+    production: str
+    refused: tuple[str, ...]
+
+    def __str__(self) -> str:
+        made = joined(map(str, self.successor)) or "ε"
+        lines = [f"{self.position}. {self.module} becomes {made}: {self.production}", *self.refused]
+        return "\n     ".join(lines)
+
+
+class Explanation(tuple[Fate, ...]):
+    """The fates of all modules of a word, shown one below the other."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "\n".join(map(str, self))
+
+
+def explain(derivation: Derivation, step: int) -> Explanation:
+    """Why the word of a step is what it is: the fate of every module of the word before.
+
+    Parameters
+    ----------
+    derivation
+        Any derivation.
+    step
+        From 1 on.
+
+    Raises
+    ------
+    ModelValueError
+        The derivation has no such step.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.notation.read import read
+    >>> explain(derive(read("axiom: b a\\nb < a -> b\\na -> c"), 1), 1)
+    1. b becomes b: no production is for b
+    2. a becomes b: production 1, b < a -> b
+         production 2, a -> c: matches too, but production 1 stands before it
+    """
+    origins, new, old_word = derivation.origins(step), derivation[step].numbers(), derivation[step - 1]
+    successors: dict[int, list[Module]] = {}
+    applied: dict[int, int | None] = {}
+    for code, parent, production in zip(new, origins.parents, origins.productions, strict=True):
+        successors.setdefault(parent, []).append(derivation.states.modules[code])
+        applied[parent] = production
+    return Explanation(_fates(derivation.states, old_word, successors, applied))
+
+
+def _fates(states: States, word: Word, successors: dict[int, list[Module]], applied: dict[int, int | None]) -> Iterator[Fate]:
+    stepper = Stepper(states, 0)
+    old = stepper.old(word.numbers())
+    for position, kept in enumerate(uncut(old.symbols)):
+        module = old.modules[position]
+        made = tuple(successors.get(position, ()))
+        rules = [rule for kind, found in states.rules.items() if kind[0] == module.symbol for rule in found]
+        refusals = [(rule, _refusal(stepper, old, position, rule)) for rule in rules] if kept else []
+        matching = [rule for rule, why in refusals if why is None]
+        chosen = _chosen(matching, applied.get(position), bool(made))
+        said = _said(chosen) if chosen else "it is cut off" if not kept else \
+            "no production matches" if rules else f"no production is for {module.symbol}"
+        why_not = tuple(f"{_said(rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals if rule is not chosen)
+        yield Fate(position + 1, module, made, said, why_not)
+
+
+def _chosen(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
+    """The rule that was applied; where it left nothing, the one that must have been."""
+    if left_something:
+        return next((rule for rule in matching if rule.number == applied), None)
+    return matching[0] if matching else None
+
+
+def _said(rule: Rule) -> str:
+    return f"production {rule.number + 1}, {rule.production}"
+
+
+def _passed_over(rule: Rule, chosen: Rule | None) -> str:
+    if chosen is not None and chosen.probability is not None and rule.probability is not None:
+        return "matches too, but was not drawn"
+    return f"matches too, but production {chosen.number + 1} stands before it" if chosen else "matches too"
+
+
+def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | None:
+    """Why a rule does not match a module; None where it does."""
+    module, asked = old.modules[position], rule.production.predecessor
+    if len(module.arguments) != len(asked.arguments):
+        return f"is for {asked.symbol} with {len(asked.arguments)} parameters, not {len(module.arguments)}"
+    at = (position,) if old.around is None else context(rule, old.modules, old.symbols, old.around, position, stepper.passed)
+    if at is None:
+        return _context_missing(old, position, rule)
+    values = values_at(old.modules, at)
+    given = values + stepper.states.constants
+    arguments = [a for m in rule.production.parameters for a in m.arguments]
+    for index, wanted in rule.equalities:
+        if values[index] != wanted(given):
+            return f"asks for {arguments[index]}, and there is {number_text(values[index])}"
+    if not stepper.states.holds(rule, values, module):
+        names = names_in(rule.production.condition) if rule.production.condition else frozenset()
+        known = {a.name: value for a, value in zip(arguments, values, strict=True) if isinstance(a, Name)}
+        known |= dict(zip((c.name for c in stepper.states.system.constants), stepper.states.constants, strict=True))
+        told = ", ".join(f"{name} = {number_text(known[name])}" for name in sorted(names))
+        return f"{rule.production.condition} is false{f' where {told}' if told else ''}"
+    return None
+
+
+def _context_missing(old: Old, position: int, rule: Rule) -> str:
+    """Which context a module lacks."""
+    assert old.around is not None
+    left = chain(old.around.before, position, len(rule.left))
+    there = joined(str(old.modules[at]) for at in reversed(left)) or "nothing"
+    if tuple((old.symbols[at], len(old.modules[at].arguments)) for at in left) != rule.left:
+        return f"needs {joined(map(str, rule.production.left))} on its left, and there is {there}"
+    right = chain(old.around.after, position, max(1, len(rule.right)))
+    there = joined(str(old.modules[at]) for at in right) or "nothing"
+    return f"needs {joined(map(str, rule.production.right))} on its right, and there is {there}"

@@ -1,0 +1,187 @@
+"""Sequences of whole numbers in which each term follows from those before by one linear rule: the lengths of a D0L system's
+words are such a sequence (Rozenberg and Salomaa, The Mathematical Theory of L Systems, 1980).
+
+A rule is a tuple of coefficients c: a(t) = c1 a(t-1) + ... + cd a(t-d) for all t from d on. Its polynomial is
+x^d - c1 x^(d-1) - ... - cd.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import sympy
+
+MERSENNE = (61, 127, 521, 1279, 4423)
+"""2 to each of these, less 1, is a prime number: a rule is found modulo one of them, and then proved in whole numbers."""
+
+
+def shortest_rule(terms: Sequence[int]) -> tuple[Fraction, ...]:
+    """The shortest rule that a sequence obeys from its first terms on, which are as many as the rule has coefficients.
+
+    >>> [int(c) for c in shortest_rule([3, 0, 0, 0])]
+    [0]
+    """
+    for exponent in MERSENNE:
+        prime = 2**exponent - 1
+        rule = tuple(c - prime if c > prime // 2 else c for c in _massey(terms, prime))
+        if _obeyed(rule, terms):
+            return tuple(map(Fraction, rule))
+    return tuple(map(Fraction, _massey(terms, 0)))
+
+
+def shortest_recurrence(terms: Sequence[int]) -> list[Fraction]:
+    """The shortest rule that a sequence obeys in the long run (Berlekamp 1968, Massey 1969).
+
+    >>> [int(c) for c in shortest_recurrence([1, 1, 1, 2, 2, 3, 4, 5, 7, 9])]
+    [0, 1, 1]
+    """
+    rule = list(shortest_rule(terms))
+    while rule and not rule[-1]:
+        rule.pop()
+    return rule
+
+
+def _obeyed(rule: Sequence[int], terms: Sequence[int]) -> bool:
+    used = [(k, c) for k, c in enumerate(rule, 1) if c]
+    return all(terms[t] == sum(c * terms[t - k] for k, c in used) for t in range(len(rule), len(terms)))
+
+
+def _massey(terms: Sequence[int], prime: int) -> list[Any]:
+    """The shortest rule, modulo a prime number; in rational numbers where that is 0."""
+    rule: list[Any] = []
+    best: list[Any] = []
+    best_end, best_error = -1, 1
+    for t, term in enumerate(terms):
+        error: Any = term - sum(c * terms[t - k] for k, c in enumerate(rule, 1) if c)
+        error = error % prime if prime else Fraction(error)
+        if not error:
+            continue
+        if best_end < 0:
+            best_end, best_error, rule = t, error, [0] * (t + 1)
+            continue
+        factor = error * pow(best_error, -1, prime) if prime else error / best_error
+        update = [0] * (t - best_end - 1) + [factor] + [-factor * c for c in best]
+        before, size = rule, max(len(rule), len(update))
+        rule = [a + b for a, b in zip(_padded(rule, size), _padded(update, size), strict=True)]
+        rule = [c % prime for c in rule] if prime else rule
+        if t - len(before) > best_end - len(best):
+            best, best_end, best_error = before, t, error
+    return rule
+
+
+def _padded(row: list[Any], size: int) -> list[Any]:
+    return row + [0] * (size - len(row))
+
+
+def remainder_of_power(rule: Sequence[int], exponent: int) -> list[int]:
+    """What x^exponent leaves when divided by a rule's polynomial, from the constant term up (Fiduccia 1985).
+
+    So term number `exponent` of any sequence that obeys the rule is a sum of multiples of its first terms.
+
+    >>> remainder_of_power((1, 1), 10)
+    [34, 55]
+    """
+    used = [(k, c) for k, c in enumerate(rule, 1) if c]
+    found = [1] + [0] * (len(rule) - 1) if rule else []
+    for bit in f"{exponent:b}" if rule else "":
+        square = [0] * (2 * len(rule))
+        for i, a in enumerate(found):
+            if a:
+                square[2 * i + (bit == "1")] += a * a
+                for j in range(i):
+                    square[i + j + (bit == "1")] += 2 * a * found[j]
+        for degree in range(len(square) - 1, len(rule) - 1, -1):
+            top = square.pop()
+            for k, c in used if top else ():
+                square[degree - k] += c * top
+        found = square
+    return found
+
+
+def polynomial(rule: Sequence[int]) -> sympy.Poly:
+    """The polynomial of a rule.
+
+    >>> polynomial((1, 1)).as_expr()
+    x**2 - x - 1
+    """
+    import sympy
+
+    return sympy.Poly([1, *(-c for c in rule)], sympy.Symbol("x"))
+
+
+def generating_function(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr:
+    """The quotient of polynomials whose power series has the terms as coefficients.
+
+    >>> generating_function((1, 1), [1, 2])
+    (x + 1)/(-x**2 - x + 1)
+    """
+    import sympy
+
+    x = sympy.Symbol("x")
+    above = [a - sum(c * terms[t - k] for k, c in enumerate(rule[:t], 1)) for t, a in enumerate(terms[:len(rule)])]
+    below = [1, *(-c for c in rule)]
+    return sympy.Poly(above[::-1] or [0], x).as_expr() / sympy.Poly(below[::-1], x).as_expr()
+
+
+def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:
+    """A formula for the terms of a sequence; its t is a whole number from 0 on.
+
+    Roots of degree two and less are written out, others are summed over as roots of their polynomial; None where such a
+    root is a multiple one.
+
+    >>> closed_form((0, 4), [1, 6])
+    -(-2)**t + 2*2**t
+    >>> closed_form((2, -1), [3, 5])
+    2*t + 3
+    """
+    import sympy
+
+    x, t = sympy.Symbol("x"), sympy.Symbol("t")
+    whole = polynomial(rule)
+    series = sympy.Poly(list(terms[:len(rule)]) or [0], x)  # the terms as digits behind the point, in powers of 1/x
+    above, _ = (whole * series).div(sympy.Poly(x**len(rule), x))
+    total = sympy.Integer(0)
+    for factor, times in whole.factor_list()[1]:
+        part = _part(above, whole, factor, times, t)
+        if part is None:
+            return None
+        total += part
+    return total
+
+
+def _part(above: sympy.Poly, whole: sympy.Poly, factor: sympy.Poly, times: int, t: sympy.Symbol) -> sympy.Expr | None:
+    """What the roots of one factor of the polynomial contribute: the residues of above/whole x^t there."""
+    import sympy
+
+    x = whole.gen
+    if factor == sympy.Poly(x, x):
+        return _beginning(above, whole, times, t)
+    if times == 1 and factor.degree() > 2:
+        weight = sympy.rem((above * sympy.invert(whole.diff(x), factor)), factor).as_expr()
+        return sympy.RootSum(factor.as_expr(), sympy.Lambda(x, weight * x**t))
+    if factor.degree() > 2:
+        return None
+    roots = list(sympy.roots(factor))
+    rest = whole.quo(factor**times).as_expr()
+    total = sympy.Integer(0)
+    for root in roots:
+        others = rest * reduce(lambda product, other: product * (x - other)**times, [r for r in roots if r != root], 1)
+        share = sympy.diff(above.as_expr() / others * x**t, x, times - 1) / sympy.factorial(times - 1)
+        weight = sympy.expand(sympy.radsimp(sympy.simplify(share.subs(x, root) / root**t)))
+        total += sympy.expand(weight) * root**t
+    return total
+
+
+def _beginning(above: sympy.Poly, whole: sympy.Poly, times: int, t: sympy.Symbol) -> sympy.Expr:
+    """What the root 0 contributes: a summand for each of the first terms that the rest of the formula does not reach."""
+    import sympy
+
+    x = whole.gen
+    rest = whole.quo(sympy.Poly(x**times, x))
+    part = sympy.rem(above * sympy.invert(rest, sympy.Poly(x**times, x)), sympy.Poly(x**times, x))
+    digits = part.all_coeffs()[::-1]
+    return sum((c * sympy.KroneckerDelta(t, times - 1 - power) for power, c in enumerate(digits)), sympy.Integer(0))
