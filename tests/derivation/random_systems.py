@@ -113,7 +113,7 @@ CONTEXT, CHANCE, DECOMPOSITION, CUT, REPETITION, META = KINDS = (
     "context", "chance", "decomposition", "cut", "repetition", "meta")
 ARITIES = {"A": 0, "B": 0, "S": 1, "F": 0, "+": 0, "f": 1, "%": 0, "D": 1, "E": 0}
 LIVELY = ("A", "B", "S")
-WEIGHTS = tuple(map(Number, (1, 2, Fraction(1, 2), Fraction(1, 3), Fraction(33, 100))))
+WEIGHTS: tuple[Expression, ...] = (*map(Number, (1, 2, Fraction(1, 2), Fraction(33, 100))), Apply("/", (Number(1), Number(3))))
 OPEN, CLOSE = Module("["), Module("]")
 
 
@@ -134,7 +134,7 @@ def arguments(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str]) -
 
 @st.composite
 def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more: tuple[str, ...] = ()) -> Module:
-    rare = tuple(symbol for kind, symbol in ((CUT, "%"), (CUT, "%"), (DECOMPOSITION, "D"), (DECOMPOSITION, "E"), (META, "f"), (META, "f"))
+    rare = tuple(symbol for kind, symbol in ((CUT, "%"), (DECOMPOSITION, "D"), (DECOMPOSITION, "E"), (META, "f"), (META, "f"))
                  if kind in kinds)
     symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+", *rare, *more)))
     return Module(symbol, tuple(draw(arguments(names, kinds)) for _ in range(ARITIES[symbol])))
@@ -144,6 +144,8 @@ def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more
 def items(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], least: int = 0, most: int = 2) -> tuple[Item, ...]:
     """A part of a word, perhaps with a branch in it, perhaps with a part written several times."""
     word: list[Item] = list(draw(st.lists(lively(names, kinds), min_size=least, max_size=most)))
+    if word and CUT in kinds and draw(st.integers(0, 2)) == 0:
+        word.insert(draw(st.integers(0, len(word))), Module("%"))
     if word and draw(st.integers(0, 2)) == 0:
         start, end = sorted((draw(st.integers(0, len(word))), draw(st.integers(0, len(word)))))
         word[start:end] = [OPEN, *word[start:end], CLOSE]
@@ -158,8 +160,8 @@ def repeats(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], dep
     if names and draw(st.booleans()):
         whole = Apply("floor", (Name(draw(st.sampled_from(names))),))
         count = Apply("min", (Apply("max", (whole, Number(0))), Number(2)))
-    index = draw(st.sampled_from(("", "i", "j")[:2 + depth]))
-    known = (*dict.fromkeys((*names, index)),) if index else names
+    index = draw(st.sampled_from(("", "i" if depth else "j")))
+    known = (*names, index) if index else names
     body: list[Item] = [draw(lively(known, kinds, ("S",)))]
     if depth and draw(st.integers(0, 3)) == 0:
         body.append(draw(repeats(known, kinds, 0)))
@@ -227,7 +229,8 @@ def metas(draw: st.DrawFn) -> MetaRule:
 def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
     """A system with some kinds of rules; with none named, with any mixture of them."""
     if not kinds:
-        kinds = tuple(draw(st.lists(st.sampled_from(KINDS), min_size=2, max_size=len(KINDS), unique=True)))
+        without = draw(st.lists(st.sampled_from(KINDS), max_size=2))
+        kinds = tuple(kind for kind in KINDS if kind not in without)
     rewriting = tuple(draw(st.lists(rules(kinds), min_size=4, max_size=8)))
     meta = tuple(draw(st.lists(metas(), min_size=1, max_size=3))) if META in kinds else ()
     plain = tuple(kind for kind in kinds if kind not in (CHANCE, REPETITION, CUT))

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-import lsys_kit.derivation.derive as engine
+import lsys_kit.derivation.courses as engine
 import lsys_kit.derivation.expand as expansion
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import Derivation, derive, lengths
@@ -244,6 +244,18 @@ def test_the_engine_follows_the_definition_of_every_kind(kinds: tuple[str, ...],
     system = data.draw(systems_with(*kinds))
     expected = defined(system, seed)
     assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
+
+
+@pytest.mark.parametrize("kinds", MIXED)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], max_examples=40)
+@given(data=st.data(), seed=seeds)
+def test_words_in_bulk_are_those_of_one_by_one(kinds: tuple[str, ...], data: st.DataObject, seed: int) -> None:
+    system = data.draw(systems_with(*kinds))
+    expected = defined(system, seed)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(engine, "PLAIN", 3)
+        patch.setattr(engine, "BULK", 0)
+        assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
 
 
 @pytest.mark.parametrize("kinds", MIXED)
