@@ -82,7 +82,9 @@ class Repeat:
         object.__setattr__(self, "depth", 1 + max((item.depth for item in self.body if isinstance(item, Repeat)), default=0))
 
     def __str__(self) -> str:
-        return f"repeat({self.count}{f',{self.index}' if self.index else ''}) <{joined(map(str, self.body))}>"
+        body = joined(map(str, self.body))
+        end = " >" if body.endswith("-") else ">"  # together they would be an arrow
+        return f"repeat({self.count}{f',{self.index}' if self.index else ''}) <{body}{end}"
 
 
 Item: TypeAlias = Module | Repeat

@@ -140,6 +140,8 @@ def _repetition(stumble: Stumble) -> ModelSyntaxError | None:
             if found == "<" and re.search(r"\brepeat\s*\([^()]*\)$", stumble.before) else None
     if stumble.accepted == {"LESSTHAN"}:
         return stumble.error('A "<" is missing here', _REPEAT)
+    if "MORETHAN" in stumble.accepted and found == "->" and not stumble.before.endswith(("-", ">")):
+        return stumble.error('This "->" is read as an arrow', 'Where a repetition ends, type "- >", with a blank between them.')
     if "MORETHAN" in stumble.accepted and (not found or found == ":" or ARROW.match(found)):
         opened = unclosed(outside(stumble.before[arrow.end():]), "<>")
         return stumble.error('This "<" is never closed', _REPEAT, stumble.start + arrow.end() + (opened or 0), 1)

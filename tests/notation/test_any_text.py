@@ -66,12 +66,15 @@ def test_no_text_takes_long(text: str) -> None:
 PIECES = [
     "A", "B", "F", "al", "t", "[", "]", "(", ")", "->", "-->", "→", ":", "=", "==", "<", "<=", "0", "2.5", "1e9", ".", "+", "-",
     "*", "/", "^", "&&", "||", "!", ",", ";", "ε", "in", "..", "by", "min(", "log(", "/*", "*/", "#", "%", "'", '"', "~", "{",
-    "axiom:", "angle:", "steps:", "alphabet:", "interpretation:", "\n", " ", "  ", "\t", "\r", "\x00", "\ufeff", "\u202e",
+    "axiom:", "angle:", "steps:", "alphabet:", "interpretation:",
+    "decomposition:", "meta:", "ignore:", "depth:", "repeat(2, i) <", "repeat(", "uniform(", "> ",
+    "\n", " ", "  ", "\t", "\r", "\x00", "\ufeff", "\u202e",
     "\ud800", "Ф",
 ]
 MODELS = [
     "dt = 0.7 in 0.1 .. 2 by 0.1\naxiom: A(0)\nA(t) : t+dt >= 1 && !(t > 3) -> [+A(t+dt-1)]B(sqrt(t)^2)\nA(t) -> A(t+dt)",
     "angle: 25.7\nsteps: 4\naxiom: F\nF -> F[+F]F[-F]F /* a plant */",
+    "ignore: + -\naxiom: A B\nA < B > [C]A : 1 < 2 -> repeat(2, i) <F(uniform(0, i))> A : 1/3\nB -> C\nmeta: F F -> F",
     "axiom: ar\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al\ninterpretation:\nar -> R(2,1)",
 ]
 
