@@ -27,7 +27,18 @@ from lsys_kit.notation.model import LSystem, Module, Production, Repeat
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference
-from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, KINDS, META, REPETITION, SYMBOLS, systems, systems_with
+from tests.derivation.random_systems import (
+    CHANCE,
+    CONTEXT,
+    CUT,
+    DECOMPOSITION,
+    KINDS,
+    META,
+    REPETITION,
+    SYMBOLS,
+    systems,
+    systems_with,
+)
 
 STEPS = 4
 
