@@ -66,8 +66,8 @@ class Fates:
         everything, starts, sizes = self.laid_out()
         everything = everything.astype(kind)
         lengths = sizes[chosen]
-        if sizes.max(initial=1) == 1 == lengths.min(initial=1):
-            return everything[starts][chosen]
+        if len(chosen) and lengths.min() == 1 == lengths.max():
+            return everything[np.minimum(starts, len(everything) - 1)][chosen]
         ends = np.cumsum(lengths)
         steps = np.ones(int(ends[-1]) if len(ends) else 0, dtype=np.int64)
         there = lengths > 0
@@ -195,10 +195,12 @@ def beside(roles: Integers, asked: Integers) -> tuple[Integers, Integers]:
     >>> before.tolist(), after.tolist()
     ([-1, 0, 0, 0], [7, -1, -1, -1])
     """
+    if not roles.any():  # all are ordinary
+        return asked - 1, np.where(asked < len(roles) - 1, asked + 1, NOBODY)
     wanted = roles != PASSED
     wanted[asked] = True
     kept = np.flatnonzero(wanted)
-    role, mine = roles[kept], np.searchsorted(kept, asked)
+    role, mine = roles[kept], np.cumsum(wanted)[asked] - 1
     before, after = _in_branches(role, mine) if ((role == OPENS) | (role == CLOSES)).any() else _in_a_row(role == ORDINARY, mine)
     padded = np.append(kept, NOBODY)
     return padded[before], padded[after]

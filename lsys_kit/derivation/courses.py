@@ -110,32 +110,30 @@ class Stepping:
         self.states = states
         self._stepper = Stepper(states, seed)
         self._bulk = Bulk(self._stepper) if possible(self._stepper) else None
-        self._words = [Word(states, list(states.axiom))]
-        self._origins: list[Callable[[], Origins]] = [lambda: Origins((), ())]
+        self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
 
     @property
     def known(self) -> int:
         """The last step whose word is known."""
-        return len(self._words) - 1
+        return len(self._steps) - 1
 
     def size(self, step: int) -> int:
         """How many modules a known step has."""
-        return len(self._words[step])
+        return len(self._steps[step][0])
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a known step."""
-        return state_counts(self._words[step])
+        return state_counts(self._steps[step][0])
 
     def advance(self, until: float) -> None:
         """Make one step more known: nothing is kept of it before it is finished."""
-        step, before = self.known + 1, self._words[-1]
+        step, before = self.known + 1, self._steps[-1][0]
         if self._bulk and len(before) > BULK:
-            word, origins = self._in_bulk(self._bulk, before, step)
+            made = self._in_bulk(self._bulk, before, step)
         else:
-            word, origins = self._one_by_one(before.numbers(), step, until)
+            made = self._one_by_one(before.numbers(), step, until)
         check_time(self.states, step, until)
-        self._origins.append(origins)
-        self._words.append(word)
+        self._steps.append(made)
 
     def _in_bulk(self, bulk: Bulk, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
@@ -186,11 +184,11 @@ class Stepping:
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
-        return self._words[step]
+        return self._steps[step][0]
 
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from."""
-        return self._origins[step]()
+        return self._steps[step][1]()
 
 
 def course_of(states: States, seed: int) -> Counting | Stepping:

@@ -160,6 +160,20 @@ class Derivation(Sequence[Word]):
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} come from a word before, not that of step {step}")
         return self._course.origins(step)
 
+    def ancestors(self, step: int, before: int = 0) -> list[int]:
+        """For each module of a step's word the position, in the word of an earlier step, of the module that it descends from.
+
+        >>> from lsys_kit.notation.read import read
+        >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
+        [0, 0, 0, 1, 1, 1, 1, 1]
+        """
+        if not 0 <= before <= step <= self.steps:
+            raise ModelValueError(f"Step {before} is not before step {step} of a derivation of {self.steps} steps")
+        positions = list(range(len(self[before])))
+        for later in range(before + 1, step + 1):
+            positions = [positions[parent] for parent in self.origins(later).parents]
+        return positions
+
     def column(self, centred: bool = False, coding: Mapping[str, str] | None = None) -> Column:
         """The words below one another, as in seed 000's `ColumnForm`.
 

@@ -15,7 +15,7 @@ from functools import lru_cache
 from typing import Any, TypeAlias
 
 from lsys_kit.errors import ModelNameError, ModelValueError
-from lsys_kit.notation.arithmetic import Value, reason, sound, tidy
+from lsys_kit.notation.arithmetic import Value, is_symbolic, reason, settled_value, sound, tidy
 from lsys_kit.notation.checks import suggestion
 from lsys_kit.notation.expressions import Expression, Function, Name, function_of, is_random
 from lsys_kit.notation.model import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, flat
@@ -182,23 +182,34 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
         except (ArithmeticError, ValueError) as fault:
             raise ModelValueError(f'The constant "{constant.name}" has no value: {reason(fault)}', system.source or None,
                                   *(constant.at or (None, None))) from None
-        values.append(float(value) if arithmetic == "float" else value)
+        values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
     return tuple(values)
 
 
 def number_from(given: object, name: str = "value") -> Value:
     """A number as a person gives it, exactly: 1.4 and "1.4" and "14/10" are all 7/5.
 
-    >>> number_from(1.4), number_from("14/10"), number_from(Fraction(4, 2))
-    (Fraction(7, 5), Fraction(7, 5), 2)
+    A name that stands for itself, or a sympy expression, stays unknown.
+
+    >>> number_from(1.4), number_from("14/10"), number_from(Fraction(4, 2)), number_from("dt", "dt")
+    (Fraction(7, 5), Fraction(7, 5), 2, dt)
     """
     if isinstance(given, str):
-        return read_number(given)
+        return unknown(name) if given == name else read_number(given)
+    if hasattr(given, "free_symbols") and given.free_symbols:
+        return settled_value(given)
     if isinstance(given, numbers.Real) and not isinstance(given, bool) and _finite(given):
         if isinstance(given, numbers.Rational):
             return tidy(Fraction(int(given.numerator), int(given.denominator)))
         return tidy(Fraction(repr(float(given))))
     raise ModelValueError(f'"{name}" must be a number, not {str(given)[:40]!r}')
+
+
+def unknown(name: str) -> Any:
+    """A constant whose value is not known: a real number with a name."""
+    import sympy
+
+    return sympy.Symbol(name, real=True)
 
 
 def _finite(given: numbers.Real) -> bool:

@@ -14,7 +14,7 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.chance import Chance, chosen
 from lsys_kit.derivation.rules import Kind, Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.notation.arithmetic import Value, reason, sound
+from lsys_kit.notation.arithmetic import Value, is_symbolic, reason, same, settled_value, sound
 from lsys_kit.notation.model import LSystem, Module, Production
 
 EXACT_BITS = 128
@@ -131,8 +131,10 @@ class States:
         """Whether a rule's values are what it asks for and its condition is true."""
         given = values + self.constants
         try:
-            return (all(values[i] == wanted(given) for i, wanted in rule.equalities)
+            return (all(same(values[i], wanted(given)) for i, wanted in rule.equalities)
                     and (rule.condition is None or bool(rule.condition(given))))
+        except TypeError:
+            raise self._undecided(module, rule) from None
         except (ArithmeticError, ValueError) as fault:
             raise self.fault(module, rule, fault) from None
 
@@ -155,6 +157,10 @@ class States:
             yield from self._written(rule.successor, given, chance)
         except (ArithmeticError, ValueError) as fault:
             raise self.fault(module, rule, fault) from None
+        except TypeError:
+            if not any(map(is_symbolic, given)):
+                raise
+            raise self.fault(module, rule, ValueError("it depends on an unknown constant")) from None
 
     def _written(self, parts: Iterable[Part | Parts], given: tuple[object, ...],
                  chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
@@ -169,12 +175,15 @@ class States:
     def made_numbers(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
                      chance: Chance | None = None) -> tuple[int, ...]:
         """The states that a rule makes of a module."""
-        found = []
+        found, most = [], current().modules
         self._outgrown = False
         for symbol, made in self.made(rule, module, values, chance):  # type: ignore[arg-type]
             if self._outgrown and self.inexact is None:
                 self.inexact = Module(symbol, made)
             found.append(self.number(symbol, made))
+            if len(found) > most and module is not _AXIOM:  # the axiom is step 0, which is checked like any step
+                raise ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
+                                      source=self.system.source or None, start=(rule.production.at or (None,))[0])
         return tuple(found)
 
     def decomposed(self, states: Sequence[int], chance: Chance | None = None) -> Sequence[int]:
@@ -221,12 +230,21 @@ class States:
     def _kept(self, value: Value) -> Value:
         """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
         sound(value)
-        if isinstance(value, float):
+        if is_symbolic(value):
+            value = settled_value(value)
+        if isinstance(value, float) or is_symbolic(value):
             return value
         if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:
             return value
         self._outgrown = True
         return float(value)
+
+    def _undecided(self, module: Module, rule: Rule) -> LSystemError:
+        """A condition hangs on a constant that is not known."""
+        names = sorted({str(name) for value in self.constants if is_symbolic(value) for name in value.free_symbols})  # type: ignore[union-attr]
+        return ModelValueError(f"Whether production {rule.number + 1}, {rule.production}, is for {module} cannot be decided",
+                               self.system.source or None, *(rule.production.at or (None, None)),
+                               f"It depends on {', '.join(names)}: choose a value for {names[0] if names else 'it'}.")
 
     def fault(self, module: Module, rule: Rule, fault: Exception) -> LSystemError:
         """What went wrong in a rule, with the module and the production."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from fractions import Fraction
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from lsys_kit.budget import current
 
@@ -25,6 +25,8 @@ def number_text(value: Value) -> str:
     """
     if isinstance(value, int):
         return str(value)
+    if is_symbolic(value):
+        return str(value).replace("**", "^")
     if isinstance(value, float):
         return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
     rest, twos, fives = value.denominator, 0, 0
@@ -37,6 +39,45 @@ def number_text(value: Value) -> str:
         return f"{value.numerator}/{value.denominator}"
     digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
     return ("-" if value < 0 else "") + f"{digits[:-places]}.{digits[-places:]}"
+
+
+def is_symbolic(value: object) -> bool:
+    """Whether a value holds a constant that is not known: a sympy expression, as `derive(system, 3, dt="dt")` gives."""
+    return not isinstance(value, int | Fraction | float)
+
+
+def same(left: Value, right: Value) -> bool:
+    """Whether two values are equal; where an unknown constant decides that, the question has no answer yet.
+
+    >>> same(Fraction(4, 2), 2)
+    True
+
+    Raises
+    ------
+    TypeError
+        The values are equal for some values of an unknown constant.
+    """
+    if not (is_symbolic(left) or is_symbolic(right)):
+        return left == right
+    difference: Any = left - right
+    difference = difference.expand()
+    if difference.free_symbols:
+        raise TypeError
+    return bool(difference == 0)
+
+
+def settled_value(value: Any) -> Value:
+    """A value that may hold unknown constants, multiplied out; a number where they cancel.
+
+    >>> import sympy
+    >>> t = sympy.Symbol("t")
+    >>> settled_value(t + 2 * (t + 1)), settled_value(t - t + sympy.Rational(1, 2))
+    (3*t + 2, Fraction(1, 2))
+    """
+    value = value.expand()
+    if value.is_Rational:
+        return tidy(Fraction(int(value.p), int(value.q)))
+    return float(value) if value.is_Float else value  # type: ignore[no-any-return]
 
 
 def brief(value: Value) -> str:
@@ -60,7 +101,7 @@ def tidy(value: Value) -> Value:
 
 def exact(value: Value) -> Value:
     """What an operation gave, tidy; an exact result that is too long is refused."""
-    if isinstance(value, float):
+    if isinstance(value, float) or is_symbolic(value):
         return value
     if value.numerator.bit_length() + value.denominator.bit_length() > current().bits:
         raise OverflowError
@@ -69,14 +110,14 @@ def exact(value: Value) -> Value:
 
 def sound(value: Value) -> Value:
     """The value, if it is one: neither past what a double holds nor "not a number"."""
-    if math.isfinite(value):  # an OverflowError by itself, where a rational number is past that
+    if is_symbolic(value) or math.isfinite(value):  # an OverflowError by itself, where a rational number is past that
         return value
     raise ValueError("the result is not a number") if math.isnan(value) else OverflowError
 
 
 def divide(left: Value, right: Value) -> Value:
     """The exact quotient of rational numbers; the quotient in doubles where one of them is a double."""
-    if isinstance(left, float) or isinstance(right, float):
+    if isinstance(left, float) or isinstance(right, float) or is_symbolic(left) or is_symbolic(right):
         return left / right
     return exact(Fraction(left) / right)
 
@@ -87,6 +128,8 @@ def power(base: Value, exponent: Value) -> Value:
     >>> power(Fraction(1, 2), 3), power(2, -1), power(4, Fraction(1, 2))
     (Fraction(1, 8), Fraction(1, 2), 2.0)
     """
+    if is_symbolic(base) or is_symbolic(exponent):
+        return base**exponent  # type: ignore[no-any-return]
     if isinstance(base, float) or not isinstance(exponent, int):
         result: float | complex = float(base) ** float(exponent)
         if isinstance(result, complex):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from lsys_kit.notation.arithmetic import Value, divide, exact, power, real, rounded
+from lsys_kit.notation.arithmetic import Value, divide, exact, power, real, rounded, same
 
 Function: TypeAlias = Callable[[tuple[Any, ...]], Any]
 """What an expression is run as: from the values of its names, in a fixed order, to its own value. Behind the values of the
@@ -138,8 +138,8 @@ OPERATORS: Mapping[str, Operator] = {
     "||": Operator(_or, 0, "truth", "truth"),
     "&&": Operator(_and, 1, "truth", "truth"),
     "!": Operator(_strict(lambda x: not x), 2, "truth", "truth", (1, 1)),
-    "==": Operator(_strict(lambda x, y: x == y), 3, gives="truth"),
-    "!=": Operator(_strict(lambda x, y: x != y), 3, gives="truth"),
+    "==": Operator(_strict(same), 3, gives="truth"),
+    "!=": Operator(_strict(lambda x, y: not same(x, y)), 3, gives="truth"),
     "<": Operator(_strict(lambda x, y: x < y), 3, gives="truth"),
     "<=": Operator(_strict(lambda x, y: x <= y), 3, gives="truth"),
     ">": Operator(_strict(lambda x, y: x > y), 3, gives="truth"),
