@@ -82,8 +82,8 @@ def _guessed(value: Value) -> Span:
 def _calculated_with(name: str, system: LSystem) -> bool:
     """Whether a constant is ever added, compared by size, or the like; LEFT and RIGHT are only told apart."""
     expressions: list[Any] = [constant.value for constant in system.constants]
-    for rule in (*system.productions, *system.interpretation):
-        expressions += [rule.condition, *rule.predecessor.arguments, *(a for m in rule.successor for a in m.arguments)]
+    for rule in system.rules:
+        expressions += [rule.condition, rule.probability, *(a for module in rule.modules for a in module.arguments)]
     return any(_operates_on(name, expression) for expression in expressions if isinstance(expression, Apply))
 
 

@@ -38,7 +38,8 @@ SECONDS_A_STEP = 0.6
 """How long the play button shows each step."""
 
 
-def explore(what: LSystem | str, step: int | None = None, *, angle: object = None, **constants: object) -> Explorer:
+def explore(what: LSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
+            **constants: object) -> Explorer:
     """Show a system with its sliders: word, stage diagram and drawing of one step, side by side.
 
     Parameters
@@ -49,6 +50,8 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
         The step that is shown first; by default the one that the system asks for.
     angle
         Degrees by which `+` and `-` turn at first.
+    seed
+        Where chance begins.
     **constants
         First values of declared constants.
 
@@ -68,7 +71,7 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     system = catalogued(what) if isinstance(what, str) else what
     if not isinstance(system, LSystem):
         raise ModelValueError(f"Only a system, or the id of one, can be explored, not {type(what).__name__}")
-    return Explorer(system, step, angle, constants)
+    return Explorer(Study(system, seed), step, angle, constants)
 
 
 class Explorer(widgets.VBox):  # type: ignore[misc]
@@ -84,8 +87,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         What it shows: word, net, tokens, picture.
     """
 
-    def __init__(self, system: LSystem, step: int | None, angle: object, changes: dict[str, object]) -> None:
-        self.system, self._study = system, Study(system)
+    def __init__(self, study: Study, step: int | None, angle: object, changes: dict[str, object]) -> None:
+        self.system, self._study = study.system, study
+        system = study.system
         self._fixed = {name: value for name, value in changes.items() if name not in spans(system, changes)}
         self.constants = {name: control(name, span) for name, span in spans(system, changes).items()}
         self._make_controls(step, angle)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from lsys_kit.derivation.derive import Derivation, derive
 from lsys_kit.derivation.interpret import is_filament
@@ -67,6 +68,8 @@ class Study:
     ----------
     system
         Any L-system.
+    seed
+        Where chance begins.
 
     Examples
     --------
@@ -76,8 +79,8 @@ class Study:
 2 cells, width 3, height 1.
     """
 
-    def __init__(self, system: LSystem) -> None:
-        self.system, self.is_filament = system, is_filament(system)
+    def __init__(self, system: LSystem, seed: int = 0) -> None:
+        self.system, self.seed, self.is_filament = system, seed, is_filament(system)
         self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
         self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}
         self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
@@ -86,7 +89,8 @@ class Study:
         """The derivation and the net for given constants."""
         key = tuple(constants.items())
         if key not in self._known:
-            self._known[key] = derive(self.system, 0, **constants), stages(self.system, **constants)  # type: ignore[arg-type]
+            given: dict[str, Any] = dict(constants)
+            self._known[key] = derive(self.system, 0, seed=self.seed, **given), stages(self.system, **given)
         return self._known[key]
 
     def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1) -> Sight:

@@ -127,7 +127,9 @@ class Bulk:
         return padded[before], padded[after]
 
     def _role(self, symbol: str) -> int:
-        return OPENS if symbol in OPENING else CLOSES if symbol in CLOSING else PASSED if symbol in self.stepper.passed else ORDINARY
+        if symbol in OPENING or symbol in CLOSING:
+            return OPENS if symbol in OPENING else CLOSES
+        return PASSED if symbol in self.stepper.passed else ORDINARY
 
     def _drawn(self, cases: Integers, which: Integers, where: Integers, step: int, size: int) -> Integers:
         """For each module, whose case is known, the number of its replacement."""
@@ -201,7 +203,8 @@ def beside(roles: Integers, asked: Integers) -> tuple[Integers, Integers]:
     wanted[asked] = True
     kept = np.flatnonzero(wanted)
     role, mine = roles[kept], np.cumsum(wanted)[asked] - 1
-    before, after = _in_branches(role, mine) if ((role == OPENS) | (role == CLOSES)).any() else _in_a_row(role == ORDINARY, mine)
+    branched = ((role == OPENS) | (role == CLOSES)).any()
+    before, after = _in_branches(role, mine) if branched else _in_a_row(role == ORDINARY, mine)
     padded = np.append(kept, NOBODY)
     return padded[before], padded[after]
 

@@ -46,7 +46,7 @@ def units(seed: int, step: int, positions: np.ndarray[Any, Any]) -> np.ndarray[A
     True
     """
     keys = mixed_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
-    return (mixed_array(keys) >> np.uint64(11)) * _UNIT  # type: ignore[no-any-return]
+    return (mixed_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
 
 
 def _stem(seed: int, step: int) -> int:

@@ -148,7 +148,7 @@ class Stepping:
             return Origins(np.repeat(np.arange(len(chosen)), sizes).tolist(),
                            [productions[fate] for fate in np.repeat(chosen, sizes).tolist()])
 
-        return self._shortened(word.codes, origins) if self.states.system.meta else (word, origins)
+        return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
 
     def _one_by_one(self, codes: Sequence[int], step: int, until: float) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""

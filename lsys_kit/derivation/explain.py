@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.matching import chain, context, values_at
+from lsys_kit.derivation.matching import chain, values_at
 from lsys_kit.derivation.rules import Rule
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.stepping import Old, Stepper, uncut
@@ -126,7 +126,7 @@ def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | Non
     module, asked = old.modules[position], rule.production.predecessor
     if len(module.arguments) != len(asked.arguments):
         return f"is for {asked.symbol} with {len(asked.arguments)} parameters, not {len(module.arguments)}"
-    at = (position,) if old.around is None else context(rule, old.modules, old.symbols, old.around, position, stepper.passed)
+    at = stepper.context(rule, old, position)
     if at is None:
         return _context_missing(old, position, rule)
     values = values_at(old.modules, at)

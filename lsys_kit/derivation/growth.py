@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.derive import counted
+from lsys_kit.derivation.courses import counted
 from lsys_kit.derivation.states import States, closure
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model import LSystem, Module

@@ -63,7 +63,8 @@ def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
                 closing[opened] = position
         elif symbol not in ignored:
             last = position
-    following, behind = NOBODY, []
+    following = NOBODY
+    behind: list[int] = []
     for position in range(size - 1, -1, -1):
         symbol = symbols[position]
         if symbol in OPENING:
@@ -102,7 +103,7 @@ def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored:
             position = around.closing[position]
             if position == NOBODY:
                 return
-        elif symbols[position] not in ignored:
+        elif symbols[position] in CLOSING or symbols[position] not in ignored:
             return
         position += 1
 
@@ -148,7 +149,7 @@ def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
     for item in row:
         if isinstance(item[0], str):
             break
-        named.append(item)  # type: ignore[arg-type]
+        named.append(item)
     there = list(branches(symbols, around, position, ignored))
     found: list[int] = []
     for branch in named:

@@ -21,7 +21,6 @@ from lsys_kit.notation.expressions import Expression, Function, Name, function_o
 from lsys_kit.notation.model import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, flat
 from lsys_kit.notation.read import read_number
 
-
 Kind: TypeAlias = tuple[str, int]
 """What a rule asks of a module first: its symbol and the number of its parameters."""
 Branch: TypeAlias = tuple["Kind | Branch", ...]

@@ -5,8 +5,8 @@ modules of a word. In an ordinary Petri net one transition fires at a time; here
 
 A place stands for one state. Cells that differ in their polarity only share a place, as in the paper, where tokens ignore
 order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where
-the states do not end, or cannot all be computed, a place stands for all modules of one symbol, and its transitions carry what the
-productions ask for: contexts, conditions, probabilities.
+the states do not end, or cannot all be computed, a place stands for all modules of one symbol, and its transitions carry
+what the productions ask for: contexts, conditions, probabilities.
 """
 
 from __future__ import annotations

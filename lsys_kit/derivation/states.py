@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.chance import Chance, chosen
-from lsys_kit.derivation.rules import Kind, Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
+from lsys_kit.derivation.rules import Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, is_symbolic, reason, same, settled_value, sound
 from lsys_kit.notation.model import LSystem, Module, Production
@@ -125,7 +125,8 @@ class States:
     def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
         """The rule that rewrites a module, of rules that need no context."""
         values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
-        return self.drawn([(rule, values) for rule in rules.get(kind_of(module), ()) if self.holds(rule, values, module)], chance)
+        matched = [(rule, values) for rule in rules.get(kind_of(module), ()) if self.holds(rule, values, module)]
+        return self.drawn(matched, chance)
 
     def holds(self, rule: Rule, values: tuple[Value, ...], module: Module) -> bool:
         """Whether a rule's values are what it asks for and its condition is true."""
@@ -167,9 +168,9 @@ class States:
         values: tuple[object, ...] = (*given, chance)
         for part in parts:
             if isinstance(part, Part):
-                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])  # type: ignore[arg-type]
+                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
             else:
-                for index in range(_times(part.count(values))):  # type: ignore[arg-type]
+                for index in range(_times(part.count(values))):
                     yield from self._written(part.body, (*given, index), chance)
 
     def made_numbers(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
@@ -187,7 +188,7 @@ class States:
         return tuple(found)
 
     def decomposed(self, states: Sequence[int], chance: Chance | None = None) -> Sequence[int]:
-        """States after decomposition: each replaced by what it consists of, and that in turn, until nothing is left to replace."""
+        """States after decomposition: each replaced by its parts, and these by theirs, until nothing is left to replace."""
         if not self.decomposition:
             return states
         found: list[int] = []
@@ -212,8 +213,9 @@ class States:
             if rule is None:
                 found.append(state)
             elif depth == deepest:
+                start, end = rule.production.at or (None, None)
                 raise ModelLimitError(f"{module} is decomposed more than {deepest} times, last by {rule.production}",
-                                      limit=deepest, source=self.system.source or None, start=(rule.production.at or (None,))[0],
+                                      limit=deepest, source=self.system.source or None, start=start, end=end,
                                       hint="A condition before the arrow can bring it to an end.")
             else:
                 todo += [(made, depth + 1) for made in reversed(self.made_numbers(rule, module, None, chance))]
@@ -241,17 +243,18 @@ class States:
 
     def _undecided(self, module: Module, rule: Rule) -> LSystemError:
         """A condition hangs on a constant that is not known."""
-        names = sorted({str(name) for value in self.constants if is_symbolic(value) for name in value.free_symbols})  # type: ignore[union-attr]
-        return ModelValueError(f"Whether production {rule.number + 1}, {rule.production}, is for {module} cannot be decided",
-                               self.system.source or None, *(rule.production.at or (None, None)),
-                               f"It depends on {', '.join(names)}: choose a value for {names[0] if names else 'it'}.")
+        names = sorted({str(name) for value in self.constants for name in getattr(value, "free_symbols", ())})
+        said = f"Whether production {rule.number + 1}, {rule.production}, is for {module} cannot be decided"
+        start, end = rule.production.at or (None, None)
+        return ModelValueError(said, self.system.source or None, start, end,
+                               f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
 
     def fault(self, module: Module, rule: Rule, fault: Exception) -> LSystemError:
         """What went wrong in a rule, with the module and the production."""
         what = "The axiom" if module is _AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
-        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None,
-                               *(rule.production.at or (None, None)),
-                               None if module is _AXIOM else "A condition before the arrow can keep such values out.")
+        hint = None if module is _AXIOM else "A condition before the arrow can keep such values out."
+        start, end = rule.production.at or (None, None)
+        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None, start, end, hint)
 
 
 def _symbols(system: LSystem) -> set[str]:
@@ -275,11 +278,6 @@ def check_settled(states: States, what: str) -> None:
     if not states.settled:
         raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
                               hint="Derive this system, and look at its words.")
-
-
-def kinds_met(states: States) -> set[Kind]:
-    """The symbols met so far, with their numbers of parameters."""
-    return {kind_of(module) for module in states.modules}
 
 
 def closure(states: States, limit: int) -> Sequence[int] | None:

@@ -137,10 +137,16 @@ class Stepper:
         right = chain(old.around.after, position, max((len(rule.right) for rule in rules), default=0))
         return (old.codes[position], *(old.codes[at] for at in left), None, *(old.codes[at] for at in right))
 
+    def context(self, rule: Rule, old: Old, position: int) -> tuple[int, ...] | None:
+        """The positions of the modules that a rule names, where its contexts match; else None."""
+        if old.around is None:
+            return (position,)
+        return context(rule, old.modules, old.symbols, old.around, position, self.passed)
+
     def _matching(self, rules: Sequence[Rule], old: Old, position: int) -> Matches:
         found: Matches = []
         for rule in rules:
-            at = (position,) if old.around is None else context(rule, old.modules, old.symbols, old.around, position, self.passed)
+            at = self.context(rule, old, position)
             if at is None:
                 continue
             values = values_at(old.modules, at)

@@ -77,7 +77,7 @@ def settled_value(value: Any) -> Value:
     value = value.expand()
     if value.is_Rational:
         return tidy(Fraction(int(value.p), int(value.q)))
-    return float(value) if value.is_Float else value  # type: ignore[no-any-return]
+    return float(value) if value.is_Float else value
 
 
 def brief(value: Value) -> str:
@@ -129,7 +129,7 @@ def power(base: Value, exponent: Value) -> Value:
     (Fraction(1, 8), Fraction(1, 2), 2.0)
     """
     if is_symbolic(base) or is_symbolic(exponent):
-        return base**exponent  # type: ignore[no-any-return]
+        return base**exponent
     if isinstance(base, float) or not isinstance(exponent, int):
         result: float | complex = float(base) ** float(exponent)
         if isinstance(result, complex):

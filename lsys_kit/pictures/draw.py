@@ -152,8 +152,8 @@ class NetPicture:
 @overload
 def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False) -> NetPicture: ...
 @overload
-def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, arithmetic: str = "exact",
-         marked: Collection[int] = (), **constants: object) -> Picture: ...
+def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int = 0,
+         arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPicture:
     """Draw a system, a derivation, a word or a stage diagram.
 
@@ -167,9 +167,9 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPictur
     angle
         Degrees by which `+` and `-` turn; by default the system's.
     **choices
-        For a system `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules are marked.
-        For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say where in the
-        successor a module stands.
+        For a system `seed`, `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules
+        are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say where in
+        the successor a module stands.
 
     Raises
     ------
@@ -191,11 +191,11 @@ def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
 
 
-def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, arithmetic: str = "exact",
-             marked: Collection[int] = (), **constants: object) -> Picture:
+def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int = 0,
+             arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture:
     if isinstance(what, LSystem):
         steps = n if n is not None else what.steps if what.steps is not None else 5
-        what = derive(what, steps, arithmetic=arithmetic, **constants)
+        what = derive(what, steps, seed=seed, arithmetic=arithmetic, **constants)
     elif not isinstance(what, Derivation | Word):
         raise ModelValueError(f"Only systems, derivations, words and stage diagrams can be drawn, not {type(what).__name__}")
     elif n is not None or constants:
