@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any, TypeAlias
 
 from lsys_kit.derivation.chance import Chance, chosen
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.expressions import Name, Number
 from lsys_kit.notation.model import Item, LSystem, Module, Production, Repeat
 
 Names: TypeAlias = Mapping[str, Any]
@@ -60,7 +60,7 @@ def constants(system: LSystem) -> Names:
 
 def passed(system: LSystem, symbol: str) -> bool:
     """Whether contexts pass over a symbol."""
-    return symbol in system.ignored or bool(system.considered) and symbol not in system.considered
+    return symbol in system.ignored or (bool(system.considered) and symbol not in system.considered)
 
 
 def end_of_branch(word: PlainWord, at: int, way: int = 1) -> int:
@@ -190,12 +190,11 @@ def shortened(system: LSystem, word: PlainWord, known: Names) -> PlainWord:
     """The word after meta-rules, the leftmost first, until none applies."""
     for at in range(len(word)):
         for rule in system.meta:
-            names = dict(known)
-            beside = word[at:at + len(rule.predecessors)]
-            if (len(beside) == len(rule.predecessors)
-                    and all(binds(system, formal, module, names) for formal, module in zip(rule.predecessors, beside, strict=True))
+            names, end = dict(known), at + len(rule.predecessors)
+            row = zip(rule.predecessors, word[at:end], strict=False)
+            if (end <= len(word) and all(binds(system, formal, module, names) for formal, module in row)
                     and (rule.condition is None or value(rule.condition, names))):
-                return shortened(system, [*word[:at], *made(rule.successor, names), *word[at + len(beside):]], known)
+                return shortened(system, [*word[:at], *made(rule.successor, names), *word[end:]], known)
     return word
 
 

@@ -127,8 +127,8 @@ def test_the_definition_gives_the_words_of_cpfg(name: str) -> None:
 def test_exact_ages_divide_a_step_earlier_than_those_of_cpfg() -> None:
     """4 + 20 * 0.1 is 6: the cell divides at step 20, and cpfg's at step 21."""
     system = KIT["anabaena_heterocysts_t_gt_0"]
-    lengths = {arithmetic: [len(word) for word in derive(system, 22, arithmetic=arithmetic)] for arithmetic in ("exact", "float")}
-    assert lengths["exact"].index(6) + 1 == lengths["float"].index(6) == 22
+    exact, doubles = ([len(word) for word in derive(system, 22, arithmetic=kind)] for kind in ("exact", "float"))
+    assert exact.index(6) + 1 == doubles.index(6) == 22
 
 
 @pytest.mark.parametrize("name", [name for name, case in CASES.items() if "steps_after_homomorphism" in case])

@@ -46,7 +46,8 @@ def test_right_contexts_that_match_in_the_example_of_the_book(right: str) -> Non
     assert letters(system, 1)[1] == "ABC[DE][TG[HI[JK]L]MNO]"
 
 
-@pytest.mark.parametrize("right", ["M", "H", "G H", "G [ I ] M", "G [ H ] N", "G M N O P", "G [ H ] [ H ] M", "G [ H J ]", "[ G ]"])
+@pytest.mark.parametrize("right", [
+    "M", "H", "G H", "G [ I ] M", "G [ H ] N", "G M N O P", "G [ H ] [ H ] M", "G [ H J ]", "[ G ]"])
 def test_right_contexts_that_do_not_match_there(right: str) -> None:
     assert letters(read(BOOK.format(right=right)), 1)[1] == "ABC[DE][SG[HI[JK]L]MNO]"
 
@@ -77,6 +78,11 @@ def test_symbols_that_are_ignored_and_symbols_that_are_considered() -> None:
     assert letters(read(f"{word}ignore: + -\nA < B -> C"), 1)[1] == "A+C[+B]-A"
     assert letters(read(f"{word}consider: A B\nA < B > A -> C"), 1)[1] == "A+C[+B]-A"
     assert letters(read(f"{word}consider: A\nA < B -> C"), 1)[1] == "A+C[+C]-A"
+
+
+@pytest.mark.parametrize("passing", ["ignore: +", "consider: A X"])
+def test_nothing_lies_beyond_the_end_of_a_branch(passing: str) -> None:
+    assert letters(read(f"{passing}\naxiom: X [ A ] [ A ] A\nA > [ A ] -> B\nA > A -> C"), 1)[1] == "X[A][A]A"
 
 
 def test_hormone_spreads_through_a_filament() -> None:
