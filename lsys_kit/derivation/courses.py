@@ -15,6 +15,8 @@ import numpy as np
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.bulk import Bulk, possible
+from lsys_kit.derivation.columns import Columns, ColumnWord
+from lsys_kit.derivation.columns import possible as columns_possible
 from lsys_kit.derivation.expand import code_type, expanded
 from lsys_kit.derivation.meta import shortened_by_rules
 from lsys_kit.derivation.states import States
@@ -26,6 +28,8 @@ PLAIN = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
 BULK = 1_000
 """Words from this length on are stepped in bulk, where that is possible."""
+DIFFERENT = 250
+"""From so many different modules on a word may become columns, if they are most of it."""
 STATE_BYTES = 600
 """About what one state takes in the table."""
 OFTEN = 1_024
@@ -55,30 +59,43 @@ class Counting:
         self.states = states
         self._counts = [Counter(states.axiom)]
         self._words: dict[int, Word] = {}
+        self._columns = Columns(states) if columns_possible(states) else None
+        self._late: list[ColumnWord] = []
 
     @property
     def known(self) -> int:
         """The last step whose size is known."""
-        return len(self._counts) - 1
+        return len(self._counts) + len(self._late) - 1
 
     def size(self, step: int) -> int:
         """How many modules a known step has."""
-        return self._counts[step].total()
+        return self._counts[step].total() if step < len(self._counts) else len(self.word(step))
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a known step."""
-        return self._counts[step]
+        return self._counts[step] if step < len(self._counts) else state_counts(self.word(step))
 
     def advance(self, until: float) -> None:
         """Make one step more known."""
         step, before = self.known + 1, self._counts[-1]
+        if self._columns and (self._late or (len(before) > DIFFERENT and 2 * len(before) > before.total())):
+            self._late.append(self._in_columns(self._columns, step, until))
+            return
         check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
         after = counted(self.states, before, lambda: check_time(self.states, step, until))
         check_size(self.states, step, after.total())
         self._counts.append(after)
 
+    def _in_columns(self, columns: Columns, step: int, until: float) -> ColumnWord:
+        """The next word, where nearly all modules are different."""
+        before = self._late[-1] if self._late else columns.word(list(self.word(step - 1)))
+        check_time(self.states, step, until)
+        return columns.step(before, lambda size: check_size(self.states, step, size, columns.bytes(size)))
+
     def word(self, step: int) -> Word:
         """The word of a known step."""
+        if step >= len(self._counts):
+            return self._late[step - len(self._counts)]
         if step not in self._words:
             self._words[step] = self._built(step)
         return self._words[step]
@@ -208,13 +225,13 @@ def counted(states: States, counts: Counter[int], watch: Callable[[], None] = la
     return after
 
 
-def check_size(states: States, step: int, size: int) -> None:
-    """Refuse a step whose word would be past a limit."""
+def check_size(states: States, step: int, size: int, word: int | None = None) -> None:
+    """Refuse a step whose word would be past a limit; it takes `word` bytes, if not those of a row of states."""
     limit = current().modules
     if size > limit:
         raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(limit)}", limit=limit,
                               needed=size, hint="Take fewer steps, or set limits(modules=...).")
-    _check_bytes(states, step, size * code_type(len(states)).itemsize)
+    _check_bytes(states, step, size * code_type(len(states)).itemsize if word is None else word)
 
 
 def check_time(states: States, step: int, until: float) -> None:

@@ -168,8 +168,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPictur
         Degrees by which `+` and `-` turn; by default the system's.
     **choices
         For a system `seed`, `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules
-        are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say where in
-        the successor a module stands.
+        are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
+        where in the successor a module stands.
 
     Raises
     ------
