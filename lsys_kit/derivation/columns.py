@@ -185,7 +185,7 @@ class Columns:
                 values[at, place] = self._sound(argument, columns, word, rows)
 
     def _chosen(self, word: ColumnWord) -> list[tuple[int, ColumnRule | None, Any]]:
-        """For each kind and rule the rows that the rule rewrites, a slice where it is all of them; None for the rows that stay."""
+        """For each kind and rule the rows that it rewrites, a slice where that is all; None for the rows that stay."""
         found: list[tuple[int, ColumnRule | None, Array]] = []
         for kind, rules in enumerate(self._rules):
             rows = np.flatnonzero(word.kinds == kind)

@@ -9,7 +9,7 @@ from lsys_kit.errors import ModelSyntaxError
 
 ARROW = re.compile(r"-->|->|→|⟶")
 _STARTS = re.compile(rf"{ARROW.pattern}|^\s*[A-Za-z_]\w*\s*=(?!=)|^\s*[A-Za-zωδ]+\s*:(?!.*[<>=])")
-_GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||:)$")
+_GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
 
 
 def statements(text: str) -> Iterator[tuple[int, int]]:

@@ -64,7 +64,7 @@ def test_many_rules_are_looked_through_quickly() -> None:
     started = time.perf_counter()
     check_decomposition(system)
     idle(system)
-    assert time.perf_counter() - started < 0.05 * 5  # on a machine of one's own
+    assert time.perf_counter() - started < 2  # comparing each rule with each would take longer on any machine
 
 
 @pytest.mark.parametrize(("text", "value"), [
