@@ -1,8 +1,9 @@
 """Letters written together: `F -> FF` means two segments, `ar -> al br` means two cells of two letters each.
 
 Books glue one-letter symbols together; the kit's notation has symbols of several letters. A name of several letters that
-no production rewrites, and that can be parted in just one way into symbols that the system has, is read as those symbols.
-An `alphabet:` line keeps a name whole.
+no production rewrites, and that can be parted in just one way into symbols that the system has, is read as those symbols; so
+is a row of capital letters, one of which a production rewrites: in `A -> BA` the B is new. An `alphabet:` line keeps a name
+whole.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ def unglued(word: Iterable[Item], system: LSystem) -> tuple[tuple[Item, ...], li
             result.append(replace(module, body=body))
             notes += said
             continue
-        pieces = [] if len(module.symbol) < 2 or module.symbol in whole else _partings(module.symbol, parts)
+        pieces = [] if len(module.symbol) < 2 or module.symbol in whole else _pieces(module.symbol, whole, parts)
         if not pieces:
             result.append(module)
             continue
@@ -51,6 +52,12 @@ def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     shown = [m.symbol for m in (*system.axiom, *(m for rule in system.rules for m in rule.modules))]
     whole = rewritten | set(system.alphabet)
     return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
+
+
+def _pieces(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
+    """The symbols that a name stands for; nothing where it is a symbol of its own."""
+    capitals = name.isalpha() and name.isupper() and not whole.isdisjoint(name)
+    return _partings(name, parts) or (list(name) if capitals else [])
 
 
 def _partings(name: str, parts: frozenset[str]) -> list[str]:

@@ -174,3 +174,11 @@ def test_plant_strings_have_two_kinds_of_branches() -> None:
     assert system.productions[1].successor == ()
     assert (system.angle, system.steps, system.notation) == (30, 3, "plant-string")
     assert str(system) == "angle: 30\nsteps: 3\nAxiom: I\nI -> I[A]A(I)A\nA -> ε"
+
+
+@pytest.mark.parametrize(("rules", "successor"), [
+    ("A -> BA", "B A"), ("A -> FAXF", "F A X F"), ("A -> BUD", "BUD"), ("A -> Bud", "Bud"), ("A -> BA\nBA -> A", "BA")])
+def test_capital_letters_in_a_row_are_symbols_if_one_of_them_is_rewritten(rules: str, successor: str) -> None:
+    system = read(f"axiom: A\n{rules}")
+    assert " ".join(module.symbol for module in system.productions[0].successor) == successor
+    assert read(write(system)) == system
