@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.exercises import check
     from lsys_kit.classroom.explorer import explore
     from lsys_kit.derivation.derive import derive
+    from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth import growth
     from lsys_kit.derivation.stages import stages
     from lsys_kit.errors import (
@@ -40,9 +41,9 @@ if TYPE_CHECKING:
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "check": "classroom.exercises", "derive": "derivation.derive",
-    "draw": "pictures.draw", "explore": "classroom.explorer", "figure": "pictures.draw", "growth": "derivation.growth",
-    "limits": "budget", "read": "notation.read", "stages": "derivation.stages", "system": "classroom.catalogue",
-    "systems": "classroom.catalogue", "write": "notation.write",
+    "draw": "pictures.draw", "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
+    "growth": "derivation.growth", "limits": "budget", "read": "notation.read", "stages": "derivation.stages",
+    "system": "classroom.catalogue", "systems": "classroom.catalogue", "write": "notation.write",
 }
 
 __all__ = [
@@ -55,6 +56,7 @@ __all__ = [
     "check",
     "derive",
     "draw",
+    "explain",
     "explore",
     "figure",
     "growth",

@@ -9,6 +9,7 @@ import argparse
 import importlib.util
 import json
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
@@ -27,11 +28,8 @@ BAD_INPUT, INTERRUPTED, NOBODY_READS = 2, 130, 141
 """Exit statuses: a mistake in the input; as shells say of a program that was interrupted, or whose reader has gone."""
 STEPS = 5
 """How many steps are drawn where neither the command nor the system says."""
-MOST_STEPS = 10**9
-MOST_NEIGHBOURS = 1_000
-"""How many files beside a missing one are looked at for a likely name."""
-_LATER = {"--seed": "chance"}
-"""Options that models of later lessons need, and what they are about."""
+MOST_STEPS, MOST_NEIGHBOURS = 10**9, 1_000
+"""The greatest number of steps that is understood; how many files beside a missing one are looked at for a likely name."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -108,8 +106,7 @@ def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
                         help="the notation of the file, or in which the words of a system of the catalogue are printed")
     parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
                         help="float computes in doubles, as other programs do")
-    for option, about in _LATER.items():
-        parser.add_argument(option, type=_later(option, about), help=argparse.SUPPRESS)
+    parser.add_argument("--seed", type=_seed, default=0, metavar="S", help="where chance begins: a whole number, by default 0")
 
 
 def _spread(arguments: Sequence[str]) -> Iterator[str]:
@@ -139,11 +136,11 @@ def _setting(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def _later(option: str, about: str) -> Callable[[str], NoReturn]:
-    def refused(_: str) -> NoReturn:
-        raise argparse.ArgumentTypeError(f"{option} is for models with {about}, which this version cannot read yet")
-
-    return refused
+def _seed(text: str) -> int:
+    """A whole number."""
+    if re.fullmatch(r"-?[0-9]{1,19}", text):
+        return int(text)
+    raise argparse.ArgumentTypeError(f'the seed is a whole number, not "{text[:40]}"')
 
 
 def _list(_: argparse.Namespace) -> None:
@@ -163,39 +160,43 @@ def _derive(options: argparse.Namespace) -> None:
 
 
 def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
-    """Each step with its number of modules, for which no word is built."""
+    """Each step with its number of modules; a word is built only where neighbours or chance have a say."""
     from lsys_kit.derivation.derive import lengths
+    from lsys_kit.derivation.states import States
 
     sys.set_int_max_str_digits(0)
-    for step, modules in enumerate(lengths(_system(options), options.steps, arithmetic=options.arithmetic)):
+    system = _system(options)
+    counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).settled else \
+        _words(system, options).lengths
+    for step, modules in enumerate(counts):
         yield {"step": step, "modules": modules}
 
 
 def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     """Each step with its number of modules, and its word."""
-    for step, word in enumerate(_words(_system(options), options.steps, options.arithmetic)):
+    for step, word in enumerate(_words(_system(options), options)):
         yield {"step": step, "modules": len(word), "word": str(word)}
 
 
-def _words(system: LSystem, steps: int, arithmetic: str) -> Derivation:
+def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
     """The derivation; where a step would be too large, the error says what can be typed instead."""
     from lsys_kit.derivation.derive import Derivation, derive
 
     try:
-        return derive(system, steps, arithmetic=arithmetic)
+        steps = next(steps for steps in (options.steps, system.steps, STEPS) if steps is not None)
+        return derive(system, steps, seed=options.seed, arithmetic=options.arithmetic)
     except ModelLimitError as mistake:
         if not isinstance(mistake.partial, Derivation):
             raise
-        hint = f"Take -n {mistake.partial.steps} or less; derive --counts counts the modules of any step."
+        counting = "; derive --counts counts the modules of any step" if mistake.partial.states.settled else ""
+        hint = f"Take -n {mistake.partial.steps} or less{counting}."
         raise ModelLimitError(mistake.message, limit=mistake.limit, needed=mistake.needed, hint=hint) from None
 
 
 def _draw(options: argparse.Namespace) -> None:
     from lsys_kit.pictures.draw import draw
 
-    system = _system(options)
-    steps = options.steps if options.steps is not None else system.steps if system.steps is not None else STEPS
-    picture = draw(_words(system, steps, options.arithmetic), angle=options.angle)
+    picture = draw(_words(_system(options), options), angle=options.angle)
     picture.save(options.output)
     print(picture)
 
@@ -205,7 +206,7 @@ def _stages(options: argparse.Namespace) -> None:
     from lsys_kit.pictures.draw import draw
 
     system = _system(options)
-    word = None if options.steps is None else _words(system, options.steps, options.arithmetic)[-1]
+    word = None if options.steps is None else _words(system, options)[-1]
     picture = draw(stages(system), tokens=word)
     picture.save(options.output)
     print(picture)
@@ -265,7 +266,7 @@ def _file(name: str) -> str:
         raise ModelFileError(f'There is no file "{_shown(name)}", and no system of the catalogue is called so',
                              hint=_likely(name)) from None
     except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{_shown(name)}" cannot be read: {_why(fault)}') from None
+        raise ModelFileError(f'"{_shown(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
 
 
 def _text(file: BinaryIO, name: str) -> str:
@@ -290,10 +291,6 @@ def _likely(name: str) -> str:
 def _shown(name: str) -> str:
     """A name as a message quotes it."""
     return "".join(map(printable, name if len(name) <= 80 else f"{name[:80]}..."))
-
-
-def _why(fault: Exception) -> str:
-    return getattr(fault, "strerror", None) or str(fault)
 
 
 if __name__ == "__main__":

@@ -141,6 +141,31 @@ def test_counts_of_ever_new_modules_end(shell, model):
     assert "seconds" in said.err
 
 
+def test_counts_where_neighbours_or_chance_have_a_say_are_those_of_the_words(shell):
+    assert shell("derive", "P9", "-n", "6", "--counts").out.split() == ["3", "3", "3", "5", "9", "15", "19"]
+    words = json.loads(shell("derive", "K7", "-n", "6", "--seed", "3", "--json").out)
+    counts = shell("derive", "K7", "-n", "6", "--seed", "3", "--counts").out.split()
+    assert counts == [str(step["modules"]) for step in words]
+
+
+def test_counts_of_words_that_must_be_built_keep_to_the_limit(shell):
+    said = shell("derive", "K7", "-n", "300", "--counts")
+    refused(said, "modules; the limit is", "Take -n 1")
+    assert "--counts" not in said.err
+
+
+def test_a_seed_is_one_plant_and_another_seed_another(shell):
+    from lsys_kit import derive, system
+
+    seven = shell("derive", "K7", "-n", "4", "--seed", "7").out
+    assert seven == shell("derive", "K7", "-n", "4", "--seed", "7").out
+    assert seven.splitlines() == [str(word) for word in derive(system("K7"), 4, seed=7)]
+    plants = {shell("derive", "K7", "-n", "4", "--seed", seed).out for seed in ("0", "7", "-7", "123456789012345")}
+    assert len(plants) == 4
+    assert shell("derive", "K7", "-n", "4").out == shell("derive", "K7", "-n", "4", "--seed", "0").out
+    assert shell("derive", "J1", "-n", "4").out == shell("derive", "J1", "-n", "4", "--seed", "7").out
+
+
 def test_json_is_one_document(shell):
     steps = json.loads(shell("derive", "J1", "-n", "2", "--json").out)
     assert steps[1] == {"step": 1, "modules": 2, "word": "al br"}
@@ -178,6 +203,13 @@ def test_draw_turns_by_another_angle(shell, tmp_path):
     assert (tmp_path / "a.svg").read_text() != (tmp_path / "b.svg").read_text()
 
 
+def test_draw_draws_the_plant_of_a_seed(shell, tmp_path):
+    for name, seed in (("a", "1"), ("b", "1"), ("c", "2")):
+        assert shell("draw", "K7", "-n", "3", "--seed", seed, "-o", str(tmp_path / f"{name}.svg")).status == 0
+    one, same, other = ((tmp_path / f"{name}.svg").read_text() for name in "abc")
+    assert one == same != other
+
+
 def test_stages_writes_the_diagram_with_the_tokens_of_a_step(shell, tmp_path):
     path = tmp_path / "net.svg"
     assert shell("stages", "P4", "-o", str(path)).status == 0
@@ -209,7 +241,10 @@ def test_a_picture_goes_nowhere_else(shell, tmp_path):
     (["derive", "P5", "-n", "1", "--set", "dt=fast"], ["fast"]),
     (["derive", "P5", "-n", "1", "--set", "dt=1/0"], ["zero"]),
     (["derive", "J4", "-n", "1", "--set", "lifetimeA=2"], ['Did you mean "lifeTimeA"?']),
-    (["derive", "P4", "-n", "1", "--seed", "7"], ["--seed", "chance"]),
+    (["derive", "K7", "-n", "1", "--seed", "seven"], ["--seed", "whole number", '"seven"']),
+    (["derive", "K7", "-n", "1", "--seed", "1.5"], ["whole number", '"1.5"']),
+    (["derive", "K7", "-n", "1", "--seed", "9" * 5000], ["whole number"]),
+    (["derive", "K7", "-n", "1", "--seed"], ["--seed"]),
     (["derive", "P4", "-n", "1", "--arithmetic", "decimal"], ["exact", "float"]),
     (["derive", "P4", "-n", "1", "--notation", "abob"], ['no notation called "abob"', "abop"]),
     (["derive", "P44", "-n", "1"], ['no file "P44"', 'Did you mean "P4"?']),

@@ -34,7 +34,9 @@ class Entry:
     seed, source
         The seed document, and where in it the system stands.
     status
-        "seed" where the rules stand in the seed, "seed, corrected" where the print had to be corrected.
+        "seed" where the rules stand in the seed, "seed, corrected" where the print had to be corrected; "found" where the seed
+        has only a picture and the source names where the rules were found, "memory" where they are known from the literature
+        and were not read again, "reconstruction" where they were made for this kit.
     notation, rules
         The rules, as text in a notation.
     errata
@@ -42,9 +44,9 @@ class Entry:
     notes
         What else a reader should know, a sentence each.
     words
-        Some steps and their words.
+        Some steps and their words, as far as chance has no part in them.
     lengths
-        The number of modules at steps 0, 1, 2, ..., as far as they were checked.
+        The number of modules at steps 0, 1, 2, ..., as far as they were checked and chance has no part in them.
     same_as
         The id of the system that this one repeats, or None.
     """
@@ -100,7 +102,7 @@ def systems() -> Catalogue:
     >>> "P4" in systems()
     True
     >>> print(repr(systems()).splitlines()[0])
-    J1  seed 000  Anabaena catenula: long and short cells with a polarity
+    J1    seed 000  Anabaena catenula: long and short cells with a polarity
     """
     return Catalogue(sorted(_ids().values(), key=lambda id: (entry(id).seed, _natural(id))))
 
@@ -128,7 +130,7 @@ def _known(id: str) -> str:
     ids = _ids()
     if id.strip().upper() not in ids:
         shown = id if len(id) <= 20 else f"{id[:20]}..."
-        hint = suggestion(id[:20].upper(), ids) or f"Systems are: {', '.join(sorted(ids, key=_natural))}."
+        hint = suggestion(id[:20].upper(), ids.values()) or f"Systems are: {', '.join(sorted(ids.values(), key=_natural))}."
         raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
     return ids[id.strip().upper()]
 
@@ -155,7 +157,7 @@ def _system(id: str) -> LSystem:
     return read(found.rules, found.notation)
 
 
-def _natural(id: str) -> tuple[str, int]:
-    """Sorts P2 before P10."""
-    letters, digits = re.fullmatch(r"(\D*)(\d*)\D*", id).groups()  # type: ignore[union-attr]
-    return letters, int(digits or 0)
+def _natural(id: str) -> tuple[str, int, str]:
+    """Sorts P2 before P10, and P9 before P9w."""
+    letters, digits, rest = re.fullmatch(r"(\D*)(\d*)(\D*)", id).groups()  # type: ignore[union-attr]
+    return letters, int(digits or 0), rest
