@@ -287,7 +287,8 @@ def test_an_id_is_found_whatever_its_case():
 
 
 @pytest.mark.parametrize(("id", "hint"), [("P44", 'Did you mean "P4"?'), ("?", "Systems are: J1, J2, J3,"),
-                                          ("K17", 'Did you mean "K17'), ("../systems/J1", "Systems are"), ("x" * 9999, "Systems are")])
+                                          ("K17", 'Did you mean "K17'), ("../systems/J1", "Systems are"),
+                                          ("x" * 9999, "Systems are")])
 def test_an_unknown_id_is_answered_with_a_suggestion(id, hint):
     with pytest.raises(ModelNameError) as caught:
         system(id)
