@@ -160,10 +160,10 @@ class Bulk:
         word = [state for state in (left, code, right) if state != NOBODY]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NOBODY))
         if not matched:
-            return [self.fates.number(Replacement(tuple(states.decomposed((code,))), None))], [1.0]
+            return [self.fates.number(Replacement(states.parts(states.modules[code]), None))], [1.0]
         states.drawn(matched, None)  # refuses weights that are none
         weights = [float(rule.probability(values + states.constants)) for rule, values in matched if rule.probability]
-        made = [Replacement(tuple(states.decomposed(states.made_numbers(rule, states.modules[code], values))), rule.number)
+        made = [Replacement(states.replaced(rule, states.modules[code], values), rule.number)
                 for rule, values in (matched if weights else matched[:1])]
         return [self.fates.number(replacement) for replacement in made], weights or [1.0]
 

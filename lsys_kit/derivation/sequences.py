@@ -7,13 +7,19 @@ x^d - c1 x^(d-1) - ... - cd.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
     import sympy
+
+ALIKE = 1e-9
+"""A polynomial's value that is no larger than this share of its summands is 0."""
 
 MERSENNE = (61, 127, 521, 1279, 4423)
 """2 to each of these, less 1, is a prime number: a rule is found modulo one of them, and then proved in whole numbers."""
@@ -125,6 +131,96 @@ def generating_function(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr
     above = [a - sum(c * terms[t - k] for k, c in enumerate(rule[:t], 1)) for t, a in enumerate(terms[:len(rule)])]
     below = [1, *(-c for c in rule)]
     return sympy.Poly(above[::-1] or [0], x).as_expr() / sympy.Poly(below[::-1], x).as_expr()
+
+
+def greatest_root(rule: Sequence[int], exact: bool = True) -> float:
+    """The largest root of the polynomial of a sequence of counts: it is real, and no other is larger in absolute value.
+
+    Newton's method comes down to it from above: beyond its largest root the polynomial and its derivatives are positive.
+
+    >>> round(greatest_root((3, -3, 1)), 12)
+    1.0
+
+    Parameters
+    ----------
+    rule
+        The shortest rule of a sequence that is nowhere negative.
+    exact
+        Whether to make multiple roots simple first: with them some five digits are right.
+    """
+    if not any(rule):
+        return 0.0
+    if exact:
+        rule = [-int(c) for c in polynomial(rule).sqf_part().all_coeffs()[1:]]
+    above, root = math.inf, 2 * max(math.exp(math.log(abs(c)) / k) for k, c in enumerate(rule, 1) if c)
+    while root < above:
+        value, slope = 1.0, 0.0
+        for k, share in _scaled(rule, root):
+            value, slope = value - share, slope + k * share
+        above, root = root, root * (1 - value / (len(rule) * value + slope)) if value > 0 else root
+    return above
+
+
+def _scaled(rule: Sequence[int], root: float) -> list[tuple[int, float]]:
+    """Each coefficient c of a rule, with its number k, as c / root^k."""
+    logarithm = math.log(root)
+    return [(k, math.copysign(math.exp(math.log(abs(c)) - k * logarithm), c)) for k, c in enumerate(rule, 1) if c]
+
+
+def leading_weights(rule: Sequence[int], bits: int) -> list[Fraction] | None:
+    """The weights with which the first terms of sequences that obey a rule add up to what grows fastest in each of them.
+
+    None where they die out, or where that swings for ever: where the largest root is not alone, counting as often as it is a
+    root. The others are then its products with roots of unity (Perron and Frobenius).
+
+    Parameters
+    ----------
+    rule
+        The shortest rule of several sequences of counts together.
+    bits
+        How long the first terms are, for the precision.
+
+    Examples
+    --------
+    >>> [round(float(weight), 6) for weight in leading_weights((1, 1), 2)]
+    [0.618034, 1.0]
+    """
+    if not any(rule):
+        return None
+    peak = greatest_root(rule)
+    rows = [[int(c) for c in factor.all_coeffs()] for factor, _ in polynomial(rule).sqf_list()[1]]
+    row = min(rows, key=lambda row: abs(1 - sum(share for _, share in _scaled([-c for c in row[1:]], peak))))
+    if _swings([-c for c in row[1:]], peak):
+        return None
+    precision = 128 + 4 * (bits + len(rule) + max(abs(c) for c in rule).bit_length())
+    root = _refined(row, Fraction(peak), precision)
+    weights = [Fraction(1)]
+    for c in rule[:-1]:  # the rule's polynomial, divided by x - root
+        weights.append(weights[-1] * root - c)
+    return weights[::-1]
+
+
+def _swings(rule: Sequence[int], root: float) -> bool:
+    """Whether a rule's polynomial has another root, the product of the given one with a root of unity."""
+    shares = np.zeros(len(rule) + 1)
+    shares[0] = -1
+    for k, share in _scaled(rule, root):
+        shares[k] = share
+    for order in range(2, len(rule) + 1):
+        folded = np.bincount(np.arange(len(shares)) % order, weights=shares)
+        if np.any(abs(np.fft.fft(folded)[1:]) < ALIKE * abs(shares).sum()):
+            return True
+    return False
+
+
+def _refined(row: Sequence[int], root: Fraction, bits: int) -> Fraction:
+    """A simple root of a polynomial, by Newton's method, to so many binary places."""
+    for _ in range(bits.bit_length()):
+        value, slope = Fraction(0), Fraction(0)
+        for c in row:
+            value, slope = value * root + c, slope * root + value
+        root = Fraction(round((root - value / slope) * 2**bits), 2**bits)
+    return root
 
 
 def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:

@@ -69,7 +69,7 @@ class States:
         self._numbers: dict[tuple[object, ...], int] = {}
         self._successors: dict[int, tuple[int, ...]] = {}
         self._fates: dict[int, Rule | None] = {}
-        self._decomposed: dict[int, tuple[int, ...]] = {}
+        self._parts: dict[tuple[object, ...], tuple[int, ...]] = {}
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
         self.parts_settled = all(rule.settled for rules in self.decomposition.values() for rule in rules)
@@ -103,8 +103,8 @@ class States:
         found = self._successors.get(state)
         if found is None:
             rule = self._fate(state)
-            made = (state,) if rule is None else self.made_numbers(rule, self.modules[state], self.modules[state].arguments)
-            found = self._successors[state] = tuple(self.decomposed(made))
+            module = self.modules[state]
+            found = self._successors[state] = self.parts(module) if rule is None else self.replaced(rule, module)
         return found
 
     def width(self, state: int) -> int:
@@ -175,53 +175,58 @@ class States:
 
     def made_numbers(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
                      chance: Chance | None = None) -> tuple[int, ...]:
-        """The states that a rule makes of a module."""
+        """The states that a rule makes of a module, before any decomposition."""
+        return tuple(self.number(made.symbol, made.arguments) for made in self._made(rule, module, values, chance))  # type: ignore[arg-type]
+
+    def replaced(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
+                 chance: Chance | None = None) -> tuple[int, ...]:
+        """The states that replace a module by a rule, after decomposition."""
+        if not self.decomposition:
+            return self.made_numbers(rule, module, values, chance)
+        return tuple(state for made in self._made(rule, module, values, chance) for state in self.parts(made, chance))
+
+    def _made(self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None) -> list[Module]:
+        """The modules that a rule makes; no more of them than a word may have."""
         found, most = [], current().modules
         self._outgrown = False
         for symbol, made in self.made(rule, module, values, chance):  # type: ignore[arg-type]
             if self._outgrown and self.inexact is None:
                 self.inexact = Module(symbol, made)
-            found.append(self.number(symbol, made))
+            found.append(Module(symbol, made))
             if len(found) > most and module is not _AXIOM:  # the axiom is step 0, which is checked like any step
+                start, end = rule.production.at or (None, None)
                 raise ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
-                                      source=self.system.source or None, start=(rule.production.at or (None,))[0])
-        return tuple(found)
-
-    def decomposed(self, states: Sequence[int], chance: Chance | None = None) -> Sequence[int]:
-        """States after decomposition: each replaced by its parts, and these by theirs, until nothing is left to replace."""
-        if not self.decomposition:
-            return states
-        found: list[int] = []
-        for state in states:
-            if self.parts_settled and state in self._decomposed:
-                found += self._decomposed[state]
-            else:
-                parts = self._taken_apart(state, chance)
-                if self.parts_settled:
-                    self._decomposed[state] = tuple(parts)
-                found += parts
+                                      source=self.system.source or None, start=start, end=end)
         return found
 
-    def _taken_apart(self, state: int, chance: Chance | None) -> list[int]:
+    def parts(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
+        """The states of a module's parts, and of their parts, until nothing is left to replace."""
+        if not self.parts_settled:
+            return self._taken_apart(module, chance)
+        key = (module.symbol, module.arguments, *map(type, module.arguments))
+        if key not in self._parts:
+            self._parts[key] = self._taken_apart(module, chance)
+        return self._parts[key]
+
+    def _taken_apart(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
         found: list[int] = []
         deepest, most = current().decomposition, current().modules
-        todo = [(state, 0)]
+        todo = [(module, 0)]
         while todo:
-            state, depth = todo.pop()
-            module = self.modules[state]
-            rule = self.matching(module, self.decomposition, chance)
+            part, depth = todo.pop()
+            rule = self.matching(part, self.decomposition, chance)
             if rule is None:
-                found.append(state)
+                found.append(self.number(part.symbol, part.arguments))  # type: ignore[arg-type]
             elif depth == deepest:
                 start, end = rule.production.at or (None, None)
-                raise ModelLimitError(f"{module} is decomposed more than {deepest} times, last by {rule.production}",
+                raise ModelLimitError(f"{part} is decomposed more than {deepest} times, last by {rule.production}",
                                       limit=deepest, source=self.system.source or None, start=start, end=end,
                                       hint="A condition before the arrow can bring it to an end.")
             else:
-                todo += [(made, depth + 1) for made in reversed(self.made_numbers(rule, module, None, chance))]
+                todo += [(made, depth + 1) for made in reversed(self._made(rule, part, None, chance))]
             if len(found) + len(todo) > most:
                 raise ModelLimitError(f"{module} is decomposed into more than {most:,} modules", limit=most)
-        return found
+        return tuple(found)
 
     def _axiom(self) -> Iterable[int]:
         """The axiom's states: its arguments may use the constants, so it is made like a successor."""

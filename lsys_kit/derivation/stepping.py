@@ -105,14 +105,13 @@ class Stepper:
         matched = self.matched(old, position)
         rule = self.states.drawn(matched, chance)
         if rule is None:
-            return Replacement(tuple(self.states.decomposed((old.codes[position],), chance)), None)
+            return Replacement(self.states.parts(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
         key = old.codes[position], values, rule.number
         settled = not rule.random and self.states.parts_settled
         if settled and key in self._made:
             return self._made[key]
-        made = self.states.made_numbers(rule, old.modules[position], values, chance)
-        replacement = Replacement(tuple(self.states.decomposed(made, chance)), rule.number)
+        replacement = Replacement(self.states.replaced(rule, old.modules[position], values, chance), rule.number)
         if settled:
             self._made[key] = replacement
         return replacement

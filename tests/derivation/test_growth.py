@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
-from lsys_kit.derivation.growth import Growth, growth, shortest_recurrence
+from lsys_kit.derivation.growth import Growth, growth
+from lsys_kit.derivation.sequences import shortest_recurrence
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.read import read
 
@@ -61,9 +62,10 @@ def test_the_rule_is_told(text: str, rule: str) -> None:
 
 def test_states_that_do_not_end_have_no_matrix() -> None:
     with pytest.raises(ModelLimitError) as caught:
-        growth(read("axiom: A(0)\nA(t) -> A(t+1)"))
+        growth(read("axiom: A(0)\nA(t) : t >= 0 -> A(t+1)"))
     assert caught.value.message == "The states of this system do not end: more than 1,000 were met"
-    assert caught.value.hint == "The last one was A(1000); a parameter that grows for ever has no growth matrix."
+    assert caught.value.hint == ("The last one was A(1000); a parameter that grows for ever, and on which a condition "
+                                 "depends, has no growth matrix.")
     with limits(states=3), pytest.raises(ModelLimitError, match="more than 3 were met"):
         growth(ANABAENA)
 
