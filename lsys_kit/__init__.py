@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth import growth
     from lsys_kit.derivation.stages import stages
+    from lsys_kit.derivation.timed import timed
     from lsys_kit.errors import (
         LSystemError,
         ModelFileError,
@@ -43,7 +44,7 @@ _HOMES = {
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "check": "classroom.exercises", "derive": "derivation.derive",
     "draw": "pictures.draw", "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth", "limits": "budget", "read": "notation.read", "stages": "derivation.stages",
-    "system": "classroom.catalogue", "systems": "classroom.catalogue", "write": "notation.write",
+    "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",
 }
 
 __all__ = [
@@ -65,6 +66,7 @@ __all__ = [
     "stages",
     "system",
     "systems",
+    "timed",
     "write",
 ]
 

@@ -1,0 +1,169 @@
+"""Timed systems: the word at any time, not only after whole steps (ABOP, chapter 6; seed 003).
+
+A module's one parameter is its age. A production `ar(1) -> al(0) br(0)` says at which age a cell divides, its terminal age, and
+with which ages its daughters begin. With D(x, t) for what a word x becomes in a time t:
+
+    D(xy, t) = D(x, t) D(y, t)
+    D(a(age), t) = a(age + t)                             while age + t <= terminal age
+                 = D(successor, t - (terminal - age))     from then on
+
+At its terminal age a cell is not yet divided.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from itertools import repeat
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.states import States, check_settled
+from lsys_kit.derivation.words import Word
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.arithmetic import Value
+from lsys_kit.notation.model import LSystem, Module
+
+OFTEN = 1_024
+"""After how many cells somebody looks at the clock."""
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A timed system.
+
+    Attributes
+    ----------
+    states
+        The table of its modules.
+    """
+
+    states: States
+
+    def word(self, at: object) -> Word:
+        """The word at a time.
+
+        Parameters
+        ----------
+        at
+            The time since the axiom: a number, exact as in `derive`.
+
+        Raises
+        ------
+        ModelValueError
+            The time is before the axiom, or cells divide without end in no time at all.
+        ModelLimitError
+            The word would be too large, or takes too long.
+
+        Examples
+        --------
+        >>> from lsys_kit.notation.read import read
+        >>> fibonacci = timed(read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)"))
+        >>> print(fibonacci.word("5/2"), fibonacci.word(1))
+        a(0.5)b(0.5)a(0.5) a(1)
+        """
+        given = number_from(at, "time")
+        if given < 0:
+            raise ModelValueError(f"The time must not be before the axiom, which is at 0, but it is {at}")
+        return self.later([self.states.modules[state] for state in self.states.axiom], given)
+
+    def later(self, word: list[Module], passed: Value) -> Word:
+        """What a row of modules becomes in a time: D(word, passed)."""
+        found: list[int] = []
+        until, most, deepest = time.monotonic() + current().seconds, current().modules, current().brackets
+        todo = [(module, passed, 0) for module in reversed(word)]
+        visited = 0
+        while todo:
+            module, left, instant = todo.pop()
+            rest, daughters = self._division(module, left)
+            if daughters is None:
+                aged = (*(age + left for age in module.arguments[:1]), *module.arguments[1:])  # type: ignore[operator]
+                found.append(self.states.number(module.symbol, aged))  # type: ignore[arg-type]
+            elif instant > deepest:
+                raise ModelValueError(f"{module} divides without end in no time at all",
+                                      hint="Let a daughter begin younger than the age at which she divides.")
+            else:
+                instant = instant + 1 if rest == left else 0
+                todo += zip(reversed(daughters), repeat(rest), repeat(instant))
+            visited += 1
+            if len(found) + len(todo) > most:
+                raise ModelLimitError(f"The word would have more than {most:,} modules", limit=most,
+                                      hint="Take an earlier time, or set limits(modules=...).")
+            if visited % OFTEN == 0 and time.monotonic() > until:
+                raise ModelLimitError(f"The word was not reached in {current().seconds:g} seconds", limit=current().seconds,
+                                      hint="Take an earlier time, or set limits(seconds=...).")
+        return Word(self.states, found)
+
+    def _division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
+        """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
+        for rule in self.states.rules.get((module.symbol, len(module.arguments)), ()):
+            if not rule.equalities:
+                continue
+            terminal: Value = rule.equalities[0][1]((*module.arguments, *self.states.constants))
+            rest = left - (terminal - module.arguments[0])  # type: ignore[operator]
+            if rest <= 0:
+                return left, None
+            at_end = Module(module.symbol, (terminal, *module.arguments[1:]))
+            return rest, [Module(*made) for made in self.states.made(rule, at_end)]
+        return left, None
+
+
+def timed(system: LSystem, **constants: object) -> Timed:
+    """A system whose modules' one parameter is their age.
+
+    Parameters
+    ----------
+    system
+        A context-free system whose productions give the age at which a module is replaced: `a(1) -> b(0) a(0)`.
+    **constants
+        New values for declared constants.
+
+    Raises
+    ------
+    ModelValueError
+        The system is no timed one.
+    """
+    states = States(system, constants)
+    check_settled(states, "The word at any time")
+    for rules in states.rules.values():
+        for rule in rules:
+            if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:
+                start, end = rule.production.at or (None, None)
+                raise ModelValueError(f"The production {rule.production} does not say at which age it applies",
+                                      system.source or None, start, end, 'A timed production reads "a(1) -> b(0) a(0)".')
+    return Timed(states)
+
+
+def growth_base(t_div: float, t_s: float, t_l: float) -> float:
+    """The base a of exponential growth that is continuous at a division: a^t_div = a^t_s + a^t_l (seed 002, section 8).
+
+    Parameters
+    ----------
+    t_div, t_s, t_l
+        The age at division, and the ages at which the short and the long daughter begin.
+
+    Raises
+    ------
+    ModelValueError
+        No base above 1 does: a daughter begins as old as the mother divides, or older.
+
+    Examples
+    --------
+    >>> round(growth_base(1, 0, 0.2), 9)
+    2.167303978
+    """
+    if not max(t_s, t_l) < t_div:
+        raise ModelValueError(f"With daughters of age {t_s} and {t_l} no growth is continuous at the age {t_div}",
+                              hint="A daughter begins younger than the age at which cells divide.")
+    low, high = 1.0, 2.0
+    while _gained(high, t_div, t_s, t_l) < 0:
+        low, high = high, high * high
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _gained(middle, t_div, t_s, t_l) < 0 else (low, middle)
+    return high
+
+
+def _gained(base: float, t_div: float, t_s: float, t_l: float) -> float:
+    """By how much the mother is longer than her daughters, as a share of her length."""
+    return 1 - float(base ** (t_s - t_div)) - float(base ** (t_l - t_div))
