@@ -64,17 +64,14 @@ class Fates:
     def gathered(self, chosen: Integers, kind: np.dtype[Any]) -> Integers:
         """The replacements of some numbers, one after another."""
         everything, starts, sizes = self.laid_out()
-        everything = everything.astype(kind)
         lengths = sizes[chosen]
         if len(chosen) and lengths.min() == 1 == lengths.max():
-            return everything[np.minimum(starts, len(everything) - 1)][chosen]
+            return everything.astype(kind)[np.minimum(starts, len(everything) - 1)][chosen]
         ends = np.cumsum(lengths)
-        steps = np.ones(int(ends[-1]) if len(ends) else 0, dtype=np.int64)
-        there = lengths > 0
-        begins = (ends - lengths)[there]
-        first = starts[chosen][there]
-        steps[begins] = first - np.append(0, (first + lengths[there])[:-1] - 1)
-        return everything[np.cumsum(steps)]
+        places = np.repeat(starts[chosen] - ends + lengths, lengths)
+        places += np.arange(len(places))
+        gathered: Integers = everything.astype(kind)[places]
+        return gathered
 
 
 class Bulk:
@@ -93,7 +90,9 @@ class Bulk:
     def __init__(self, stepper: Stepper) -> None:
         self.stepper, self.fates = stepper, Fates()
         self._fixed: list[int] = []
-        self._outcomes_of: dict[tuple[int, int, int], tuple[list[int], list[float]]] = {}
+        self._numbers: dict[tuple[int, int, int], int] = {}
+        self._outcomes: list[tuple[list[int], list[float]]] = []
+        self._table: Integers = np.zeros(0, dtype=np.int64)
 
     def chosen(self, codes: Integers, step: int) -> Integers:
         """For each module of a word the number of the replacement that it gets."""
@@ -104,9 +103,7 @@ class Bulk:
         where = np.flatnonzero(chosen < 0)
         if len(where):
             left, right = self._neighbours(codes, where, size)
-            key = (left.astype(np.int64) * (size + 1) + right) * size + codes[where]
-            cases, which = _distinct(key, size * (size + 1) ** 2)
-            chosen[where] = self._drawn(cases, which, where, step, size)
+            chosen[where] = self._drawn(self._cases(left, codes[where], right, size), where, step)
         return chosen
 
     def _settled(self, state: int) -> int:
@@ -122,8 +119,8 @@ class Bulk:
             nobody = np.full(len(where), size, dtype=np.int64)
             return nobody, nobody
         roles = np.array([self._role(module.symbol) for module in self.stepper.states.modules[:size]], dtype=np.uint8)
-        before, after = beside(roles[codes], where)
-        padded = np.append(codes.astype(np.int32), size)
+        before, after = beside(roles[codes], where) if roles.any() else (where - 1, where + 1)
+        padded = np.append(codes.astype(np.int64), size)
         return padded[before], padded[after]
 
     def _role(self, symbol: str) -> int:
@@ -131,31 +128,47 @@ class Bulk:
             return OPENS if symbol in OPENING else CLOSES
         return PASSED if symbol in self.stepper.passed else ORDINARY
 
-    def _drawn(self, cases: Integers, which: Integers, where: Integers, step: int, size: int) -> Integers:
+    def _cases(self, left: Integers, codes: Integers, right: Integers, size: int) -> Integers:
+        """For some modules between others the numbers of their cases."""
+        keys = (left * (size + 1) + right) * size + codes
+        bound = size * (size + 1) ** 2
+        if bound > TABLE:
+            distinct, which = np.unique(keys, return_inverse=True)
+            return np.array([self._case(key, size) for key in distinct.tolist()])[which]
+        if len(self._table) != bound:
+            self._table = np.zeros(bound, dtype=np.int64)  # 0 for a case that has not been met
+        if not (found := self._table[keys]).all():
+            there = np.zeros(bound, dtype=bool)
+            there[keys] = True
+            for key in np.flatnonzero(there & (self._table == 0)).tolist():
+                self._table[key] = self._case(key, size) + 1
+            found = self._table[keys]
+        numbers: Integers = found - 1
+        return numbers
+
+    def _case(self, key: int, size: int) -> int:
+        """The number of a case; what comes of it is found when it is met first."""
+        rest, code = divmod(key, size)
+        left, right = divmod(rest, size + 1)
+        case = left if left < size else NOBODY, code, right if right < size else NOBODY
+        if case not in self._numbers:
+            self._outcomes.append(self._found(*case))
+            self._numbers[case] = len(self._outcomes) - 1
+        return self._numbers[case]
+
+    def _drawn(self, cases: Integers, where: Integers, step: int) -> Integers:
         """For each module, whose case is known, the number of its replacement."""
-        outcomes = []
-        for key in cases.tolist():
-            rest, code = divmod(key, size)
-            left, right = divmod(rest, size + 1)
-            outcomes.append(self._outcomes(left if left < size else NOBODY, code, right if right < size else NOBODY))
-        result = np.array([fates[0] for fates, _ in outcomes])[which]
-        for number, (fates, weights) in enumerate(outcomes):
+        result = np.array([fates[0] for fates, _ in self._outcomes])[cases]
+        for number, (fates, weights) in enumerate(self._outcomes):
             if len(fates) > 1:
-                ours, marks = np.flatnonzero(which == number), np.cumsum(weights)
+                ours, marks = np.flatnonzero(cases == number), np.cumsum(weights)
                 lots = units(self.stepper.seed, step, where[ours]) * marks[-1]
                 drawn = np.searchsorted(marks, lots, side="right").clip(max=len(fates) - 1)
                 result[ours] = np.array(fates)[drawn]
         return result
 
-    def _outcomes(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
-        """The replacements that are possible for a module between two others, with their weights."""
-        case = left, code, right
-        if case not in self._outcomes_of:
-            self._outcomes_of[case] = self._found(*case)
-        return self._outcomes_of[case]
-
     def _found(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
-        """The same, tried on a word of just these modules."""
+        """The same, tried on a word of just these modules: the possible replacements, and their weights."""
         states = self.stepper.states
         word = [state for state in (left, code, right) if state != NOBODY]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NOBODY))
@@ -166,19 +179,6 @@ class Bulk:
         made = [Replacement(states.replaced(rule, states.modules[code], values), rule.number)
                 for rule, values in (matched if weights else matched[:1])]
         return [self.fates.number(replacement) for replacement in made], weights or [1.0]
-
-
-def _distinct(keys: Integers, bound: int) -> tuple[Integers, Integers]:
-    """The distinct keys, and for each key its place among them."""
-    if bound > TABLE:
-        cases, which = np.unique(keys, return_inverse=True)
-        return cases, which
-    there = np.zeros(bound, dtype=bool)
-    there[keys] = True
-    cases = np.flatnonzero(there)
-    places = np.zeros(bound, dtype=np.int32)
-    places[cases] = np.arange(len(cases))
-    return cases, places[keys]
 
 
 def beside(roles: Integers, asked: Integers) -> tuple[Integers, Integers]:
@@ -197,62 +197,35 @@ def beside(roles: Integers, asked: Integers) -> tuple[Integers, Integers]:
     >>> before.tolist(), after.tolist()
     ([-1, 0, 0, 0], [7, -1, -1, -1])
     """
-    if not roles.any():  # all are ordinary
-        return asked - 1, np.where(asked < len(roles) - 1, asked + 1, NOBODY)
-    wanted = roles != PASSED
-    wanted[asked] = True
-    kept = np.flatnonzero(wanted)
-    role, mine = roles[kept], np.cumsum(wanted)[asked] - 1
-    branched = ((role == OPENS) | (role == CLOSES)).any()
-    before, after = _in_branches(role, mine) if branched else _in_a_row(role == ORDINARY, mine)
+    open_ = np.zeros(len(roles), dtype=bool)
+    open_[asked] = True
+    kept = np.flatnonzero(open_ | (roles != PASSED))
+    mine, role = np.flatnonzero(open_[kept]), roles[kept]
+    behind, ahead = _pointers(role)
     padded = np.append(kept, NOBODY)
-    return padded[before], padded[after]
+    return padded[behind[mine - 1]], padded[ahead[mine + 1]]
 
 
-def _in_a_row(marks: Integers, mine: Integers) -> tuple[Integers, Integers]:
-    """The places of the last mark before and of the next behind some places, or -1."""
-    size = len(marks)
-    places = np.arange(size)
-    last = np.maximum.accumulate(np.where(marks, places, NOBODY))
-    following = np.minimum.accumulate(np.where(marks, places, size)[::-1])[::-1]
-    before, after = np.append(NOBODY, last)[mine], np.append(following, size)[mine + 1]
-    return before, np.where(after < size, after, NOBODY)
-
-
-def _in_branches(role: Integers, mine: Integers) -> tuple[Integers, Integers]:
-    """The same across brackets: modules are sorted by branch level, where those of one branch stand together."""
+def _pointers(role: Integers) -> tuple[Integers, Integers]:
+    """For each place whom one meets who looks there from the right, and from the left; the last place is nobody's."""
     size = len(role)
-    opens, closes = role == OPENS, role == CLOSES
-    level = np.cumsum(opens.astype(np.int32) - closes.astype(np.int32)) + closes
-    level -= level.min()
-    order = np.argsort(level.astype(np.min_scalar_type(int(level.max()))), kind="stable")
-    place = np.empty(size, dtype=np.int64)
-    place[order] = np.arange(size)
-    sorted_role, sorted_level = role[order], level[order]
-    here = place[mine]
-    last, following = _in_a_row(sorted_role != PASSED, here)
-    parents = _before_brackets(role, order, sorted_role)
-    behind = np.where((last >= 0) & (sorted_level[last] == sorted_level[here]), order[last], NOBODY)
-    before = np.where((behind >= 0) & opens[behind], parents[behind], behind)
-    ahead = np.where((following >= 0) & (sorted_level[following] == sorted_level[here]), order[following], NOBODY)
-    after = np.where((ahead >= 0) & (role[ahead] == ORDINARY), ahead, NOBODY)
-    return before, after
+    behind, ahead = np.arange(size + 1), np.arange(size + 1)
+    passed, brackets = np.flatnonzero(role == PASSED), np.flatnonzero((role == OPENS) | (role == CLOSES))
+    opening, closing = _pairs(role, brackets)
+    behind[passed], ahead[passed] = passed - 1, passed + 1
+    behind[opening], behind[closing] = opening - 1, opening - 1
+    ahead[opening], ahead[closing] = closing + 1, size
+    passing = np.append(role != ORDINARY, False)
+    for pointers in (behind, ahead):
+        hanging = np.concatenate((passed, brackets))
+        while len(hanging := hanging[passing[pointers[hanging]]]):
+            pointers[hanging] = pointers[pointers[hanging]]
+    return behind, ahead
 
 
-def _before_brackets(role: Integers, order: Integers, sorted_role: Integers) -> Integers:
-    """For each opening bracket the place of the module that stands before it, other branches passed; -1 for none."""
-    size = len(role)
-    last_open = np.maximum.accumulate(np.where(sorted_role == OPENS, np.arange(size), NOBODY))
-    partner = np.full(size + 1, NOBODY)
-    closing = np.flatnonzero(sorted_role == CLOSES)
-    partner[order[closing]] = np.where(last_open[closing] >= 0, order[last_open[closing]], NOBODY)
-    brackets = np.flatnonzero(role == OPENS)
-    previous, _ = _in_a_row(role != PASSED, brackets)
-    link = np.full(size + 1, NOBODY)
-    link[brackets] = np.where(np.append(role, ORDINARY)[previous] == CLOSES, partner[previous], previous)
-    is_open = np.append(role == OPENS, False)
-    while True:
-        hanging = brackets[is_open[link[brackets]]]
-        if not len(hanging):
-            return link
-        link[hanging] = link[link[hanging]]
+def _pairs(role: Integers, brackets: Integers) -> tuple[Integers, Integers]:
+    """The places of brackets that open, and of those that close them: on one level they take turns."""
+    opens = role[brackets] == OPENS
+    level = np.cumsum(np.where(opens, 1, -1)) + ~opens
+    order = brackets[np.argsort(level.astype(np.min_scalar_type(int(level.max(initial=0)))), kind="stable")]
+    return order[::2], order[1::2]
