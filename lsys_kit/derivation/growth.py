@@ -250,8 +250,9 @@ class Growth:
         weights = leading_weights(rule, max((n for row in first for n in row), default=0).bit_length())
         if weights is None:
             return None
-        parts = [sum(w * n for w, n in zip(weights, column, strict=True)) for column in zip(*first, strict=True)]
-        return tuple(float(part / sum(parts)) for part in parts)
+        parts = [max(0, sum(w * n for w, n in zip(weights, column, strict=True))) for column in zip(*first, strict=True)]
+        whole = sum(parts)
+        return tuple(round(part / whole, 15) for part in parts)
 
     def __repr__(self) -> str:
         rule = " + ".join(f"{'' if c == 1 else f'{c} '}N(t-{k})" for k, c in enumerate(self.recurrence, 1) if c)

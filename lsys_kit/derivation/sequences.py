@@ -167,8 +167,9 @@ def _scaled(rule: Sequence[int], root: float) -> list[tuple[int, float]]:
     return [(k, math.copysign(math.exp(math.log(abs(c)) - k * logarithm), c)) for k, c in enumerate(rule, 1) if c]
 
 
-def leading_weights(rule: Sequence[int], bits: int) -> list[Fraction] | None:
-    """The weights with which the first terms of sequences that obey a rule add up to what grows fastest in each of them.
+def leading_weights(rule: Sequence[int], bits: int) -> list[int] | None:
+    """The weights, as multiples of a small unit, with which the first terms of sequences that obey a rule add up to what grows
+    fastest in each of them.
 
     None where they die out, or where that swings for ever: where the largest root is not alone, counting as often as it is a
     root. The others are then its products with roots of unity (Perron and Frobenius).
@@ -182,8 +183,9 @@ def leading_weights(rule: Sequence[int], bits: int) -> list[Fraction] | None:
 
     Examples
     --------
-    >>> [round(float(weight), 6) for weight in leading_weights((1, 1), 2)]
-    [0.618034, 1.0]
+    >>> weights = leading_weights((1, 1), 2)
+    >>> round(weights[0] / weights[1], 6)
+    0.618034
     """
     if not any(rule):
         return None
@@ -192,11 +194,12 @@ def leading_weights(rule: Sequence[int], bits: int) -> list[Fraction] | None:
     row = min(rows, key=lambda row: abs(1 - sum(share for _, share in _scaled([-c for c in row[1:]], peak))))
     if _swings([-c for c in row[1:]], peak):
         return None
-    precision = 128 + 4 * (bits + len(rule) + max(abs(c) for c in rule).bit_length())
-    root = _refined(row, Fraction(peak), precision)
-    weights = [Fraction(1)]
+    digits = len(rule) * math.ceil(math.log2(peak + 2)) + max(abs(c) for c in rule).bit_length()
+    places = 128 + 2 * (bits + digits)
+    root = _refined(row, round(Fraction(peak) * 2**places), places)
+    weights = [2**places]
     for c in rule[:-1]:  # the rule's polynomial, divided by x - root
-        weights.append(weights[-1] * root - c)
+        weights.append((weights[-1] * root >> places) - (c << places))
     return weights[::-1]
 
 
@@ -213,13 +216,13 @@ def _swings(rule: Sequence[int], root: float) -> bool:
     return False
 
 
-def _refined(row: Sequence[int], root: Fraction, bits: int) -> Fraction:
-    """A simple root of a polynomial, by Newton's method, to so many binary places."""
-    for _ in range(bits.bit_length()):
-        value, slope = Fraction(0), Fraction(0)
+def _refined(row: Sequence[int], root: int, places: int) -> int:
+    """A simple root of a polynomial, by Newton's method, as a multiple of 2^-places."""
+    for _ in range(places.bit_length()):
+        value = slope = 0
         for c in row:
-            value, slope = value * root + c, slope * root + value
-        root = Fraction(round((root - value / slope) * 2**bits), 2**bits)
+            value, slope = (value * root >> places) + (c << places), (slope * root >> places) + value
+        root -= (value << places) // slope
     return root
 
 
