@@ -1,8 +1,8 @@
 """Whether the engine is as fast, and as sparing, as it sets out to be: one benchmark for each goal, and a table of them all.
 
 With `--benchmark-only` the sizes are those of the goals; without it each work is done once, on a small word. The floor is
-numpy's copy of the word's bytes, timed between the rounds. The figures of cpfg and L-Py are those of two other programs on
-a machine of the same kind: final modules a second, or modules visited where that is said.
+numpy's copy of the word's bytes, timed between the rounds. The figures of cpfg and L-Py were given with the goals and are not
+measured here: final modules a second, or modules visited where that is said.
 """
 
 from __future__ import annotations
