@@ -10,6 +10,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.bulk import Bulk, possible
 from lsys_kit.derivation.columns import Columns, ColumnWord
 from lsys_kit.derivation.columns import possible as columns_possible
-from lsys_kit.derivation.expand import code_type, expanded
+from lsys_kit.derivation.expand import Letters, code_type, expanded
 from lsys_kit.derivation.meta import shortened_by_rules
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.stepping import Stepper
@@ -57,34 +58,39 @@ class Counting:
 
     def __init__(self, states: States) -> None:
         self.states = states
-        self._counts = [Counter(states.axiom)]
+        self._steps = [(Counter(states.axiom), len(states.axiom))]
         self._words: dict[int, Word] = {}
+        self._letters = Letters(states)
         self._columns = Columns(states) if columns_possible(states) else None
         self._late: list[ColumnWord] = []
 
     @property
     def known(self) -> int:
         """The last step whose size is known."""
-        return len(self._counts) + len(self._late) - 1
+        return len(self._steps) + len(self._late) - 1
 
     def size(self, step: int) -> int:
         """How many modules a known step has."""
-        return self._counts[step].total() if step < len(self._counts) else len(self.word(step))
+        return self._steps[step][1] if step < len(self._steps) else len(self.word(step))
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a known step."""
-        return self._counts[step] if step < len(self._counts) else state_counts(self.word(step))
+        return self._steps[step][0] if step < len(self._steps) else state_counts(self.word(step))
 
     def advance(self, until: float) -> None:
         """Make one step more known."""
-        step, before = self.known + 1, self._counts[-1]
-        if self._columns and (self._late or (len(before) > DIFFERENT and 2 * len(before) > before.total())):
+        step, (before, size) = self.known + 1, self._steps[-1]
+        if self._columns and (self._late or (len(before) > DIFFERENT and 2 * len(before) > size)):
             self._late.append(self._in_columns(self._columns, step, until))
             return
-        check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
-        after = counted(self.states, before, lambda: check_time(self.states, step, until))
-        check_size(self.states, step, after.total())
-        self._counts.append(after)
+        if len(self.states.successors) < len(self.states):  # some have to be made: not for a step that is refused
+            check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
+        watch = partial(check_time, self.states, step, until)
+        after = counted(self.states, before, watch)
+        watch()
+        size = sum(after.values())
+        check_size(self.states, step, size)
+        self._steps.append((after, size))
 
     def _in_columns(self, columns: Columns, step: int, until: float) -> ColumnWord:
         """The next word, where nearly all modules are different."""
@@ -94,8 +100,8 @@ class Counting:
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
-        if step >= len(self._counts):
-            return self._late[step - len(self._counts)]
+        if step >= len(self._steps):
+            return self._late[step - len(self._steps)]
         if step not in self._words:
             self._words[step] = self._built(step)
         return self._words[step]
@@ -105,8 +111,8 @@ class Counting:
             return Word(self.states, list(self.states.axiom))
         before, small = self._words.get(step - 1), self.size(step) <= PLAIN
         if small and before is not None:
-            return Word(self.states, [code for state in before.codes for code in self.states.successor(state)])
-        array = expanded(self.states, self._counts[:step + 1])
+            return Word(self.states, self._letters.replaced(before.codes, self.counts(step - 1)))
+        array = expanded(self.states, [counts for counts, _ in self._steps[:step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
     def origins(self, step: int) -> Origins:
@@ -216,38 +222,36 @@ def course_of(states: States, seed: int) -> Counting | Stepping:
 def counted(states: States, counts: Counter[int], watch: Callable[[], None] = lambda: None) -> Counter[int]:
     """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
     after: Counter[int] = Counter()
+    already, successors = after.get, states.successors
     for number, (state, count) in enumerate(counts.items(), 1):
-        for successor in states.successor(state):
-            after[successor] += count
-        if number % OFTEN == 0:
+        row = successors[state]
+        for successor in row:
+            after[successor] = already(successor, 0) + count
+        if number % OFTEN == 0 or len(row) > OFTEN:
             watch()
-    watch()
     return after
 
 
 def check_size(states: States, step: int, size: int, word: int | None = None) -> None:
     """Refuse a step whose word would be past a limit; it takes `word` bytes, if not those of a row of states."""
-    limit = current().modules
-    if size > limit:
-        raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(limit)}", limit=limit,
-                              needed=size, hint="Take fewer steps, or set limits(modules=...).")
-    _check_bytes(states, step, size * code_type(len(states)).itemsize if word is None else word)
+    most = current()
+    if size > most.modules:
+        raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(most.modules)}",
+                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
+    needed = (size * code_type(len(states)).itemsize if word is None else word) + len(states) * STATE_BYTES
+    if needed > most.bytes:
+        raise ModelLimitError(f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(most.bytes)}",
+                              limit=most.bytes, needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
 
 
 def check_time(states: States, step: int, until: float) -> None:
     """Refuse a step that takes too long, or meets too many different modules."""
-    _check_bytes(states, step, 0)
+    if len(states) > OFTEN:
+        check_size(states, step, 0)
     if time.monotonic() > until:
         seconds = current().seconds
         raise ModelLimitError(f"Step {step} was not reached in {seconds:g} seconds", limit=seconds,
                               hint="Take fewer steps, or set limits(seconds=...).")
-
-
-def _check_bytes(states: States, step: int, word: int) -> None:
-    needed, limit = word + len(states) * STATE_BYTES, current().bytes
-    if needed > limit:
-        raise ModelLimitError(f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(limit)}", limit=limit,
-                              needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
 
 
 def grouped(number: float) -> str:

@@ -94,7 +94,8 @@ class Derivation(Sequence[Word]):
             for reached in range(int(steps) + 1):
                 if reached > self._course.known:
                     self._course.advance(until)
-                check_size(self.states, reached, self._course.size(reached))
+                else:
+                    check_size(self.states, reached, self._course.size(reached))
         except ModelLimitError as error:
             raise self._refusal(error, reached) from None
         return Derivation(self._course, int(steps))

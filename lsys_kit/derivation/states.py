@@ -14,7 +14,7 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.chance import Chance, chosen
 from lsys_kit.derivation.rules import Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.notation.arithmetic import Value, is_symbolic, reason, same, settled_value, sound
+from lsys_kit.notation.arithmetic import SMALL, Value, is_symbolic, reason, same, settled_value, sound
 from lsys_kit.notation.model import LSystem, Module, Production
 
 EXACT_BITS = 128
@@ -23,6 +23,18 @@ CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
 _AXIOM = Module("axiom")
 """What the axiom is made of."""
+
+
+class Successors(dict[int, tuple[int, ...]]):
+    """What replaces each settled state in one step, found when it is first asked for."""
+
+    def __init__(self, states: States) -> None:
+        self.states = states
+
+    def __missing__(self, state: int) -> tuple[int, ...]:
+        states, module, rule = self.states, self.states.modules[state], self.states.fate(state)
+        found = self[state] = states.parts(module) if rule is None else states.replaced(rule, module)
+        return found
 
 
 class States:
@@ -43,6 +55,8 @@ class States:
         The module of each state.
     settled
         Whether every module's fate depends on itself alone: no contexts, no chance, no cut, no meta-rules.
+    successors
+        The successor of each settled state.
     parts_settled
         Whether decomposition leaves nothing to chance.
     inexact
@@ -67,7 +81,7 @@ class States:
         self.inexact: Module | None = None
         self._outgrown = False
         self._numbers: dict[tuple[object, ...], int] = {}
-        self._successors: dict[int, tuple[int, ...]] = {}
+        self.successors = Successors(self)
         self._fates: dict[int, Rule | None] = {}
         self._parts: dict[tuple[object, ...], tuple[int, ...]] = {}
         self.rules = rules_of(system, arithmetic)
@@ -100,24 +114,20 @@ class States:
 
     def successor(self, state: int) -> tuple[int, ...]:
         """The states that replace a settled state in one step: itself, where no production matches."""
-        found = self._successors.get(state)
-        if found is None:
-            rule = self._fate(state)
-            module = self.modules[state]
-            found = self._successors[state] = self.parts(module) if rule is None else self.replaced(rule, module)
-        return found
+        return self.successors[state]
 
     def width(self, state: int) -> int:
         """How many modules at least replace a settled state in one step, known before any of them is made."""
-        rule = self._fate(state)
+        rule = self.fate(state)
         return 1 if rule is None or self.decomposition else sum(isinstance(part, Part) for part in rule.successor)
 
     def production(self, state: int) -> int | None:
         """Which production rewrites a settled state: its place in the order written, from 0, or None."""
-        rule = self._fate(state)
+        rule = self.fate(state)
         return None if rule is None else rule.number
 
-    def _fate(self, state: int) -> Rule | None:
+    def fate(self, state: int) -> Rule | None:
+        """The rule that rewrites a settled state, or None."""
         if state not in self._fates:
             self._fates[state] = self.matching(self.modules[state], self.rules)
         return self._fates[state]
@@ -236,6 +246,8 @@ class States:
 
     def _kept(self, value: Value) -> Value:
         """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
+        if value.__class__ is int and -SMALL < value < SMALL:
+            return value
         sound(value)
         if is_symbolic(value):
             value = settled_value(value)

@@ -15,6 +15,8 @@ from lsys_kit.budget import current
 
 Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""
+SMALL = 2**63
+"""Whole numbers below this are exact, sound and short without further ado."""
 
 
 def number_text(value: Value) -> str:
@@ -57,7 +59,7 @@ def same(left: Value, right: Value) -> bool:
     TypeError
         The values are equal for some values of an unknown constant.
     """
-    if not (is_symbolic(left) or is_symbolic(right)):
+    if (left.__class__ is int and right.__class__ is int) or not (is_symbolic(left) or is_symbolic(right)):
         return left == right
     difference: Any = left - right
     difference = difference.expand()
@@ -101,6 +103,8 @@ def tidy(value: Value) -> Value:
 
 def exact(value: Value) -> Value:
     """What an operation gave, tidy; an exact result that is too long is refused."""
+    if value.__class__ is int and -SMALL < value < SMALL:
+        return value
     if isinstance(value, float) or is_symbolic(value):
         return value
     if value.numerator.bit_length() + value.denominator.bit_length() > current().bits:

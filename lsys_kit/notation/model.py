@@ -7,7 +7,8 @@ may have a condition or none. `str` of a record is its text in the kit's own not
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from functools import cached_property
 from typing import TypeAlias
 
 from lsys_kit.notation.arithmetic import Value, number_text
@@ -238,6 +239,14 @@ class LSystem:
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        """The hash, computed once: ready-made rules are looked up by their system."""
+        return hash(tuple(getattr(self, part.name) for part in fields(self) if part.compare))
 
     def __str__(self) -> str:
         from lsys_kit.notation.write import write  # how a whole system is laid out is the next file's one idea

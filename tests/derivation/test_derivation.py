@@ -127,11 +127,20 @@ def test_the_kept_steps_are_named() -> None:
 
 
 def test_an_immense_step_is_named_by_its_number_of_digits() -> None:
-    system = read("axiom: A\nA -> " + "B" * 60 + "\nalphabet: " + "B" * 60)
-    counts = derive(system, 0)
-    counts._course._counts[0][0] = 10**60
-    with pytest.raises(ModelLimitError, match=r"Step 0 would have about 10\^60 modules; the limit is 5,000,000"):
-        counts.to(0)
+    with limits(modules=10**57, bytes=10**70), pytest.raises(ModelLimitError) as caught:
+        derive(TENFOLD, 60)
+    assert caught.value.message == "Step 58 would have about 10^58 modules; the limit is about 10^57"
+
+
+@pytest.mark.parametrize("ages", [3, 100, 160, 170, 180, 200, 256, 300])
+def test_a_short_word_is_the_same_however_many_states_there_are(ages: int) -> None:
+    """Up to 256 states a step is made of letters: here a third of the states divide, and one in seven dies."""
+    found = derive(read(f"ages = {ages}\naxiom: [X]\nX -> repeat(ages, i) <A(i)>\nA(t) : mod(t,7) == 6 -> ε\n"
+                        "A(t) : mod(t,3) == 0 -> A(mod(t+1,ages)) A(mod(5*t+2,ages))\nA(t) -> A(mod(t+3,ages))"), 9)
+    expected = list(found.states.axiom)
+    for word in found:
+        assert word.numbers() == expected
+        expected = [made for state in expected for made in found.states.successor(state)]
 
 
 def test_the_limit_can_be_lowered_afterwards() -> None:
