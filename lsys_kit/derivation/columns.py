@@ -20,8 +20,11 @@ from lsys_kit.notation.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model import LSystem, Module, Production, Repeat
 
 Array: TypeAlias = np.ndarray[Any, Any]
-ColumnFunction: TypeAlias = Callable[[Mapping[str, Any]], Any]
-"""From the columns of the names to the column of an expression."""
+ColumnFunction: TypeAlias = Callable[..., Any]
+"""From the columns of the names to the column of an expression, which is written to `out` where that is given and there is
+something to compute."""
+BLOCK = 2**15
+"""So many rows are computed at a time: what lies between two operations stays in the processor's cache."""
 
 _SAME_TO_THE_LAST_BIT: Mapping[str, Callable[..., Any]] = {
     "||": np.logical_or, "&&": np.logical_and, "!": np.logical_not, "==": np.equal, "!=": np.not_equal, "<": np.less,
@@ -39,13 +42,13 @@ def column_function(expression: Expression) -> ColumnFunction:
     """
     if isinstance(expression, Number):
         value = float(expression.value)
-        return lambda columns: value
+        return lambda columns, out=None: value
     if isinstance(expression, Name):
         name = expression.name
-        return lambda columns: columns[name]
+        return lambda columns, out=None: columns[name]
     operator = _SAME_TO_THE_LAST_BIT[expression.operator]
     operands = [column_function(operand) for operand in expression.operands]
-    return lambda columns: operator(*[operand(columns) for operand in operands])
+    return lambda columns, out=None: operator(*[operand(columns) for operand in operands], out=out)
 
 
 def possible(states: States) -> bool:
@@ -158,35 +161,45 @@ class Columns:
     def step(self, word: ColumnWord, check: Callable[[int], None] = lambda size: None) -> ColumnWord:
         """The next word; `check` is told its size before it is built, and may raise an error."""
         chosen = self._chosen(word)
-        sizes = np.ones(len(word), dtype=np.int64)
-        for _, rule, rows in chosen:
-            sizes[rows] = len(rule.parts) if rule else 1
-        ends = np.cumsum(sizes)
-        total = int(ends[-1]) if len(ends) else 0
+        if len(chosen) == 1:
+            sizes, starts = None, None
+            total = len(word) * (len(chosen[0][1].parts) if chosen[0][1] else 1)
+        else:
+            sizes = np.ones(len(word), dtype=np.int64)
+            for _, rule, rows in chosen:
+                sizes[rows] = len(rule.parts) if rule else 1
+            ends = np.cumsum(sizes)
+            total = int(ends[-1]) if len(ends) else 0
+            starts = ends - sizes
         check(total)
-        kinds, values = np.empty(total, dtype=word.kinds.dtype), np.zeros((total, self.width))
+        after = ColumnWord(self.states, np.empty(total, dtype=word.kinds.dtype), np.zeros((total, self.width)), self.kinds)
         for kind, rule, rows in chosen:
+            at = None if starts is None else starts[rows]
             if rule is None:
-                at = (ends - sizes)[rows]
-                kinds[at], values[at] = kind, word.values[rows]
-            elif rule.parts:
-                every = len(rule.parts) if isinstance(rows, slice) else 0
-                self._write(rule, word, rows, kinds, values, every, None if every else (ends - sizes)[rows])
-        return ColumnWord(self.states, kinds, values, self.kinds)
+                places = slice(None) if at is None else at
+                after.kinds[places], after.values[places] = kind, word.values[rows]
+            else:
+                for low in range(0, len(word) if at is None else len(at), BLOCK):
+                    self._write(rule, word, rows, low, after, at)
+        return after
 
-    def _write(self, rule: ColumnRule, word: ColumnWord, rows: Any, kinds: Array, values: Array, every: int,
-               starts: Array | None) -> None:
-        """Write what a rule makes of some rows: at every so-many-th place, or from given places on."""
-        columns = self._columns(rule, word.values[rows])
+    def _write(self, rule: ColumnRule, word: ColumnWord, rows: Any, low: int, after: ColumnWord, starts: Array | None) -> None:
+        """Write what a rule makes of a block of rows: from given places on, or of all rows one after another."""
+        block = slice(low, min(low + BLOCK, len(word) if starts is None else len(starts)))
+        ours = block if starts is None else rows[block]
+        columns, every = self._columns(rule, word.values[ours]), len(rule.parts)
         for offset, (made, arguments) in enumerate(rule.parts):
-            at: Any = slice(offset, None, every) if starts is None else starts + offset
-            kinds[at] = made
+            at: Any = (slice(block.start * every + offset, block.stop * every, every) if starts is None
+                       else starts[block] + offset)
+            after.kinds[at] = made
             for place, argument in enumerate(arguments):
-                values[at, place] = self._sound(argument, columns, word, rows)
+                self._compute(argument, columns, after.values, (at, place), word, ours)
 
     def _chosen(self, word: ColumnWord) -> list[tuple[int, ColumnRule | None, Any]]:
         """For each kind and rule the rows that it rewrites, a slice where that is all; None for the rows that stay."""
         found: list[tuple[int, ColumnRule | None, Array]] = []
+        if len(word) and (word.kinds == word.kinds[0]).all() and not any(rule.tests for rule in self._rules[word.kinds[0]]):
+            return [(word.kinds[0], next(iter(self._rules[word.kinds[0]]), None), slice(None))]
         for kind, rules in enumerate(self._rules):
             rows = np.flatnonzero(word.kinds == kind)
             for rule in rules if len(rows) else ():
@@ -202,7 +215,7 @@ class Columns:
                 found.append((kind, rule, rows[matches]))
                 rows = rows[~matches]
             found.append((kind, None, rows))
-        return [(kind, rule, rows if len(rows) < len(word) else slice(None)) for kind, rule, rows in found if len(rows)]
+        return [(kind, rule, rows) for kind, rule, rows in found if len(rows)]
 
     def _columns(self, rule: ColumnRule, values: Array) -> dict[str, Any]:
         """The columns of a rule's names."""
@@ -211,12 +224,20 @@ class Columns:
             columns[name or f"#{place}"] = values[:, place]
         return columns
 
-    def _sound(self, argument: ColumnFunction, columns: Mapping[str, Any], word: ColumnWord, rows: Any) -> Any:
-        """A column of numbers; where one is none, the error that its module gives."""
+    def _compute(self, argument: ColumnFunction, columns: Mapping[str, Any], values: Array, at: tuple[Any, int],
+                 word: ColumnWord, rows: Any) -> None:
+        """Write a column of numbers; where one is none, raise the error that its module gives."""
+        target = values[at] if isinstance(at[0], slice) else None
         with np.errstate(all="ignore"):
-            found = argument(columns)
-        if not np.isfinite(found).all():
-            places = np.arange(len(word))[rows]
-            bad = places[np.flatnonzero(~np.isfinite(np.broadcast_to(found, len(places))))[0]]
-            self.states.successor(int(word.codes[bad]))
-        return found
+            found = argument(columns, out=target)
+            if target is None or found is not target:
+                values[at] = found
+            whole = np.sum(found)
+        if not np.isfinite(whole):
+            self._refuse(values[at], word, rows)
+
+    def _refuse(self, found: Array, word: ColumnWord, rows: Any) -> None:
+        """Raise the error of the first module whose value is none; a mere sum may be past all numbers."""
+        bad = np.flatnonzero(~np.isfinite(found))
+        if len(bad):
+            self.states.successor(int(word.codes[np.arange(len(word))[rows][bad[0]]]))

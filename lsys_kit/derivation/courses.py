@@ -29,7 +29,7 @@ PLAIN = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
 BULK = 1_000
 """Words from this length on are stepped in bulk, where that is possible."""
-DIFFERENT = 250
+DIFFERENT = 50
 """From so many different modules on a word may become columns, if they are most of it."""
 STATE_BYTES = 600
 """About what one state takes in the table."""

@@ -48,7 +48,7 @@ class Letters:
         self._met: set[int] = set()
         self._several: list[tuple[bytes, bytes]] = []
 
-    def replaced(self, codes: Sequence[int] | np.ndarray[Any, Any], present: Iterable[int]) -> Sequence[int]:
+    def replaced(self, codes: Sequence[int] | np.ndarray[Any, Any], present: Iterable[int]) -> Sequence[int] | np.ndarray[Any, Any]:
         """The next word's states, given a word's and which states occur in it."""
         successors, met = self.states.successors, self._met
         for state in present:
