@@ -6,20 +6,25 @@ case is three states. The cases that occur are looked up once each, and the new 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from lsys_kit.derivation.chance import units
+from lsys_kit.derivation.expand import Letters, code_type
 from lsys_kit.derivation.matching import NOBODY
-from lsys_kit.derivation.states import CUT
+from lsys_kit.derivation.states import CUT, States
 from lsys_kit.derivation.stepping import Replacement, Stepper
 from lsys_kit.notation.model import CLOSING, OPENING
 
 Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
-ORDINARY, OPENS, CLOSES, PASSED = range(4)
+ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
+"""What a module is to contexts: `PASSED` is passed over but has a context itself, `SKIPPED` has none."""
 TABLE = 2**22
 """The largest table of cases that is looked up directly."""
+FEW = 12
+"""So many kinds of replacements are counted one after another."""
 
 
 def possible(stepper: Stepper) -> bool:
@@ -33,12 +38,13 @@ def possible(stepper: Stepper) -> bool:
 
 
 class Fates:
-    """What modules may become, numbered, and laid out for gathering."""
+    """What modules may become, numbered, and how a word is made of it."""
 
-    def __init__(self) -> None:
+    def __init__(self, states: States) -> None:
+        self.states = states
         self.replacements: list[Replacement] = []
         self._numbers: dict[Replacement, int] = {}
-        self._laid_out: tuple[Integers, Integers, Integers] | None = None
+        self._letters = Letters(states)
 
     def number(self, replacement: Replacement) -> int:
         """The number of a replacement, a new one where it has not been met."""
@@ -46,31 +52,30 @@ class Fates:
         if found is None:
             found = self._numbers[replacement] = len(self.replacements)
             self.replacements.append(replacement)
-            self._laid_out = None
         return found
 
-    def laid_out(self) -> tuple[Integers, Integers, Integers]:
-        """All states of all replacements one after another, where each begins, and how many it has."""
-        if self._laid_out is None:
-            sizes = np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
-            everything = np.array([state for replacement in self.replacements for state in replacement.states], dtype=np.int64)
-            self._laid_out = everything, np.cumsum(sizes) - sizes, sizes
-        return self._laid_out
+    def sizes(self) -> Integers:
+        """How many modules each replacement has."""
+        return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
 
     def size(self, chosen: Integers) -> int:
         """How many modules the replacements of some numbers have together."""
-        return int(self.laid_out()[2][chosen].sum())
+        others = [(number, size) for number, size in enumerate(self.sizes().tolist()) if size != 1]
+        if len(others) > FEW:
+            return int(np.dot(np.bincount(chosen, minlength=len(self.replacements)), self.sizes()))
+        return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
 
-    def gathered(self, chosen: Integers, kind: np.dtype[Any]) -> Integers:
+    def replaced(self, chosen: Integers) -> Integers:
         """The replacements of some numbers, one after another."""
-        everything, starts, sizes = self.laid_out()
+        if chosen.dtype == np.uint8 and all(self._letters.learnt(number, replacement.states)
+                                            for number, replacement in enumerate(self.replacements)):
+            return self._letters.replaced(chosen.tobytes())
+        sizes = self.sizes()
         lengths = sizes[chosen]
-        if len(chosen) and lengths.min() == 1 == lengths.max():
-            return everything.astype(kind)[np.minimum(starts, len(everything) - 1)][chosen]
-        ends = np.cumsum(lengths)
-        places = np.repeat(starts[chosen] - ends + lengths, lengths)
+        places = np.repeat((np.cumsum(sizes) - sizes)[chosen] - np.cumsum(lengths) + lengths, lengths)
         places += np.arange(len(places))
-        gathered: Integers = everything.astype(kind)[places]
+        everything = [state for replacement in self.replacements for state in replacement.states]
+        gathered: Integers = np.array(everything, dtype=code_type(len(self.states)))[places]
         return gathered
 
 
@@ -83,93 +88,106 @@ class Bulk:
     >>> from lsys_kit.notation.read import read
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
     >>> bulk = Bulk(stepper)
-    >>> bulk.fates.gathered(bulk.chosen(np.array(stepper.states.axiom), 0), np.dtype(np.uint8)).tolist()
+    >>> bulk.fates.replaced(bulk.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
     [0, 0, 1]
     """
 
     def __init__(self, stepper: Stepper) -> None:
-        self.stepper, self.fates = stepper, Fates()
+        self.stepper, self.fates = stepper, Fates(stepper.states)
+        self._roles: list[int] = []
         self._fixed: list[int] = []
         self._numbers: dict[tuple[int, int, int], int] = {}
-        self._outcomes: list[tuple[list[int], list[float]]] = []
+        self._lots: list[tuple[list[int], Integers]] = []
         self._table: Integers = np.zeros(0, dtype=np.int64)
 
     def chosen(self, codes: Integers, step: int) -> Integers:
         """For each module of a word the number of the replacement that it gets."""
-        states = self.stepper.states
-        size = len(states)
-        self._fixed += [self._settled(state) for state in range(len(self._fixed), size)]
-        chosen = np.array(self._fixed[:size])[codes]
-        where = np.flatnonzero(chosen < 0)
-        if len(where):
-            left, right = self._neighbours(codes, where, size)
-            chosen[where] = self._drawn(self._cases(left, codes[where], right, size), where, step)
+        size = len(self.stepper.states)
+        if not self.stepper.in_context:
+            return self._drawn(self._cases(codes, size, lambda key: (NOBODY, key, NOBODY)), None, step)
+        for state in range(len(self._roles), size):
+            self._meet(state)
+        roles = np.zeros(len(codes), dtype=np.uint8)
+        if any(self._roles):
+            roles = np.array(self._roles, dtype=np.uint8).take(codes)
+        where = np.flatnonzero(roles != SKIPPED)
+        if len(where) == len(codes):
+            return self._drawn(self._in_context(codes, roles, size), None, step)
+        found = self._drawn(self._in_context(codes.take(where), roles.take(where), size), where, step)
+        chosen = np.array(self._fixed, dtype=code_type(len(self.fates.replacements))).take(codes)
+        chosen[where] = found
         return chosen
 
-    def _settled(self, state: int) -> int:
-        """The number of what a settled state becomes; -1 for one that is not settled."""
+    def _meet(self, state: int) -> None:
+        """The role of a state in contexts; of one that is passed over and asks for no context, what becomes of it, too."""
         states = self.stepper.states
-        if not states.is_settled(state):
-            return -1
-        return self.fates.number(Replacement(states.successor(state), states.production(state)))
-
-    def _neighbours(self, codes: Integers, where: Integers, size: int) -> tuple[Integers, Integers]:
-        """The states to the left and right of some modules; `size`, which is no state's number, stands for nobody."""
-        if not self.stepper.in_context:
-            nobody = np.full(len(where), size, dtype=np.int64)
-            return nobody, nobody
-        roles = np.array([self._role(module.symbol) for module in self.stepper.states.modules[:size]], dtype=np.uint8)
-        before, after = beside(roles[codes], where) if roles.any() else (where - 1, where + 1)
-        padded = np.append(codes.astype(np.int64), size)
-        return padded[before], padded[after]
-
-    def _role(self, symbol: str) -> int:
+        symbol = states.modules[state].symbol
+        role, fixed = ORDINARY, 0
         if symbol in OPENING or symbol in CLOSING:
-            return OPENS if symbol in OPENING else CLOSES
-        return PASSED if symbol in self.stepper.passed else ORDINARY
+            role = OPENS if symbol in OPENING else CLOSES
+        elif symbol in self.stepper.passed:
+            role = PASSED
+            if states.is_settled(state):
+                role, fixed = SKIPPED, self.fates.number(Replacement(states.successor(state), states.production(state)))
+        self._roles.append(role)
+        self._fixed.append(fixed)
 
-    def _cases(self, left: Integers, codes: Integers, right: Integers, size: int) -> Integers:
-        """For some modules between others the numbers of their cases."""
-        keys = (left * (size + 1) + right) * size + codes
-        bound = size * (size + 1) ** 2
+    def _in_context(self, codes: Integers, roles: Integers, size: int) -> Integers:
+        """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
+        left, right = beside(codes.astype(code_type(size + 1), copy=False), roles, size)
+        kind = code_type(size * (size + 1) ** 2)
+        keys = (left.astype(kind) * kind.type(size + 1) + right) * kind.type(size) + codes
+
+        def case(key: int) -> tuple[int, int, int]:
+            rest, code = divmod(key, size)
+            before, after = divmod(rest, size + 1)
+            return before if before < size else NOBODY, code, after if after < size else NOBODY
+
+        return self._cases(keys, size * (size + 1) ** 2, case)
+
+    def _cases(self, keys: Integers, bound: int, case: Callable[[int], tuple[int, int, int]]) -> Integers:
+        """For each module, whose case is told by a key below a bound, the number of what becomes of it, from 1 on.
+
+        Where lots are drawn it is below zero. What a key stands for is asked when it is met first.
+        """
         if bound > TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
-            return np.array([self._case(key, size) for key in distinct.tolist()])[which]
+            return np.array([self._number(case(key)) for key in distinct.tolist()])[which]
         if len(self._table) != bound:
-            self._table = np.zeros(bound, dtype=np.int64)  # 0 for a case that has not been met
-        if not (found := self._table[keys]).all():
+            self._table = np.zeros(bound, dtype=np.int32)  # 0 for a case that has not been met
+        if not (found := self._table.take(keys)).all():
             there = np.zeros(bound, dtype=bool)
             there[keys] = True
             for key in np.flatnonzero(there & (self._table == 0)).tolist():
-                self._table[key] = self._case(key, size) + 1
-            found = self._table[keys]
-        numbers: Integers = found - 1
-        return numbers
+                self._table[key] = self._number(case(key))
+            found = self._table.take(keys)
+        return found
 
-    def _case(self, key: int, size: int) -> int:
-        """The number of a case; what comes of it is found when it is met first."""
-        rest, code = divmod(key, size)
-        left, right = divmod(rest, size + 1)
-        case = left if left < size else NOBODY, code, right if right < size else NOBODY
+    def _number(self, case: tuple[int, int, int]) -> int:
+        """The number of what becomes of a module in a case; where lots are drawn, that of the lots, below zero."""
         if case not in self._numbers:
-            self._outcomes.append(self._found(*case))
-            self._numbers[case] = len(self._outcomes) - 1
+            fates, weights = self._found(*case)
+            if len(fates) > 1:
+                self._lots.append((fates, np.cumsum(weights)))
+            self._numbers[case] = fates[0] + 1 if len(fates) == 1 else -len(self._lots)
         return self._numbers[case]
 
-    def _drawn(self, cases: Integers, where: Integers, step: int) -> Integers:
-        """For each module, whose case is known, the number of its replacement."""
-        result = np.array([fates[0] for fates, _ in self._outcomes])[cases]
-        for number, (fates, weights) in enumerate(self._outcomes):
-            if len(fates) > 1:
-                ours, marks = np.flatnonzero(cases == number), np.cumsum(weights)
-                lots = units(self.stepper.seed, step, where[ours]) * marks[-1]
-                drawn = np.searchsorted(marks, lots, side="right").clip(max=len(fates) - 1)
-                result[ours] = np.array(fates)[drawn]
+    def _drawn(self, numbers: Integers, where: Integers | None, step: int) -> Integers:
+        """For each module the number of its replacement, after lots are drawn; `where` it stands, if not at its own place."""
+        kind = code_type(len(self.fates.replacements))
+        result = (numbers - 1).astype(kind)
+        for number, (fates, marks) in enumerate(self._lots, 1):
+            ours = np.flatnonzero(numbers == -number)
+            lots = units(self.stepper.seed, step, ours if where is None else where[ours]) * marks[-1]
+            drawn = np.searchsorted(marks, lots, side="right").clip(max=len(fates) - 1)
+            result[ours] = np.array(fates, dtype=kind)[drawn]
         return result
 
     def _found(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
         """The same, tried on a word of just these modules: the possible replacements, and their weights."""
         states = self.stepper.states
+        if states.is_settled(code):
+            return [self.fates.number(Replacement(states.successor(code), states.production(code)))], [1.0]
         word = [state for state in (left, code, right) if state != NOBODY]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NOBODY))
         if not matched:
@@ -181,51 +199,60 @@ class Bulk:
         return [self.fates.number(replacement) for replacement in made], weights or [1.0]
 
 
-def beside(roles: Integers, asked: Integers) -> tuple[Integers, Integers]:
-    """The positions of some modules' neighbours in the sense of contexts, to the left and to the right, or -1.
+def beside(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:
+    """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
     ----------
+    codes
+        The word's states, of a type that holds `nobody` too.
     roles
-        For each position of a word `ORDINARY`, `OPENS`, `CLOSES` or `PASSED`.
-    asked
-        The positions whose neighbours are wanted; no brackets among them.
+        For each module `ORDINARY`, `OPENS`, `CLOSES` or `PASSED`.
+    nobody
+        What stands for a neighbour that is not there. What is found for brackets means nothing.
 
     Examples
     --------
-    >>> before, after = beside(np.array([0, 1, 0, 2, 1, 0, 2, 0]), np.array([0, 2, 5, 7]))  # A[B][C]D
-    >>> before.tolist(), after.tolist()
-    ([-1, 0, 0, 0], [7, -1, -1, -1])
+    >>> word, roles = np.array([10, 1, 11, 2, 1, 12, 2, 13]), np.array([0, 1, 0, 2, 1, 0, 2, 0])  # A[B][C]D
+    >>> left, right = beside(word, roles, 99)
+    >>> left[[0, 2, 5, 7]].tolist(), right[[0, 2, 5, 7]].tolist()
+    ([99, 10, 10, 10], [13, 99, 99, 99])
     """
-    open_ = np.zeros(len(roles), dtype=bool)
-    open_[asked] = True
-    kept = np.flatnonzero(open_ | (roles != PASSED))
-    mine, role = np.flatnonzero(open_[kept]), roles[kept]
-    behind, ahead = _pointers(role)
-    padded = np.append(kept, NOBODY)
-    return padded[behind[mine - 1]], padded[ahead[mine + 1]]
+    size = len(codes)
+    behind = np.append(codes, codes.dtype.type(nobody))  # whom one meets at each place, from the right; at the end nobody
+    ahead = behind
+    hanging = np.flatnonzero(roles)
+    if len(hanging):
+        back, forth = _looked_at(roles, hanging, size)
+        ahead = behind.copy()
+        behind[hanging], ahead[hanging] = behind[back], ahead[forth]
+    return np.roll(behind, 1)[:size], ahead[1:]
 
 
-def _pointers(role: Integers) -> tuple[Integers, Integers]:
-    """For each place whom one meets who looks there from the right, and from the left; the last place is nobody's."""
-    size = len(role)
-    behind, ahead = np.arange(size + 1), np.arange(size + 1)
-    passed, brackets = np.flatnonzero(role == PASSED), np.flatnonzero((role == OPENS) | (role == CLOSES))
-    opening, closing = _pairs(role, brackets)
-    behind[passed], ahead[passed] = passed - 1, passed + 1
-    behind[opening], behind[closing] = opening - 1, opening - 1
-    ahead[opening], ahead[closing] = closing + 1, size
-    passing = np.append(role != ORDINARY, False)
-    for pointers in (behind, ahead):
-        hanging = np.concatenate((passed, brackets))
-        while len(hanging := hanging[passing[pointers[hanging]]]):
-            pointers[hanging] = pointers[pointers[hanging]]
-    return behind, ahead
+def _looked_at(roles: Integers, hanging: Integers, size: int) -> tuple[Integers, Integers]:
+    """For the places of brackets and of what is passed over whom one meets who comes to them, from the right and the left.
+
+    Whoever comes to a branch from outside looks past it, from its inside at what is before it; behind its end is nobody.
+    """
+    role, last = roles[hanging], len(hanging)
+    closing, opening = _pairs(role)
+    before, after = np.arange(last), np.arange(last + 1)  # beside which of them one looks; beside number `last` is nobody
+    before[closing], after[opening], after[closing] = opening, closing, last
+    near = np.flatnonzero(np.diff(hanging) == 1)  # the next of them stands right behind it
+    for pointers, step, there in ((before, -1, near + 1), (after, 1, near)):
+        another = np.zeros(last + 1, dtype=bool)
+        another[there] = True
+        left = np.flatnonzero(another[pointers])
+        while len(left):
+            pointers[left] = pointers[pointers[left] + step]
+            left = left[another[pointers[left]]]
+    return hanging[before] - 1, np.append(hanging, size - 1)[after[:last]] + 1
 
 
-def _pairs(role: Integers, brackets: Integers) -> tuple[Integers, Integers]:
-    """The places of brackets that open, and of those that close them: on one level they take turns."""
+def _pairs(role: Integers) -> tuple[Integers, Integers]:
+    """Among brackets and others the ranks of those that close, and of those that open them: on one level they take turns."""
+    brackets = np.flatnonzero(role != PASSED)
     opens = role[brackets] == OPENS
-    level = np.cumsum(np.where(opens, 1, -1)) + ~opens
-    order = brackets[np.argsort(level.astype(np.min_scalar_type(int(level.max(initial=0)))), kind="stable")]
-    return order[::2], order[1::2]
+    level = np.cumsum(np.where(opens, 1, -1), dtype=np.int32) + ~opens
+    order = brackets[np.argsort(level.astype(code_type(int(level.max(initial=0)) + 1)), kind="stable")]
+    return order[1::2], order[::2]

@@ -11,6 +11,8 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +29,7 @@ from lsys_kit.errors import ModelLimitError
 
 PLAIN = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
-BULK = 1_000
+BULK = 64
 """Words from this length on are stepped in bulk, where that is possible."""
 DIFFERENT = 50
 """From so many different modules on a word may become columns, if they are most of it."""
@@ -111,9 +113,16 @@ class Counting:
             return Word(self.states, list(self.states.axiom))
         before, small = self._words.get(step - 1), self.size(step) <= PLAIN
         if small and before is not None:
-            return Word(self.states, self._letters.replaced(before.codes, self.counts(step - 1)))
+            return Word(self.states, self._replaced(before, step - 1))
         array = expanded(self.states, [counts for counts, _ in self._steps[:step + 1]])
         return Word(self.states, array.tolist() if small else array)
+
+    def _replaced(self, word: Word, step: int) -> Sequence[int] | np.ndarray[Any, Any]:
+        """What becomes of a short word, the one of a step."""
+        successors, letters = self.states.successors, self._letters
+        if all(letters.learnt(state, successors[state]) for state in self.counts(step)):
+            return letters.replaced(bytes(word.codes))
+        return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
 
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from."""
@@ -163,10 +172,10 @@ class Stepping:
         codes = np.asarray(before.codes)
         chosen = bulk.chosen(codes, step - 1)
         check_size(self.states, step, bulk.fates.size(chosen))
-        word = Word(self.states, bulk.fates.gathered(chosen, code_type(len(self.states))))
+        word = Word(self.states, bulk.fates.replaced(chosen))
 
         def origins() -> Origins:
-            sizes = bulk.fates.laid_out()[2][chosen]
+            sizes = bulk.fates.sizes()[chosen]
             productions = [replacement.production for replacement in bulk.fates.replacements]
             return Origins(np.repeat(np.arange(len(chosen)), sizes).tolist(),
                            [productions[fate] for fate in np.repeat(chosen, sizes).tolist()])

@@ -7,9 +7,8 @@ in k steps is written where it is first needed, and every later occurrence is a 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -29,46 +28,47 @@ def code_type(states: int) -> np.dtype[Any]:
 
 
 class Letters:
-    """A step of a short word: a string of bytes, one for each state, in which letters are replaced.
+    """A string of bytes in which each letter is replaced by a row of states: a step of a word, if letters are states.
 
-    A state that becomes one other is translated. One that becomes several, or none, is translated into a letter that stands
+    A letter that becomes one state is translated. One that becomes several, or none, is translated into a letter that stands
     for no state, and that letter is replaced: so what is put in is never replaced itself.
 
     Examples
     --------
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
-    >>> list(Letters(states).replaced([0, states.successor(0)[1]], [0, 1]))
-    [0, 1, 0]
+    >>> letters = Letters(states)
+    >>> [letters.learnt(state, states.successor(state)) for state in (0, 1)]
+    [True, True]
+    >>> letters.replaced(bytes([0, 1, 0])).tolist()
+    [0, 1, 0, 0, 1]
     """
 
     def __init__(self, states: States) -> None:
         self.states = states
+        self._known = bytearray(LETTERS)
         self._table = bytearray(range(LETTERS))
-        self._met: set[int] = set()
         self._several: list[tuple[bytes, bytes]] = []
 
-    def replaced(self, codes: Sequence[int] | np.ndarray[Any, Any], present: Iterable[int]) -> Sequence[int] | np.ndarray[Any, Any]:
-        """The next word's states, given a word's and which states occur in it."""
-        successors, met = self.states.successors, self._met
-        for state in present:
-            if state not in met and not self._meet(state, successors[state]):
-                return list(chain.from_iterable(map(successors.__getitem__, codes)))
-        word = bytes(codes).translate(self._table)
+    def learnt(self, letter: int, row: Sequence[int]) -> bool:
+        """Learn what a letter becomes; not where letters run out."""
+        if letter < LETTERS and self._known[letter]:
+            return True
+        free = LETTERS - 1 - len(self._several)
+        if letter >= LETTERS or free < len(self.states):
+            return False
+        if len(row) != 1:
+            self._several.append((bytes((free,)), bytes(row)))
+        self._table[letter] = row[0] if len(row) == 1 else free
+        self._known[letter] = True
+        return True
+
+    def replaced(self, word: bytes) -> np.ndarray[Any, np.dtype[np.uint8]]:
+        """The states that replace a row of letters."""
+        word = word.translate(self._table)
         for letter, row in self._several:
             word = word.replace(letter, row)
         return np.frombuffer(word, np.uint8)
-
-    def _meet(self, state: int, row: tuple[int, ...]) -> bool:
-        """Give a state its letters; not where letters run out."""
-        letter = LETTERS - 1 - len(self._several)
-        if letter < len(self.states):
-            return False
-        if len(row) != 1:
-            self._several.append((bytes((letter,)), bytes(row)))
-        self._table[state] = row[0] if len(row) == 1 else letter
-        self._met.add(state)
-        return True
 
 
 def expanded(states: States, present: Sequence[Counter[int]]) -> np.ndarray[Any, Any]:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import lsys_kit.derivation.bulk as bulk
 import lsys_kit.derivation.courses as courses
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.matching import neighbours
+from lsys_kit.derivation.matching import NOBODY, neighbours
 from lsys_kit.notation.read import read
 
 ROLES = {"A": bulk.ORDINARY, "B": bulk.ORDINARY, "+": bulk.PASSED, "-": bulk.PASSED, "[": bulk.OPENS, "]": bulk.CLOSES}
@@ -32,15 +32,14 @@ GROWING = "axiom: A(0) b\nA(x) > b -> A(x+1) [b] A(x+2)\nA(x) > A(y) : x < 9 -> 
 CHANCE = "axiom: F F F F F\nF -> F [+ F] F [- F] F : 0.33\nF -> F [+ F] F : 0.33\nF -> ε : 0.1"
 
 
-@given(words, st.data())
-def test_neighbours_are_found_at_once(word: str, data: st.DataObject) -> None:
+@given(words)
+def test_neighbours_are_found_at_once(word: str) -> None:
     """Of modules that are passed over as well: they may have contexts of their own."""
-    modules = [position for position, symbol in enumerate(word) if symbol not in "[]"]
-    asked = sorted(data.draw(st.sets(st.sampled_from(modules)))) if modules else []
-    found = neighbours(word, "+-")
-    before, after = bulk.beside(np.array([ROLES[symbol] for symbol in word]), np.array(asked, dtype=np.int64))
-    assert before.tolist() == [found.before[position] for position in asked]
-    assert after.tolist() == [found.after[position] for position in asked]
+    places = np.arange(len(word))
+    left, right = bulk.beside(places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NOBODY)
+    found, modules = neighbours(word, "+-"), np.array([symbol not in "[]" for symbol in word], dtype=bool)
+    assert left[modules].tolist() == np.array(found.before, dtype=int)[modules].tolist()
+    assert right[modules].tolist() == np.array(found.after, dtype=int)[modules].tolist()
 
 
 @pytest.mark.parametrize("table", [bulk.TABLE, 0], ids=["looked up", "sorted"])
