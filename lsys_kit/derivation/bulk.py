@@ -60,9 +60,10 @@ class Fates:
 
     def size(self, chosen: Integers) -> int:
         """How many modules the replacements of some numbers have together."""
-        others = [(number, size) for number, size in enumerate(self.sizes().tolist()) if size != 1]
+        sizes = [len(replacement.states) for replacement in self.replacements]
+        others = [(number, size) for number, size in enumerate(sizes) if size != 1]
         if len(others) > FEW:
-            return int(np.dot(np.bincount(chosen, minlength=len(self.replacements)), self.sizes()))
+            return int(np.dot(np.bincount(chosen, minlength=len(sizes)), sizes))
         return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
 
     def replaced(self, chosen: Integers) -> Integers:

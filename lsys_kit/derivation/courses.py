@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
@@ -60,7 +60,7 @@ class Counting:
 
     def __init__(self, states: States) -> None:
         self.states = states
-        self._steps = [(Counter(states.axiom), len(states.axiom))]
+        self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
         self._words: dict[int, Word] = {}
         self._letters = Letters(states)
         self._columns = Columns(states) if columns_possible(states) else None
@@ -77,7 +77,7 @@ class Counting:
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a known step."""
-        return self._steps[step][0] if step < len(self._steps) else state_counts(self.word(step))
+        return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
 
     def advance(self, until: float) -> None:
         """Make one step more known."""
@@ -87,9 +87,8 @@ class Counting:
             return
         if len(self.states.successors) < len(self.states):  # some have to be made: not for a step that is refused
             check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
-        watch = partial(check_time, self.states, step, until)
-        after = counted(self.states, before, watch)
-        watch()
+        after = counted(self.states, before, partial(check_time, self.states, step, until))
+        check_time(self.states, step, until)
         size = sum(after.values())
         check_size(self.states, step, size)
         self._steps.append((after, size))
@@ -113,14 +112,14 @@ class Counting:
             return Word(self.states, list(self.states.axiom))
         before, small = self._words.get(step - 1), self.size(step) <= PLAIN
         if small and before is not None:
-            return Word(self.states, self._replaced(before, step - 1))
+            return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
         array = expanded(self.states, [counts for counts, _ in self._steps[:step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
-    def _replaced(self, word: Word, step: int) -> Sequence[int] | np.ndarray[Any, Any]:
-        """What becomes of a short word, the one of a step."""
+    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
+        """What becomes of a short word, given the states that occur in it."""
         successors, letters = self.states.successors, self._letters
-        if all(letters.learnt(state, successors[state]) for state in self.counts(step)):
+        if present.keys() <= letters.known or all(letters.learnt(state, successors[state]) for state in present):
             return letters.replaced(bytes(word.codes))
         return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
 
@@ -228,9 +227,9 @@ def course_of(states: States, seed: int) -> Counting | Stepping:
     return Counting(states) if states.settled else Stepping(states, seed)
 
 
-def counted(states: States, counts: Counter[int], watch: Callable[[], None] = lambda: None) -> Counter[int]:
+def counted(states: States, counts: Mapping[int, int], watch: Callable[[], None] = lambda: None) -> dict[int, int]:
     """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
-    after: Counter[int] = Counter()
+    after: dict[int, int] = {}
     already, successors = after.get, states.successors
     for number, (state, count) in enumerate(counts.items(), 1):
         row = successors[state]

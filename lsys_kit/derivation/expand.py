@@ -6,8 +6,7 @@ in k steps is written where it is first needed, and every later occurrence is a 
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -30,6 +29,13 @@ def code_type(states: int) -> np.dtype[Any]:
 class Letters:
     """A string of bytes in which each letter is replaced by a row of states: a step of a word, if letters are states.
 
+    Attributes
+    ----------
+    known
+        The letters that have been learnt.
+
+    Notes
+    -----
     A letter that becomes one state is translated. One that becomes several, or none, is translated into a letter that stands
     for no state, and that letter is replaced: so what is put in is never replaced itself.
 
@@ -46,13 +52,13 @@ class Letters:
 
     def __init__(self, states: States) -> None:
         self.states = states
-        self._known = bytearray(LETTERS)
+        self.known: set[int] = set()
         self._table = bytearray(range(LETTERS))
         self._several: list[tuple[bytes, bytes]] = []
 
     def learnt(self, letter: int, row: Sequence[int]) -> bool:
         """Learn what a letter becomes; not where letters run out."""
-        if letter < LETTERS and self._known[letter]:
+        if letter in self.known:
             return True
         free = LETTERS - 1 - len(self._several)
         if letter >= LETTERS or free < len(self.states):
@@ -60,7 +66,7 @@ class Letters:
         if len(row) != 1:
             self._several.append((bytes((free,)), bytes(row)))
         self._table[letter] = row[0] if len(row) == 1 else free
-        self._known[letter] = True
+        self.known.add(letter)
         return True
 
     def replaced(self, word: bytes) -> np.ndarray[Any, np.dtype[np.uint8]]:
@@ -71,7 +77,7 @@ class Letters:
         return np.frombuffer(word, np.uint8)
 
 
-def expanded(states: States, present: Sequence[Counter[int]]) -> np.ndarray[Any, Any]:
+def expanded(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any, Any]:
     """The word of the last step, as an array of states.
 
     Parameters
@@ -108,16 +114,16 @@ def expanded(states: States, present: Sequence[Counter[int]]) -> np.ndarray[Any,
     return word
 
 
-def _sizes(states: States, present: Sequence[Counter[int]]) -> list[dict[int, int]]:
+def _sizes(states: States, present: Sequence[Collection[int]]) -> list[dict[int, int]]:
     """For each step and state the length of what the state becomes by the last step."""
-    sizes: list[dict[int, int]] = [dict.fromkeys(present[-1], 1)]
+    sizes = [dict.fromkeys(present[-1], 1)]
     for here in reversed(present[:-1]):
         after = sizes[-1]
         sizes.append({state: sum(after[s] for s in states.successor(state)) for state in here})
     return sizes[::-1]
 
 
-def _pieces(states: States, present: Sequence[Counter[int]],
+def _pieces(states: States, present: Sequence[Collection[int]],
             sizes: Sequence[dict[int, int]]) -> list[dict[int, tuple[int, ...]]]:
     """For each step and state whose size is small, what the state becomes by the last step."""
     pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]

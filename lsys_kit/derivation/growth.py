@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -107,17 +107,17 @@ class Growth:
         return self._summed(steps, [state for state, module in enumerate(self.states) if module.symbol == symbol])
 
     def _summed(self, steps: int, states: Sequence[int]) -> list[int]:
-        return [sum(counts[state] for state in states) for counts in islice(self._followed(), steps + 1)]
+        return [sum(counts.get(state, 0) for state in states) for counts in islice(self._followed(), steps + 1)]
 
-    def _followed(self) -> Iterator[Counter[int]]:
+    def _followed(self) -> Iterator[Mapping[int, int]]:
         """How often each state occurs at step 0, 1, 2, ..."""
-        counts = Counter(self.table.axiom)
+        counts: Mapping[int, int] = Counter(self.table.axiom)
         while True:
             yield counts
             counts = counted(self.table, counts)
 
-    def _vector(self, counts: Counter[int]) -> tuple[int, ...]:
-        return tuple(counts[state] for state in range(len(self.table)))
+    def _vector(self, counts: Mapping[int, int]) -> tuple[int, ...]:
+        return tuple(counts.get(state, 0) for state in range(len(self.table)))
 
     def _check(self, step: int) -> None:
         """Refuse a step that is none, or so late that its numbers are past all use."""

@@ -135,7 +135,12 @@ class States:
     def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
         """The rule that rewrites a module, of rules that need no context."""
         values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
-        matched = [(rule, values) for rule in rules.get(kind_of(module), ()) if self.holds(rule, values, module)]
+        matched: list[tuple[Rule, tuple[Value, ...]]] = []
+        for rule in rules.get(kind_of(module), ()):
+            if self.holds(rule, values, module):
+                if rule.probability is None and not matched:
+                    return rule
+                matched.append((rule, values))
         return self.drawn(matched, chance)
 
     def holds(self, rule: Rule, values: tuple[Value, ...], module: Module) -> bool:
