@@ -106,7 +106,7 @@ def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
                         help="the notation of the file, or in which the words of a system of the catalogue are printed")
     parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
                         help="float computes in doubles, as other programs do")
-    parser.add_argument("--seed", type=_seed, default=0, metavar="S", help="where chance begins: a whole number, by default 0")
+    parser.add_argument("--seed", type=_seed, metavar="S", help="where chance begins: a whole number, by default the model's own, else 0")
 
 
 def _spread(arguments: Sequence[str]) -> Iterator[str]:
@@ -243,7 +243,7 @@ def _found(name: str, notation: str | None) -> LSystem:
     """The system of the catalogue that has this name, else the one in the file."""
     from lsys_kit.classroom.catalogue import system
     from lsys_kit.notation.read import read
-    from lsys_kit.notation.write import known, write
+    from lsys_kit.notation.write import write
 
     if name == "-":
         return read(_text(sys.stdin.buffer, "the standard input"), notation)
@@ -252,7 +252,7 @@ def _found(name: str, notation: str | None) -> LSystem:
     except ModelNameError:
         return read(_file(name), notation)
     if notation is not None:
-        write(found, known(notation))  # says what the notation lacks
+        write(found, notation)  # says what the notation lacks
         return replace(found, notation=notation)
     return found
 

@@ -79,7 +79,7 @@ class Study:
 2 cells, width 3, height 1.
     """
 
-    def __init__(self, system: LSystem, seed: int = 0) -> None:
+    def __init__(self, system: LSystem, seed: int | None = None) -> None:
         self.system, self.seed, self.is_filament = system, seed, is_filament(system)
         self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
         self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}

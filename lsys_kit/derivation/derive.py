@@ -22,7 +22,7 @@ from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model import LSystem
 
 
-def derive(system: LSystem, steps: int, *, seed: int = 0, arithmetic: str = "exact", **constants: object) -> Derivation:
+def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact", **constants: object) -> Derivation:
     """Derive a system: the words of steps 0 to `steps`.
 
     Parameters
@@ -32,7 +32,7 @@ def derive(system: LSystem, steps: int, *, seed: int = 0, arithmetic: str = "exa
     steps
         How many steps.
     seed
-        Where chance begins: the same seed gives the same words, on every machine.
+        Where chance begins: the same seed gives the same words, on every machine. By default the system's own, else 0.
     arithmetic
         "exact", or "float" to compute in doubles as cpfg and L-Py do.
     **constants
@@ -59,6 +59,7 @@ def derive(system: LSystem, steps: int, *, seed: int = 0, arithmetic: str = "exa
     >>> derive(fibonacci, 30).lengths[-1]
     2178309
     """
+    seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise ModelValueError(f"The seed must be a whole number, not {seed!r}")
     return Derivation(course_of(States(system, constants, arithmetic), seed)).to(steps)

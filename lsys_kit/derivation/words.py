@@ -10,6 +10,7 @@ import numpy as np
 
 from lsys_kit.derivation.states import States
 from lsys_kit.notation.model import Module, joined
+from lsys_kit.notation.registry import notation_called
 
 SHOWN = 2_000
 """How many characters `repr` shows of a long word."""
@@ -109,9 +110,9 @@ def state_counts(word: Word) -> Counter[int]:
 def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     """The text of a row of states, in their system's notation."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
-    texts = {state: str(states.modules[state]) for state in set(numbers)}
-    parts = map(texts.__getitem__, numbers)
-    return "".join(parts) if states.system.notation == "plant-string" else joined(parts)
+    notation = notation_called(states.system.notation)
+    texts = {state: notation.module(states.modules[state]) for state in set(numbers)}
+    return notation.joined(map(texts.__getitem__, numbers))
 
 
 def shortened(word: Word, characters: int) -> str:

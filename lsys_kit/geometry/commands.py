@@ -36,27 +36,28 @@ _DRAW, _MOVE = Command("draw", Fraction(1)), Command("move", Fraction(1))
 _LEFT, _RIGHT = Command("turn", Fraction(1), 1), Command("turn", Fraction(-1), -1)
 _OPEN, _CLOSE = Command("open"), Command("close")
 
-#    symbol   the kit's own (ABOP)           plant strings (seed 004)
-_TABLE: tuple[tuple[str, Command | None, Command | None], ...] = (
-    ("F",     _DRAW,                         None),
-    ("f",     _MOVE,                         None),
-    ("+",     _LEFT,                         _LEFT),
-    ("-",     _RIGHT,                        _RIGHT),
-    ("RU",    Command("turn", argument=-1),  None),
-    ("[",     _OPEN,                         Command("open", Fraction(1))),
-    ("]",     _CLOSE,                        _CLOSE),
-    ("(",     None,                          Command("open", Fraction(-1))),
-    (")",     None,                          _CLOSE),
-    ("I",     None,                          Command("draw", Fraction(1))),
-    ("A",     None,                          Command("draw", Fraction(2, 3))),
-    ("B",     None,                          Command("draw", Fraction(1, 3))),
+#    symbol   the kit's own (ABOP)           GROGRA (seed 003)              plant strings (seed 004)
+_TABLE: tuple[tuple[str, Command | None, Command | None, Command | None], ...] = (
+    ("F",     _DRAW,                         _DRAW,                         None),
+    ("f",     _MOVE,                         _MOVE,                         None),
+    ("+",     _LEFT,                         _RIGHT,                        _LEFT),
+    ("-",     _RIGHT,                        _LEFT,                         _RIGHT),
+    ("RU",    Command("turn", argument=-1),  Command("turn", argument=-1),  None),
+    ("[",     _OPEN,                         _OPEN,                         Command("open", Fraction(1))),
+    ("]",     _CLOSE,                        _CLOSE,                        _CLOSE),
+    ("(",     None,                          None,                          Command("open", Fraction(-1))),
+    (")",     None,                          None,                          _CLOSE),
+    ("I",     None,                          None,                          Command("draw", Fraction(1))),
+    ("A",     None,                          None,                          Command("draw", Fraction(2, 3))),
+    ("B",     None,                          None,                          Command("draw", Fraction(1, 3))),
 )
 
 COMMANDS: Mapping[str, Mapping[str, Command]] = {
-    "abop": {symbol: abop for symbol, abop, _ in _TABLE if abop},
-    "plant-string": {symbol: plant for symbol, _, plant in _TABLE if plant},
+    "abop": {symbol: abop for symbol, abop, _, _ in _TABLE if abop},
+    "grogra": {symbol: grogra for symbol, _, grogra, _ in _TABLE if grogra},
+    "plant-string": {symbol: plant for symbol, _, _, plant in _TABLE if plant},
 }
-"""For each notation its commands, by symbol."""
+"""For each tradition its commands, by symbol."""
 
 STEERING = frozenset(symbol for column in COMMANDS.values() for symbol, command in column.items()
                      if command.action not in ("draw", "move"))

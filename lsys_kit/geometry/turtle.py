@@ -124,7 +124,7 @@ def _summed(vectors: Floats, parents: Integers) -> Floats:
 
 def _orders(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[str, float, float]]]:
     """For each state what it tells the turtle: an action, an amount, and degrees besides."""
-    table = COMMANDS[states.system.notation]
+    table = COMMANDS[states.system.turtle]
     return {state: [order for module in image for order in _order(table.get(module.symbol), module)]
             for state, image in images(states, numbers).items()}
 

@@ -69,30 +69,60 @@ class Apply:
         object.__setattr__(self, "depth", 1 + max(getattr(operand, "depth", 0) for operand in self.operands))
 
     def __str__(self) -> str:
-        operator = OPERATORS[self.operator]
-        if operator.precedence is None:
-            return f"{self.operator}({', '.join(map(str, self.operands))})"
-        if len(self.operands) == 1:
-            tightly = 7 if self.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
-            return self.operator[0] + _within(self.operands[0], tightly)
-        left, right = self.operands
-        power = self.operator == "^"
-        return (_within(left, operator.precedence + power) + operator.spelling(self.operator)
-                + _within(right, operator.precedence + (not power)))
+        return written(self)
 
 
 Expression: TypeAlias = Number | Name | Apply
 
 
-def _within(expression: Expression, precedence: int) -> str:
+@dataclass(frozen=True)
+class Style:
+    """How a notation writes expressions.
+
+    Attributes
+    ----------
+    spellings
+        Operators and functions that are spelt otherwise than in `OPERATORS`.
+    brackets
+        What stands around a function's operands.
+    """
+
+    spellings: Mapping[str, str] = field(default_factory=dict)
+    brackets: tuple[str, str] = ("(", ")")
+
+
+PLAIN = Style()
+"""The kit's own: that of C, with `^` for powers."""
+
+
+def written(expression: Expression, style: Style = PLAIN) -> str:
+    """The text of an expression in a notation's style.
+
+    >>> written(Apply("sqrt", (Apply("==", (Name("x"), Number(1))),)), Style({"sqrt": "Sqrt", "==": "="}, ("[", "]")))
+    'Sqrt[x = 1]'
+    """
+    if not isinstance(expression, Apply):
+        return str(expression)
+    operator, spelt = OPERATORS[expression.operator], style.spellings.get(expression.operator, expression.operator)
+    if operator.precedence is None:
+        return spelt + style.brackets[0] + ", ".join(written(o, style) for o in expression.operands) + style.brackets[1]
+    if len(expression.operands) == 1:
+        tightly = 7 if expression.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
+        return spelt[0] + _within(expression.operands[0], tightly, style)
+    left, right = expression.operands
+    power = expression.operator == "^"
+    return (_within(left, operator.precedence + power, style) + operator.spelling(spelt)
+            + _within(right, operator.precedence + (not power), style))
+
+
+def _within(expression: Expression, precedence: int, style: Style) -> str:
     """The operand's text, in parentheses where it binds less tightly than its surroundings."""
-    own: int | None = None
+    own, text = None, written(expression, style)
     if isinstance(expression, Apply):
         own = OPERATORS[expression.operator].precedence
     elif isinstance(expression, Number):
-        text = str(expression)
         own = 5 if "/" in text else 6 if text.startswith("-") else None
-    return f"({expression})" if own is not None and own < precedence else str(expression)
+    return f"({text})" if own is not None and own < precedence else text
 
 
 def gives(expression: Expression) -> str:

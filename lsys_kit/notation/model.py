@@ -211,10 +211,16 @@ class LSystem:
         Symbols that contexts pass over; or, where these are given, the only ones that they do not pass over.
     depth
         How often interpretation rules are applied to what they make.
+    decomposition_depth
+        How often decomposition rules are applied to what they make; None: until none applies.
     angle, heading
         Degrees: by how much `+` and `-` turn, and in which direction the turtle starts (90 is up).
-    steps
-        How many steps the model asks for, or None.
+    length
+        How far one segment goes where it does not say so itself; None where that is left to the turtle.
+    turtle
+        Whose turtle commands the symbols are: "abop", "grogra" or "plant-string".
+    steps, seed
+        How many steps the model asks for, and where its chance begins; or None.
     alphabet
         Names of several letters that might be mistaken for a row of symbols.
     notation
@@ -236,6 +242,10 @@ class LSystem:
     ignored: tuple[str, ...] = ()
     considered: tuple[str, ...] = ()
     depth: int = 1
+    length: Value | None = None
+    seed: int | None = None
+    decomposition_depth: int | None = None
+    turtle: str = "abop"
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
@@ -257,6 +267,15 @@ class LSystem:
     def rules(self) -> tuple[Production, ...]:
         """Productions, decomposition rules and interpretation rules."""
         return *self.productions, *self.decomposition, *self.interpretation
+
+    @property
+    def modules(self) -> Iterator[Module]:
+        """All modules of the axiom and the rules, in the order written."""
+        yield from self.axiom
+        for rule in self.rules:
+            yield from rule.modules
+        for meta in self.meta:
+            yield from (*meta.predecessors, *flat(meta.successor))
 
 
 def symbols(system: LSystem) -> tuple[str, ...]:

@@ -167,8 +167,11 @@ class Statements(Transformer[Any, Any]):
         return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
 
     def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
-        name = keyword.rstrip(": \t").lower()
+        name = "_".join(keyword.rstrip(": \t").lower().split())
         return "angle" if name == "δ" else name, _number(value) if isinstance(value, Token) else value
+
+    def turtle(self, _: Token, tradition: Token) -> tuple[str, str]:
+        return "turtle", str(tradition)
 
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))

@@ -8,7 +8,7 @@ about the place, the most telling first; the first that knows an answer gives th
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from difflib import get_close_matches
 
 from lark.exceptions import UnexpectedInput
@@ -17,9 +17,10 @@ from lsys_kit.errors import ModelSyntaxError, named
 from lsys_kit.notation.before_arrow import PRODUCTION, before_arrow
 from lsys_kit.notation.statements import ARROW
 from lsys_kit.notation.stumble import Stumble, outside, possible, printed, quoted, stumbled, unclosed
+from lsys_kit.notation.tradition import Notation, Question
 
-KEYWORDS = ("axiom", "angle", "heading", "steps", "depth", "alphabet", "ignore", "consider", "meta", "productions",
-            "decomposition", "interpretation")
+KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
+            "meta", "productions", "decomposition", "interpretation")
 _ALSO = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books say for a keyword."""
 _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
@@ -49,10 +50,10 @@ SPELT: Sequence[tuple[str, str, str]] = (
 """What is spelt as elsewhere: a pattern, what to say of it, what to type here."""
 
 
-def explained(slip: UnexpectedInput, source: str, start: int, end: int) -> ModelSyntaxError:
+def explained(slip: UnexpectedInput, source: str, start: int, end: int, notation: Notation) -> ModelSyntaxError:
     """The slip in the statement between two offsets, as an error with its place and a hint."""
     stumble = stumbled(slip, source, start, end)
-    answers = (question(stumble) for question in _QUESTIONS)
+    answers = (question(stumble) for question in (*notation.questions, _anything_else))
     return next(answer for answer in answers if answer is not None)
 
 
@@ -215,8 +216,7 @@ def _anything_else(stumble: Stumble) -> ModelSyntaxError:
     return stumble.error(what, possible(stumble.accepted))
 
 
-_QUESTIONS: Sequence[Callable[[Stumble], ModelSyntaxError | None]] = (
+QUESTIONS: Sequence[Question] = (
     _comment, _repetition, _keyword, _parentheses, _arrows, _spelt_otherwise, _unreadable, before_arrow, _comparison,
-    _in_a_word, _equals, _value, _constant, _anything_else)
-
-
+    _in_a_word, _equals, _value, _constant)
+"""What is asked about a slip in the kit's own notation and in plant strings, the most telling first."""

@@ -10,7 +10,8 @@ from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.expressions import Apply, Name, Number
 from lsys_kit.notation.model import Constant, LSystem, Module, Production
 from lsys_kit.notation.read import read
-from lsys_kit.notation.write import joined_in, write
+from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.write import write
 
 FULL = """dt = 0.7 in 0.1 .. 2 by 0.1
 T = 1
@@ -36,7 +37,7 @@ def test_what_is_usual_is_not_written() -> None:
 
 def test_a_system_changes_its_notation() -> None:
     system = read("angle: 30\naxiom: I\nI -> I[A]I\nA -> ε")
-    assert write(system, "plant-string") == "angle: 30\nAxiom: I\nI -> I[A]I\nA -> ε"
+    assert write(system, "plant-string") == "turtle: abop\nangle: 30\nAxiom: I\nI -> I[A]I\nA -> ε"
     assert read(write(system, "plant-string"), "plant-string") == system
 
 
@@ -63,8 +64,8 @@ def test_an_unknown_notation_is_named() -> None:
 
 def test_names_are_kept_apart_and_nothing_else() -> None:
     word = tuple(map(Module, ("A", "B", "[", "+", "F", "]", "al", "_b", "(")))
-    assert joined_in("abop", word) == "A B[+F]al _b("
-    assert joined_in("plant-string", word) == "AB[+F]al_b("
+    assert notation_called("abop").word(word) == "A B[+F]al _b("
+    assert notation_called("plant-string").word(word) == "AB[+F]al_b("
 
 
 @pytest.mark.parametrize(("expression", "text"), [

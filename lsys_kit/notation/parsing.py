@@ -1,0 +1,38 @@
+"""One statement, word or expression parsed by the grammar of its notation; what went wrong, as an error with its place."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from lark import Lark, TextSlice
+from lark.exceptions import UnexpectedInput
+
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.notation.records import Misread
+from lsys_kit.notation.slips import explained
+from lsys_kit.notation.tradition import Notation
+
+STARTS = ("statement", "word", "expression")
+"""What can be parsed."""
+
+
+def parse(notation: Notation, rule: str, text: str, start: int, end: int) -> Any:
+    """The record of a stretch of a text."""
+    if end - start > current().line:
+        raise ModelLimitError(f"This line has {end - start:,} characters; the limit is {current().line:,}",
+                              limit=current().line, needed=end - start, source=text, start=start)
+    try:
+        return _parser(notation).parse(TextSlice(text, start, end), start=rule)
+    except UnexpectedInput as slip:
+        raise explained(slip, text, start, end, notation) from None
+    except Misread as misread:
+        raise misread.kind(misread.message, text, *(misread.at or (None, None)), misread.hint) from None
+
+
+@cache
+def _parser(notation: Notation) -> Lark:
+    rules = [rule for rule in STARTS if rule != "expression" or notation.name != "plant-string"]
+    return Lark.open(notation.grammar, rel_to=__file__, parser="lalr", start=rules, maybe_placeholders=False,
+                     transformer=notation.records())

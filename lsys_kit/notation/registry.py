@@ -1,0 +1,35 @@
+"""All notations, by name, and which of them a text is written in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lsys_kit.errors import ModelNameError
+from lsys_kit.notation.abop import ABOP
+from lsys_kit.notation.plant_string import PLANT_STRING
+from lsys_kit.notation.tradition import Notation
+
+NOTATIONS: Mapping[str, Notation] = {notation.name: notation for notation in (ABOP, PLANT_STRING)}
+"""The notations that can be read and written."""
+
+
+def notation_called(name: str) -> Notation:
+    """The notation with a name.
+
+    Raises
+    ------
+    ModelNameError
+        There is no such notation.
+    """
+    if name not in NOTATIONS:
+        raise ModelNameError(f'There is no notation called "{name}"', hint=f"Notations are: {', '.join(NOTATIONS)}.")
+    return NOTATIONS[name]
+
+
+def recognised(text: str) -> Notation:
+    """The notation of which a text shows most marks; the kit's own where it shows none.
+
+    >>> recognised("axiom: A").name
+    'abop'
+    """
+    return max(NOTATIONS.values(), key=lambda notation: notation.likely(text))

@@ -1,0 +1,74 @@
+"""What a notation is made of: how its text is cut, parsed and put together, and how a system is written in it.
+
+Each notation has a file of its own, with its grammar beside it; `registry` has them all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from lark import Transformer
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.model import LSystem, Module
+
+if TYPE_CHECKING:
+    from lsys_kit.notation.draft import Draft
+    from lsys_kit.notation.stumble import Stumble
+
+Question: TypeAlias = "Callable[[Stumble], ModelSyntaxError | None]"
+"""Something to ask about the place where a parser stumbled; an answer is what the person is told."""
+
+
+@dataclass(frozen=True)
+class Notation:
+    """One notation.
+
+    Attributes
+    ----------
+    name
+        What it is called in `read` and `write`.
+    statements
+        The offsets of a text's statements.
+    records
+        What its grammar names, as records.
+    finish
+        What the statements mean together, as a system without its notes.
+    questions
+        What is asked about a slip, the most telling first.
+    module
+        The text of a module.
+    joined
+        The texts of modules, as one word.
+    write
+        The text of a system that lacks nothing in the notation.
+    lacking
+        The first thing that a system has and the notation lacks, in words.
+    turtle
+        Whose turtle commands its symbols are, if the text says nothing.
+    likely
+        How likely a text is in this notation: the number of its marks that are found there.
+    """
+
+    name: str
+    statements: Callable[[str], Iterator[tuple[int, int]]]
+    records: Callable[[], Transformer[Any, Any]]
+    finish: Callable[[Draft], LSystem]
+    questions: Sequence[Question]
+    module: Callable[[Module], str]
+    joined: Callable[[Iterable[str]], str]
+    write: Callable[[LSystem], str]
+    lacking: Callable[[LSystem], str | None]
+    likely: Callable[[str], int]
+    turtle: str = "abop"
+
+    @property
+    def grammar(self) -> str:
+        """The file of its grammar."""
+        return f"{self.name.replace('-', '_')}.lark"
+
+    def word(self, modules: Iterable[Module]) -> str:
+        """The text of a word."""
+        return self.joined(map(self.module, modules))
