@@ -11,7 +11,7 @@ import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any, TypeAlias
 
 from lsys_kit.errors import ModelNameError, ModelValueError
@@ -73,7 +73,12 @@ class Rule:
     successor: tuple[Part | Parts, ...]
     random: bool
 
-    @property
+    @cached_property
+    def least(self) -> int:
+        """How many modules it makes at least, before any decomposition."""
+        return sum(isinstance(part, Part) for part in self.successor)
+
+    @cached_property
     def settled(self) -> bool:
         """Whether a module alone decides what the rule does: no neighbour and no chance."""
         return not (self.left or self.right or self.random or self.probability is not None)

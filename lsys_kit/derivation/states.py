@@ -119,7 +119,7 @@ class States:
     def width(self, state: int) -> int:
         """How many modules at least replace a settled state in one step, known before any of them is made."""
         rule = self.fate(state)
-        return 1 if rule is None or self.decomposition else sum(isinstance(part, Part) for part in rule.successor)
+        return 1 if rule is None or self.decomposition else rule.least
 
     def production(self, state: int) -> int | None:
         """Which production rewrites a settled state: its place in the order written, from 0, or None."""
