@@ -11,7 +11,7 @@ import numpy as np
 from lsys_kit.derivation.interpret import images
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.scene import NO_SEGMENTS, Cells, Scene
+from lsys_kit.geometry.scene import Cells, Scene
 from lsys_kit.notation.model import CELLS, Module
 
 
@@ -38,8 +38,8 @@ def filament(word: Word) -> Scene:
     table = np.array(rows, dtype=np.float64).reshape(-1, 5)
     right_ends = np.cumsum(table[:, 0])
     centres = np.column_stack([right_ends - table[:, 0] / 2, np.zeros(len(table))])
-    return Scene(NO_SEGMENTS, Cells(centres, table[:, :2], table[:, 2].astype(np.int64), table[:, 3],
-                                    table[:, 4].astype(np.int64)))
+    return Scene(cells=Cells(centres, table[:, :2], table[:, 2].astype(np.int64), table[:, 3],
+                             table[:, 4].astype(np.int64)))
 
 
 def _cell(made: Module, module: Module) -> tuple[float, float, int, float]:

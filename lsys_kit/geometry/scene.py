@@ -1,11 +1,13 @@
 """Scenes: what there is to see, as arrays of plain shapes, each with the module that it came from.
 
-Lengths are in the model's units, x grows to the right and y upwards. A scene knows no screen, no colour and no file.
+Lengths are in the model's units. In the plane x grows to the right and y upwards; in space x grows to the right, z upwards,
+and y away from the viewer. A scene knows no screen, no palette and no file.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
@@ -13,6 +15,9 @@ from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
+
+OWN = -1
+"""The colour of a shape that has that of its symbol, and the width of a stroke that has that of its branch order."""
 
 
 @dataclass(frozen=True)
@@ -22,19 +27,30 @@ class Segments:
     Attributes
     ----------
     ends
-        Shape (n, 4): x and y of the start, x and y of the end.
+        Shape (n, 4) in the plane: x and y of the start, x and y of the end; (n, 6) in space.
     orders
         Shape (n,): in how many brackets each stands; the branch order.
     states
         Shape (n,): the state of the module that drew it.
+    widths
+        Shape (n,), in the model's units; or shape (1,) for all. `OWN` where the turtle has set none.
+    colours
+        Shape (n,): numbers of the tradition's colours; or shape (1,) for all. `OWN` where the turtle has chosen none.
     """
 
     ends: Floats
     orders: Integers
     states: Integers
+    widths: Floats = field(default_factory=lambda: np.array([float(OWN)]))
+    colours: Integers = field(default_factory=lambda: np.array([OWN]))
 
     def __len__(self) -> int:
         return len(self.ends)
+
+    @property
+    def points(self) -> Floats:
+        """All their ends, shape (2n, 2) or (2n, 3)."""
+        return self.ends.reshape(-1, self.ends.shape[1] // 2)
 
 
 @dataclass(frozen=True)
@@ -48,7 +64,7 @@ class Cells:
     sizes
         Shape (n, 2): length along the filament, and width.
     polarities
-        Shape (n,): -1 for a cell that points left, 1 for one that points right.
+        Shape (n,): -1 for a cell that points left, 1 for one that points right, 0 for one that points nowhere.
     shades
         Shape (n,): 0 for a young cell to 1 for an old one.
     states
@@ -64,24 +80,130 @@ class Cells:
     def __len__(self) -> int:
         return len(self.centres)
 
+    @property
+    def points(self) -> Floats:
+        """The corners around them."""
+        return np.concatenate([self.centres - self.sizes / 2, self.centres + self.sizes / 2])
+
+
+@dataclass(frozen=True)
+class Polygons:
+    """Filled outlines: leaves, petals, and what stands in `{ }`.
+
+    Attributes
+    ----------
+    points
+        Shape (m, 2) or (m, 3): the corners of all, one polygon after another.
+    starts
+        Shape (n + 1,): where each begins in `points`; the last is m.
+    states, colours
+        Shape (n,), as of `Segments`.
+    """
+
+    points: Floats
+    starts: Integers
+    states: Integers
+    colours: Integers
+
+    def __len__(self) -> int:
+        return len(self.starts) - 1
+
+    def __iter__(self) -> Iterator[Floats]:
+        """The corners of each polygon."""
+        return iter(np.split(self.points, self.starts[1:-1]) if len(self) else [])
+
+
+@dataclass(frozen=True)
+class Discs:
+    """Circles, discs and spheres.
+
+    Attributes
+    ----------
+    centres
+        Shape (n, 2) or (n, 3).
+    radii
+        Shape (n,).
+    kinds
+        Shape (n,): `CIRCLE`, `DISC` or `SPHERE`; in space a circle and a disc face the viewer.
+    states, colours
+        Shape (n,), as of `Segments`.
+    """
+
+    centres: Floats
+    radii: Floats
+    kinds: Integers
+    states: Integers
+    colours: Integers
+
+    def __len__(self) -> int:
+        return len(self.centres)
+
+    @property
+    def points(self) -> Floats:
+        """The corners around them."""
+        reach = self.radii[:, None]
+        return np.concatenate([self.centres - reach, self.centres + reach])
+
+
+CIRCLE, DISC, SPHERE = range(3)
+
+
+def no_segments(dimension: int = 2) -> Segments:
+    """No strokes."""
+    return Segments(np.empty((0, 2 * dimension)), np.empty(0, np.int64), np.empty(0, np.int64))
+
+
+def no_cells() -> Cells:
+    """No cells."""
+    return Cells(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+
+
+def no_polygons(dimension: int = 2) -> Polygons:
+    """No polygons."""
+    return Polygons(np.empty((0, dimension)), np.zeros(1, np.int64), np.empty(0, np.int64), np.empty(0, np.int64))
+
+
+def no_discs(dimension: int = 2) -> Discs:
+    """No circles."""
+    return Discs(np.empty((0, dimension)), np.empty(0), *(np.empty(0, np.int64) for _ in range(3)))
+
 
 @dataclass(frozen=True)
 class Scene:
-    """All shapes of one word."""
+    """All shapes of one word, in the plane or in space.
 
-    segments: Segments
-    cells: Cells
+    Attributes
+    ----------
+    segments, cells, polygons, discs
+        The shapes.
+    unknown
+        The symbols that have no meaning to the turtle, in the order in which they were met.
+    """
+
+    segments: Segments = field(default_factory=no_segments)
+    cells: Cells = field(default_factory=no_cells)
+    polygons: Polygons = field(default_factory=no_polygons)
+    discs: Discs = field(default_factory=no_discs)
+    unknown: tuple[str, ...] = ()
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.segments.ends.shape[1] // 2
+
+    @property
+    def corners(self) -> tuple[Floats, Floats]:
+        """The least and the greatest of each coordinate; zeros where there is nothing."""
+        shapes = (self.segments.points, self.cells.points, self.polygons.points, self.discs.points)
+        points = np.concatenate([found for found in shapes if len(found)] or [np.zeros((1, self.dimension))])
+        return points.min(axis=0), points.max(axis=0)
 
     @property
     def box(self) -> tuple[float, float, float, float]:
-        """Least x, least y, greatest x, greatest y; zeros where there is nothing."""
-        ends = self.segments.ends.reshape(-1, 2)
-        half = self.cells.sizes / 2
-        points = np.concatenate([ends, self.cells.centres - half, self.cells.centres + half])
-        if not len(points):
-            return 0.0, 0.0, 0.0, 0.0
-        (left, bottom), (right, top) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-        return left, bottom, right, top
+        """Least x, least y, greatest x, greatest y of what is seen in the plane; zeros where there is nothing."""
+        least, greatest = self.corners
+        up = self.dimension - 1  # y in the plane, z in space
+        return float(least[0]), float(least[up]), float(greatest[0]), float(greatest[up])
 
     @property
     def width(self) -> float:
@@ -91,21 +213,19 @@ class Scene:
 
     @property
     def height(self) -> float:
-        """From the least y to the greatest, in the model's units."""
+        """From the lowest point to the highest, in the model's units."""
         _, bottom, _, top = self.box
         return top - bottom
 
     def __str__(self) -> str:
         """What there is, in words: the line that stands for a picture where there is none."""
-        kinds = ((self.segments, "segment"), (self.cells, "cell"))
+        kinds = ((self.segments, "segment"), (self.cells, "cell"), (self.polygons, "polygon"), (self.discs, "disc"))
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
-        return f"{', '.join(counted) or 'nothing to draw'}, width {_short(self.width)}, height {_short(self.height)}"
+        least, greatest = self.corners
+        depth = f", depth {_short(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
+        return (f"{', '.join(counted) or 'nothing to draw'}, width {_short(self.width)}, height {_short(self.height)}{depth}")
 
 
 def _short(length: float) -> str:
     """A length with at most two decimals; a rounding error of the last bits does not show."""
     return f"{length + 1e-9:.2f}".rstrip("0").rstrip(".")
-
-
-NO_SEGMENTS = Segments(np.empty((0, 4)), np.empty(0, np.int64), np.empty(0, np.int64))
-NO_CELLS = Cells(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))

@@ -19,7 +19,7 @@ from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.geometry.commands import COMMANDS, Command
-from lsys_kit.geometry.scene import NO_CELLS, Floats, Integers, Scene, Segments
+from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 from lsys_kit.notation.model import Module
 
 
@@ -109,7 +109,7 @@ def placed(path: Path, angle: float, heading: float = 90.0) -> Scene:
     vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
     ends = _summed(vectors, path.parents)
     strokes = np.concatenate([ends - vectors, ends], axis=1)[path.drawn]
-    return Scene(Segments(strokes, path.orders[path.drawn], path.states[path.drawn]), NO_CELLS)
+    return Scene(Segments(strokes, path.orders[path.drawn], path.states[path.drawn]))
 
 
 def _summed(vectors: Floats, parents: Integers) -> Floats:

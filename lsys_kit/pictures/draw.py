@@ -152,7 +152,7 @@ class NetPicture:
 @overload
 def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False) -> NetPicture: ...
 @overload
-def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int = 0,
+def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPicture:
     """Draw a system, a derivation, a word or a stage diagram.
@@ -191,7 +191,7 @@ def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
 
 
-def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int = 0,
+def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int | None = None,
              arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture:
     if isinstance(what, LSystem):
         steps = n if n is not None else what.steps if what.steps is not None else 5
