@@ -187,6 +187,83 @@ def test_words_of_the_catalogue_are_printed_in_another_notation_if_it_can_hold_t
     refused(shell("derive", "P4", "-n", "1", "--notation", "plant-string"), "has no parameters")
 
 
+# --- other notations --------------------------------------------------------------------------------------------------
+
+def test_convert_prints_the_same_system_in_another_notation(shell):
+    from lsys_kit import read, system
+
+    said = shell("convert", "K5", "--to", "plant-string")
+    assert said == Said(0, "turtle: abop\nangle: 25.7\nsteps: 4\nAxiom: F\nF -> F[+F]F[-F]F\n", "")
+    assert read(said.out, "plant-string") == system("K5")
+
+
+def test_what_was_converted_converts_back(shell, model):
+    there = shell("convert", "L1", "--to", "plant-string").out
+    back = shell("convert", model(there), "--from", "plant-string", "--to", "plant-string").out
+    assert back == there
+
+
+def test_convert_reads_the_standard_input():
+    done = process("convert", "-", "--to", "plant-string", given=b"axiom: a\r\na -> b a")
+    assert (done.returncode, done.stdout.split(), done.stderr) == (0, b"turtle: abop Axiom: a a -> ba".split(), b"")
+
+
+def test_what_the_reader_has_to_tell_goes_to_the_other_stream(shell, model):
+    said = shell("convert", model("axiom: F\nF -> FF\nG -> F\n"), "--to", "abop")
+    assert said.out == "axiom: F\nF -> F F\nG -> F\n"
+    assert said.err.splitlines() == ['lsys-kit: note: "FF" is read as F F.',
+                                     "lsys-kit: note: The production G can never match: no module G occurs."]
+
+
+def test_a_converted_model_goes_into_a_new_file(shell, tmp_path):
+    path = tmp_path / "plant.txt"
+    assert shell("convert", "K5", "--to", "abop", "--output", str(path)).status == 0
+    assert path.read_text(encoding="utf-8") == shell("convert", "K5", "--to", "abop").out
+
+
+def test_a_file_that_is_there_is_never_overwritten(shell, model, tmp_path):
+    path = model("mine\n", "mine.txt")
+    refused(shell("convert", "K5", "--to", "abop", "--output", path), f'"{path}" is there already', "overwritten")
+    assert Path(path).read_text() == "mine\n"
+    (tmp_path / "link").symlink_to(tmp_path / "nowhere")
+    refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path / "link")), "is there already")
+    refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path)), "is there already")
+    assert not (tmp_path / "nowhere").exists()
+
+
+def test_a_model_that_cannot_be_converted_leaves_no_file(shell, tmp_path):
+    path = tmp_path / "out.txt"
+    refused(shell("convert", "P4", "--to", "plant-string", "-o", str(path)), "plant-string has no parameters")
+    assert not path.exists()
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    (["P4"], ["--to"]),
+    (["P4", "--to", "abob"], ['no notation called "abob"', "Notations are: abop"]),
+    (["P4", "--to", "abop", "--from", "abob"], ['no notation called "abob"']),
+    (["P4", "--to", "plant-string"], ["The notation plant-string has no parameters, which this system needs"]),
+    (["P44", "--to", "abop"], ['no file "P44"', 'Did you mean "P4"?']),
+    (["P4", "--to", "abop", "-o", "/no/such/folder/out.txt"], ["cannot be written", "No such file"]),
+    (["P4", "--to", "abop", "-o", "a\0b"], ["cannot be written"]),
+])
+def test_a_conversion_that_cannot_be_is_one_message(shell, arguments, words):
+    refused(shell("convert", *arguments), *words)
+
+
+def test_a_mistake_in_a_model_to_be_converted_is_shown_with_its_place(shell, model):
+    said = shell("convert", model("axiom: A\nA -> B(t)\n"), "--to", "abop")
+    refused(said, "(line 2, column 8)")
+    assert said.err.splitlines()[1:] == ["  A -> B(t)", "         ^"]
+
+
+def test_the_help_of_convert_shows_an_example_that_works(shell, monkeypatch, tmp_path):
+    monkeypatch.setenv("COLUMNS", "200")
+    example = next(line for line in shell("convert", "--help").out.splitlines() if line.startswith("Example: lsys-kit "))
+    monkeypatch.chdir(tmp_path)
+    assert shell(*example.split()[2:]).status == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["plant.txt"]
+
+
 # --- pictures ---------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize(("ending", "start"), [("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
@@ -346,7 +423,7 @@ def test_list_names_every_system(shell):
 
 
 def test_help_names_every_command(shell):
-    assert all(command in shell("--help").out for command in ("list", "derive", "draw", "stages", "lab"))
+    assert all(command in shell("--help").out for command in ("list", "derive", "draw", "stages", "convert", "lab"))
 
 
 def test_the_lab_without_jupyterlab_says_how_to_get_it(shell, monkeypatch, tmp_path):

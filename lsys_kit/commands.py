@@ -1,0 +1,205 @@
+"""What each command of the shell does, given the options that were typed, and where it finds the system that they name."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+from lsys_kit.budget import current
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, printable
+
+if TYPE_CHECKING:
+    from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.notation.model import LSystem
+
+STEPS = 5
+"""How many steps are drawn where neither the command nor the system says."""
+MOST_NEIGHBOURS = 1_000
+"""How many files beside a missing one are looked at for a likely name."""
+
+
+def list_systems(_: argparse.Namespace) -> None:
+    """Print the ids and titles of the catalogue."""
+    from lsys_kit import systems
+
+    print(repr(systems()))
+
+
+def print_words(options: argparse.Namespace) -> None:
+    """Print the words of the steps, or how many modules they have."""
+    steps = _counted(options) if options.counts else _derived(options)
+    if options.json:
+        rows = [json.dumps(step, ensure_ascii=False) for step in steps]
+        print("[\n" + ",\n".join(rows) + "\n]")
+    else:
+        for step in steps:
+            print(step["modules" if options.counts else "word"])
+
+
+def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
+    """Each step with its number of modules; a word is built only where neighbours or chance have a say."""
+    from lsys_kit.derivation.derive import lengths
+    from lsys_kit.derivation.states import States
+
+    sys.set_int_max_str_digits(0)
+    system = _system(options)
+    counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).settled else \
+        _words(system, options).lengths
+    for step, modules in enumerate(counts):
+        yield {"step": step, "modules": modules}
+
+
+def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
+    """Each step with its number of modules, and its word."""
+    for step, word in enumerate(_words(_system(options), options)):
+        yield {"step": step, "modules": len(word), "word": str(word)}
+
+
+def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
+    """The derivation; where a step would be too large, the error says what can be typed instead."""
+    from lsys_kit.derivation.derive import Derivation, derive
+
+    try:
+        steps = next(steps for steps in (options.steps, system.steps, STEPS) if steps is not None)
+        return derive(system, steps, seed=options.seed, arithmetic=options.arithmetic)
+    except ModelLimitError as mistake:
+        if not isinstance(mistake.partial, Derivation):
+            raise
+        counting = "; derive --counts counts the modules of any step" if mistake.partial.states.settled else ""
+        hint = f"Take -n {mistake.partial.steps} or less{counting}."
+        raise ModelLimitError(mistake.message, limit=mistake.limit, needed=mistake.needed, hint=hint) from None
+
+
+def draw_word(options: argparse.Namespace) -> None:
+    """Write a picture of a step's word, and say what it shows."""
+    from lsys_kit.pictures.draw import draw
+
+    picture = draw(_words(_system(options), options), angle=options.angle)
+    picture.save(options.output)
+    print(picture)
+
+
+def draw_stages(options: argparse.Namespace) -> None:
+    """Write a picture of the stage diagram, and say what it shows."""
+    from lsys_kit.derivation.stages import stages
+    from lsys_kit.pictures.draw import draw
+
+    system = _system(options)
+    word = None if options.steps is None else _words(system, options)[-1]
+    picture = draw(stages(system), tokens=word)
+    picture.save(options.output)
+    print(picture)
+
+
+def convert(options: argparse.Namespace) -> None:
+    """Print a system in another notation, or write it into a new file; what its reader had to tell goes to the error stream."""
+    from lsys_kit.notation.write import write
+
+    system = _found(options.system, options.notation)
+    text = write(system, options.to)
+    if options.output is not None:
+        _keep(f"{text}\n", options.output)
+    for note in system.notes:
+        print(f"lsys-kit: note: {note}", file=sys.stderr)
+    print(text if options.output is None else f"{_shown(options.output)} has it in the notation {options.to}.")
+
+
+def open_lab(options: argparse.Namespace) -> None:
+    """Copy the course and open it in JupyterLab."""
+    from lsys_kit.classroom.course import FOLDER, copy_course, told
+
+    folder = Path(options.folder or FOLDER)
+    copied = copy_course(folder)
+    print(told(folder, copied), flush=True)
+    if importlib.util.find_spec("jupyterlab") is None:
+        raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
+    from jupyterlab.labapp import LabApp
+
+    # In a container everybody is root; the server answers this machine alone, and asks for its token.
+    LabApp.launch_instance(["--ServerApp.allow_root=True", f"--ServerApp.root_dir={folder.resolve()}",
+                            f"--LabApp.default_url=/lab/tree/{copied[0].name}"])
+
+
+def _system(options: argparse.Namespace) -> LSystem:
+    """The system that the command line names, with its constants set."""
+    from lsys_kit.derivation.rules import constants_of, number_from
+    from lsys_kit.notation.expressions import Number
+
+    system, values = _found(options.system, options.notation), dict(options.settings)
+    constants_of(system, values)
+    return replace(system, constants=tuple(
+        replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
+        for constant in system.constants))
+
+
+def _found(name: str, notation: str | None) -> LSystem:
+    """The system of the catalogue that has this name, else the one in the file."""
+    from lsys_kit.classroom.catalogue import system
+    from lsys_kit.notation.read import read
+    from lsys_kit.notation.write import write
+
+    if name == "-":
+        return read(_text(sys.stdin.buffer, "the standard input"), notation)
+    try:
+        found = system(name)
+    except ModelNameError:
+        return read(_file(name), notation)
+    if notation is not None:
+        write(found, notation)  # says what the notation lacks
+        return replace(found, notation=notation)
+    return found
+
+
+def _file(name: str) -> str:
+    """The text of a model file."""
+    try:
+        with Path(name).open("rb") as file:
+            return _text(file, f'"{_shown(name)}"')
+    except FileNotFoundError:
+        raise ModelFileError(f'There is no file "{_shown(name)}", and no system of the catalogue is called so',
+                             hint=_likely(name)) from None
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(f'"{_shown(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
+
+
+def _keep(text: str, name: str) -> None:
+    """Write a text into a new file."""
+    try:
+        with Path(name).open("x", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+    except FileExistsError:
+        raise ModelFileError(f'"{_shown(str(Path(name)))}" is there already',
+                             hint="Nothing is ever overwritten: take another name.") from None
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(f'"{_shown(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
+
+
+def _text(file: BinaryIO, name: str) -> str:
+    """What a file says, at most a little more than a model may have."""
+    content = file.read(4 * current().text + 1)
+    try:
+        return content.decode("utf-8").replace("\r\n", "\n")
+    except UnicodeDecodeError as fault:
+        raise ModelFileError(f"{name[0].upper()}{name[1:]} is not text in UTF-8: its byte {fault.start + 1} is none") from None
+
+
+def _likely(name: str) -> str:
+    """What was probably meant: a file beside it, a system of the catalogue."""
+    from lsys_kit.classroom.catalogue import systems
+    from lsys_kit.notation.checks import suggestion
+
+    folder = Path(name).parent
+    beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []
+    return suggestion(name, [*beside, *systems()]) or f"Catalogue ids are {', '.join(systems())}."
+
+
+def _shown(name: str) -> str:
+    """A name as a message quotes it."""
+    return "".join(map(printable, name if len(name) <= 80 else f"{name[:80]}..."))
