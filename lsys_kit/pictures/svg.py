@@ -5,11 +5,12 @@ Coordinates are whole tenths of a pixel, so that the text of a picture is the sa
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import Cells, Floats, Integers, Scene, Segments
 from lsys_kit.pictures.palette import GREEN, INK, MARK, MARK_EDGE, PAPER, QUIET, tinted
@@ -20,6 +21,10 @@ MARGIN = 12
 """White space around a drawing, in pixels."""
 STROKES = (2.4, 1.7, 1.3, 1.0)
 """Stroke widths by branch order, in pixels; deeper branches have the last."""
+
+
+SAMPLE = 20_000
+"""Of so many strokes at most the lengths are looked at, to see how close they stand."""
 
 
 @dataclass(frozen=True)
@@ -60,27 +65,33 @@ def document(body: str, width: int, height: int, description: str) -> str:
 def strokes_svg(segments: Segments, frame: Frame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
     """The strokes of a turtle: a path for each colour and branch order, marked ones on a broad band."""
     points = frame.points(segments.ends)
-    orders = np.minimum(segments.orders, len(STROKES) - 1)
     thin = stroke_scale(segments, frame.scale)
     body = []
     if marked:
         chosen = points[np.isin(segments.states, list(marked))]
         body.append(f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{max(50, 90 * thin):.0f}" '
                     'stroke-opacity="0.45"/>')
+    for colour, order, ours in groups(segments, colour_of):
+        body.append(f'<path d="{_path(points[ours])}" stroke="{colour}" stroke-width="{10 * STROKES[order] * thin:.0f}"/>')
+    return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'
+
+
+def groups(segments: Segments, colour_of: Mapping[int, str]) -> Iterator[tuple[str, int, NDArray[np.bool_]]]:
+    """The strokes that are drawn alike: for each colour and branch order, deep orders taken as one, which they are."""
+    orders = np.minimum(segments.orders, len(STROKES) - 1)
     for colour in dict.fromkeys(colour_of.values()):
         states = [state for state, own in colour_of.items() if own == colour]
         ours = np.isin(segments.states, states) if len(colour_of) > 1 else np.ones(len(segments), dtype=bool)
-        for order in np.unique(orders[ours]).tolist():
-            path = _path(points[ours & (orders == order)])
-            body.append(f'<path d="{path}" stroke="{colour}" stroke-width="{10 * STROKES[order] * thin:.0f}"/>')
-    return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'
+        for order in np.flatnonzero(np.bincount(orders[ours])).tolist():
+            yield colour, order, ours & (orders == order)
 
 
 def stroke_scale(segments: Segments, scale: float) -> float:
     """How much thinner strokes are drawn where they stand close: 1 for strokes of 12 pixels or more, never below 0.3."""
     if not len(segments):
         return 1.0
-    lengths = np.hypot(segments.ends[:, 2] - segments.ends[:, 0], segments.ends[:, 3] - segments.ends[:, 1])
+    some = segments.ends[::len(segments) // SAMPLE + 1]
+    lengths = np.hypot(some[:, 2] - some[:, 0], some[:, 3] - some[:, 1])
     return float(min(1.0, max(0.3, np.median(lengths) * scale / 12)))
 
 
