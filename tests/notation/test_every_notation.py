@@ -1,0 +1,58 @@
+"""Every system of the catalogue goes through every notation that can express it, and comes back the same.
+
+The notations are those of the registry: a new one is tested from the moment it is listed there.
+"""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from lsys_kit.classroom.catalogue import system, systems
+from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.layout import FEATURES
+from lsys_kit.notation.read import read
+from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.write import write
+
+STEPS = 4
+EVERY = [(id, notation) for notation in NOTATIONS for id in systems()]
+EXPRESSED = [(id, notation) for id, notation in EVERY if not NOTATIONS[notation].lacking(system(id))]
+REFUSED = [pair for pair in EVERY if pair not in EXPRESSED]
+
+
+@pytest.mark.parametrize(("id", "notation"), EXPRESSED)
+def test_what_is_written_reads_back_as_the_same_system(id: str, notation: str) -> None:
+    written = write(system(id), notation)
+    back = read(written, notation)
+    assert back == system(id)
+    assert back.notation == notation
+    assert write(back) == written
+
+
+@pytest.mark.parametrize(("id", "notation"), EXPRESSED)
+def test_the_same_words_come_out_in_every_notation(id: str, notation: str) -> None:
+    back = read(write(system(id), notation), notation)
+    for seed in (None, 7):
+        assert [tuple(word) for word in derive(back, STEPS, seed=seed)] == \
+            [tuple(word) for word in derive(system(id), STEPS, seed=seed)]
+
+
+@pytest.mark.parametrize(("id", "notation"), REFUSED)
+def test_a_refusal_names_a_feature_that_the_system_has(id: str, notation: str) -> None:
+    feature = NOTATIONS[notation].lacking(system(id))
+    assert feature
+    assert FEATURES.get(feature, lambda _: True)(system(id))
+    with pytest.raises(ModelValueError, match=re.escape(f"The notation {notation} has no {feature}, which this system needs")):
+        write(system(id), notation)
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_every_notation_expresses_a_plant(notation: str) -> None:
+    assert ("K5", notation) in EXPRESSED
+
+
+def test_the_notations_own_systems_go_without_loss() -> None:
+    assert {id for id in systems() if (id, system(id).notation) not in EXPRESSED} == set()
