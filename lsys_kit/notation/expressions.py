@@ -222,5 +222,5 @@ def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
         "sqrt": sympy.sqrt, "exp": sympy.exp, "log": sympy.log,
         "sin": lambda x: sympy.sin(x * degree), "cos": lambda x: sympy.cos(x * degree), "tan": lambda x: sympy.tan(x * degree),
         "asin": lambda x: sympy.asin(x) / degree, "acos": lambda x: sympy.acos(x) / degree,
-        "atan": lambda x: sympy.atan(x) / degree,
+        "atan": lambda x: sympy.atan(x) / degree, "sensed": sympy.Function("sensed"),
     }

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from lsys_kit.notation.arithmetic import Value, divide, exact, power, real, rounded, same
+from lsys_kit.notation.arithmetic import Value, brief, divide, exact, power, real, rounded, same
 
 Function: TypeAlias = Callable[[tuple[Any, ...]], Any]
 """What an expression is run as: from the values of its names, in a fixed order, to its own value. Behind the values of the
@@ -98,6 +98,15 @@ def _drawn(method: str) -> Callable[..., Function]:
     return build
 
 
+def _sensed(number: Function, *_: Function) -> Function:
+    """A sensitive function of GROGRA, chosen by its number: who derives words alone has no answer."""
+
+    def asked(v: tuple[Any, ...]) -> Any:
+        raise ValueError(f"function {brief(number(v))} asks for what the turtle sees, and words alone do not tell that")
+
+    return asked
+
+
 def _sine(angle: Value) -> Value:
     turned = angle if -90 <= angle < 270 else (angle + 90) % 360 - 90
     return _like(angle, _SINES[turned]) if turned in _SINES else math.sin(math.radians(turned))
@@ -171,4 +180,5 @@ OPERATORS: Mapping[str, Operator] = {
     "binomial": Operator(_drawn("binomial"), None, random=True),
     "poisson": Operator(_drawn("poisson"), None, arity=(1, 1), random=True),
     "table": Operator(_drawn("table"), None, arity=(1, 16), random=True),
+    "sensed": Operator(_sensed, None, arity=(1, 16)),
 }
