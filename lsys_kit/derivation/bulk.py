@@ -14,6 +14,7 @@ import numpy as np
 from lsys_kit.derivation.chance import units
 from lsys_kit.derivation.expand import Letters, code_type
 from lsys_kit.derivation.matching import NOBODY
+from lsys_kit.derivation.rules import is_branch
 from lsys_kit.derivation.states import CUT, States
 from lsys_kit.derivation.stepping import Replacement, Stepper
 from lsys_kit.notation.model import CLOSING, OPENING
@@ -30,7 +31,7 @@ FEW = 12
 def possible(stepper: Stepper) -> bool:
     """Whether a system's words can be stepped in bulk."""
     rules = [rule for found in stepper.states.rules.values() for rule in found]
-    near = all(len(rule.left) <= 1 and len(rule.right) <= 1 and all(isinstance(item[0], str) for item in rule.right)
+    near = all(len(rule.left) <= 1 and len(rule.right) <= 1 and not any(map(is_branch, rule.right))
                for rule in rules)
     symbols = {module.symbol for rule in stepper.states.system.rules for module in rule.modules}
     cuts = CUT in symbols or any(module.symbol == CUT for module in stepper.states.system.axiom)

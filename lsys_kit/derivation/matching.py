@@ -2,18 +2,19 @@
 
 The left context of a module goes back along its branch: it passes finished side branches and crosses an opening bracket to the
 parent. The right context goes on along its branch and passes side branches, unless the pattern names one: a named branch must
-match the beginning of a branch that stands there. Ignored symbols are passed on both sides. Nothing lies beyond the ends of
-the word.
+match the beginning of a branch that stands there, or all of it, where the pattern says that the branch ends. Ignored symbols
+are passed on both sides. Nothing lies beyond the ends of the word.
 """
 
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
-from lsys_kit.derivation.rules import Branch, Rule
+from lsys_kit.derivation.rules import Branch, Rule, is_branch
 from lsys_kit.notation.arithmetic import Value
-from lsys_kit.notation.model import CLOSING, OPENING, Module
+from lsys_kit.notation.model import CLOSING, END, OPENING, Module
 
 NOBODY = -1
 """The position of a neighbour that is not there."""
@@ -133,23 +134,21 @@ def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
     if not row:
         return ()
     first, rest = row[0], row[1:]
-    if isinstance(first[0], str):
-        at = around.inside[position] if symbols[position] in OPENING else around.after[position]
-        if at == NOBODY or _kind(word[at]) != first:
-            return None
-        found = _followed(rest, word, symbols, around, at, ignored)
-        return None if found is None else (at, *found)
-    return _branched(row, word, symbols, around, position, position, ignored)
+    if is_branch(first):
+        return _branched(row, word, symbols, around, position, position, ignored)
+    at = around.inside[position] if symbols[position] in OPENING else around.after[position]
+    if first[0] == END:
+        return () if at == NOBODY else None
+    if at == NOBODY or _kind(word[at]) != first:
+        return None
+    found = _followed(rest, word, symbols, around, at, ignored)
+    return None if found is None else (at, *found)
 
 
 def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int, behind: int,
               ignored: Container[str]) -> tuple[int, ...] | None:
     """The positions of a row that begins with branches, which stand behind a position and behind the branches named already."""
-    named: list[Branch] = []
-    for item in row:
-        if isinstance(item[0], str):
-            break
-        named.append(item)
+    named: list[Branch] = list(takewhile(is_branch, row))
     there = list(branches(symbols, around, position, ignored))
     found: list[int] = []
     for branch in named:

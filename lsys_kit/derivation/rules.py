@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, is_symbolic, reason, settled_value, sound, tidy
@@ -149,6 +149,11 @@ def _parts(items: Sequence[Item], order: Mapping[str, int], size: int, arithmeti
         else:
             found.append(Part(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
     return tuple(found)
+
+
+def is_branch(item: Kind | Branch) -> TypeGuard[Branch]:
+    """Whether an item of what a right context asks for is a branch, perhaps an empty one, and no module."""
+    return not item or not isinstance(item[0], str)
 
 
 def _nested(modules: Sequence[Module]) -> Branch:

@@ -215,7 +215,7 @@ class States:
         return found
 
     def parts(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
-        """The states of a module's parts, and of their parts, until nothing is left to replace."""
+        """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
         if not self.parts_settled:
             return self._taken_apart(module, chance)
         key = (module.symbol, module.arguments, *map(type, module.arguments))
@@ -225,11 +225,11 @@ class States:
 
     def _taken_apart(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
         found: list[int] = []
-        deepest, most = current().decomposition, current().modules
+        deepest, most, asked = current().decomposition, current().modules, self.system.decomposition_depth
         todo = [(module, 0)]
         while todo:
             part, depth = todo.pop()
-            rule = self.matching(part, self.decomposition, chance)
+            rule = self.matching(part, self.decomposition, chance) if depth != asked else None
             if rule is None:
                 found.append(self.number(part.symbol, part.arguments))  # type: ignore[arg-type]
             elif depth == deepest:

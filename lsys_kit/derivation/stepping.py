@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from lsys_kit.derivation.chance import Chance
 from lsys_kit.derivation.matching import Neighbours, chain, context, neighbours, values_at
-from lsys_kit.derivation.rules import Rule
+from lsys_kit.derivation.rules import Rule, is_branch
 from lsys_kit.derivation.states import CUT, States
 from lsys_kit.notation.arithmetic import Value
 from lsys_kit.notation.model import CLOSING, OPENING, LSystem, Module
@@ -130,7 +130,7 @@ class Stepper:
         """The states on which the matching depends; None where a rule names a branch, which may hold any number of them."""
         if old.around is None:
             return (old.codes[position],)
-        if any(not isinstance(item[0], str) for rule in rules for item in rule.right):
+        if any(is_branch(item) for rule in rules for item in rule.right):
             return None
         left = chain(old.around.before, position, max((len(rule.left) for rule in rules), default=0))
         right = chain(old.around.after, position, max((len(rule.right) for rule in rules), default=0))

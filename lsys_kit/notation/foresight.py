@@ -8,7 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.checks import span
 from lsys_kit.notation.expressions import Name, Number
-from lsys_kit.notation.model import Item, LSystem, Module, Production, flat, joined
+from lsys_kit.notation.model import END, Item, LSystem, Module, Production, flat, joined
 
 _Kind = tuple[str, int]
 """What a rule is found by: the symbol of a module and its number of parameters."""
@@ -32,7 +32,7 @@ def idle(system: LSystem) -> list[str]:
     notes = []
     for rule in rules:
         asked = rule.predecessor, *rule.left, *rule.right
-        missing = next((module for module in asked if _kind(module) not in occurring), None)
+        missing = next((module for module in asked if _kind(module) not in occurring and module.symbol != END), None)
         if missing is not None:
             notes.append(f"The production {_head(rule)} can never match: no module {_described(missing, symbols)} occurs.")
     return notes
@@ -54,10 +54,12 @@ def _described(module: Module, symbols: Iterable[str]) -> str:
 
 
 def check_decomposition(system: LSystem) -> None:
-    """No module is decomposed into itself again, whatever happens.
+    """No module is decomposed into itself again, whatever happens; where a depth is set, that is no fault.
 
     Only rules that are certain to be applied count: the first for a module, without condition or probability.
     """
+    if system.decomposition_depth is not None:
+        return
     rules: dict[_Kind, Production] = {}
     for rule in system.decomposition:
         rules.setdefault(_kind(rule.predecessor), rule)

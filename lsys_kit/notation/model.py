@@ -285,11 +285,13 @@ def symbols(system: LSystem) -> tuple[str, ...]:
     ('A', 'B')
     """
     modules = [*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)]
-    return tuple(dict.fromkeys(module.symbol for module in modules))
+    return tuple(dict.fromkeys(module.symbol for module in modules if module.symbol != END))
 
 
 OPENING, CLOSING = frozenset("[("), frozenset("])")
 """The brackets of branches; round ones stand in plant strings only."""
+END = "ε"
+"""What a right context has before the closing bracket of a branch of which it names all modules: the branch ends there."""
 
 CELLS = ("L", "R")
 """The cells of a filament, pointing left and right: `L(length, width, shade)` and `R(length, width, shade)`, the modules

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 from lsys_kit.derivation.chance import Chance, chosen
 from lsys_kit.notation.expressions import Name, Number
-from lsys_kit.notation.model import Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model import END, Item, LSystem, Module, Production, Repeat
 
 Names: TypeAlias = Mapping[str, Any]
 PlainModule: TypeAlias = tuple[str, tuple[Any, ...]]
@@ -110,7 +110,7 @@ def right_matches(system: LSystem, pattern: Sequence[Module], word: PlainWord, a
     if not pattern:
         return True
     if at == len(word) or word[at][0] in CLOSING:
-        return False
+        return pattern[0].symbol == END and right_matches(system, pattern[1:], word, at, names)
     if word[at][0] in OPENING:
         behind = end_of_branch(word, at) + 1
         if pattern[0].symbol == word[at][0]:
@@ -163,8 +163,10 @@ def successor(system: LSystem, rules: Sequence[Production], word: PlainWord, at:
 
 
 def decomposed(system: LSystem, word: PlainWord, known: Names, chance: Chance, depth: int = 0) -> PlainWord:
-    """What becomes of modules by the decomposition rules, depth first, until none applies."""
+    """What becomes of modules by the decomposition rules, depth first, until none applies or the depth is reached."""
     after: PlainWord = []
+    if depth == system.decomposition_depth:
+        return word
     for module in word:
         found = successor(system, system.decomposition, [module], 0, known, chance)
         if found is not None and depth == DEEPEST:

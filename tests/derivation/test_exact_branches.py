@@ -1,0 +1,89 @@
+"""Right contexts that name a branch and may say that it ends there, as cpfg's do: its `A > [B]` is `A > [B ε]` here."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit.derivation.derive import derive
+from lsys_kit.notation.foresight import idle
+from lsys_kit.notation.model import END, LSystem, Module, Production, symbols
+from lsys_kit.notation.read import read_word
+from tests.derivation import reference
+from tests.derivation.random_systems import systems_with
+
+
+def matches(right: str, word: str, ignored: str = "") -> bool:
+    """Whether the first module of a word has a right context; `.` stands for the end of a branch."""
+    context = tuple(Module(END if letter == "." else letter) for letter in right)
+    system = LSystem(read_word(word), (Production(Module("A"), (Module("X"),), right=context),), ignored=tuple(ignored))
+    return derive(system, 1)[-1][0].symbol == "X"
+
+
+@pytest.mark.parametrize(("right", "word", "expected"), [
+    ("[B]C", "A[B D]C", True), ("[B.]C", "A[B D]C", False), ("[B.]C", "A[B]C", True), ("[B D.]C", "A[B D]C", True),
+])
+def test_a_branch_may_go_on_unless_its_end_is_named(right: str, word: str, expected: bool) -> None:
+    assert matches(right.replace(" ", ""), word) is expected
+
+
+def test_a_signal_leaves_a_branch_only_when_nothing_else_is_on_it() -> None:
+    assert matches("[J.]", "A[J]")
+    assert not matches("[J.]", "A[J F]")
+    assert matches("[J]", "A[J F]")
+
+
+def test_a_branch_that_does_not_end_is_passed_for_one_that_does() -> None:
+    assert matches("[B.]C", "A[B D][B]C")
+    assert not matches("[B.]C", "A[B D][B B]C")
+
+
+def test_side_branches_and_ignored_symbols_do_not_go_on_with_a_branch() -> None:
+    assert matches("[B.]", "A[B[D]]")
+    assert matches("[B.]", "A[B+]", ignored="+")
+    assert not matches("[B.]", "A[B+]")
+    assert not matches("[B.]", "A[B[D]E]")
+
+
+def test_the_ends_of_branches_on_branches_are_named_too() -> None:
+    assert matches("[B[C.].]", "A[B[C]]")
+    assert not matches("[B[C.].]", "A[B[C D]]")
+    assert not matches("[B[C.].]", "A[B[C]D]")
+    assert matches("[B[C.]]", "A[B[C]D]")
+
+
+def test_an_empty_branch_is_one_that_ends_at_once() -> None:
+    assert matches("[.]C", "A[]C")
+    assert not matches("[.]C", "A[B]C")
+    assert matches("[]C", "A[B]C")
+
+
+def test_the_end_of_a_branch_is_no_module() -> None:
+    system = LSystem(read_word("A[B]"), (Production(Module("A"), (), right=tuple(map(Module, ("[", "B", END, "]")))),))
+    assert END not in symbols(system)
+    assert idle(system) == []
+
+
+def with_ends(word: tuple[Module, ...], ends: Iterator[bool], end: str) -> tuple[Module, ...]:
+    """A word with something more at the ends of some of its branches."""
+    found: list[Module] = []
+    for module in word:
+        if module.symbol == "]" and next(ends):
+            found.append(Module(end))
+        found.append(module)
+    return tuple(found)
+
+
+@given(systems_with("context"), st.integers(0, 2**16))
+def test_branches_with_and_without_their_ends_match_as_defined(system: LSystem, chosen: int) -> None:
+    ends = (bool(chosen >> place & 1) for place in itertools.cycle(range(16)))
+    rules = tuple(replace(rule, right=with_ends(rule.right, ends, END)) for rule in system.productions)
+    axiom = (*system.axiom, *with_ends(system.axiom, ends, "F"))
+    system = replace(system, axiom=axiom, productions=rules)
+    for word, expected in zip(derive(system, 3), reference.words(system, 3)[0], strict=True):
+        assert [(module.symbol, module.arguments) for module in word] == expected
