@@ -1,10 +1,11 @@
 """Every word that the table of systems prints comes out of the catalogue's rules."""
 
+from fractions import Fraction
 from itertools import pairwise
 
 import pytest
 
-from lsys_kit import ModelNameError, ModelValueError, derive, draw, explore, read, stages, write
+from lsys_kit import ModelNameError, ModelValueError, derive, draw, explore, read, stages, timed, write
 from lsys_kit.classroom.catalogue import Entry, entry, system, systems
 from lsys_kit.geometry.filament import filament
 
@@ -61,7 +62,7 @@ def test_an_entry_says_where_it_comes_from(id):
 
 def test_the_rows_of_the_lessons_are_all_there():
     assert " ".join(systems()) == ("J1 J2 J3 J4 J5 T1 T2 P1 P2 P3 P4 P5 P6 P7 P8 P9 P9w "
-                                   "K1 K2 K5 K7 K10 K11 K16 K17a K17b K19 K26 L1 L2 L3 L4")
+                                   "K1 K2 K5 K7 K10 K11 K16 K17a K17b K19 K26 K27 L1 L2 L3 L4")
 
 
 @pytest.mark.parametrize("id", systems())
@@ -266,6 +267,23 @@ def test_a_meta_rule_keeps_the_word_of_a_moving_organism_short():
         x, y = map(float, word[1].arguments) if step else (0, 0)
         assert [m.symbol for m in word] == (["h", "f", "a"] if step else ["h", "a"])
         assert x * x + y * y <= step * step + 1e-9
+
+
+TIMED_ANABAENA = "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"
+
+
+@pytest.mark.parametrize("dt", ["1/2", "1/3", "0.7", "1", "3/2", "2", "0.1"])
+def test_the_timed_anabaena_in_steps_is_the_word_at_any_time(dt):
+    at_time = timed(read(TIMED_ANABAENA))
+    for step, word in enumerate(derive(system("K27"), 12, dt=dt)):
+        assert word == at_time.word(step * Fraction(dt))
+
+
+def test_the_timed_anabaena_grows_by_the_golden_ratio_in_a_time_of_one():
+    for dt in ("1/2", "1/3", "0.7"):
+        widths = [filament(word).width for word in derive(system("K27"), 12, dt=dt)]
+        golden = (1 + 5**0.5) / 2
+        assert widths == pytest.approx([golden**(1 + step * float(Fraction(dt))) for step in range(13)])
 
 
 def test_k5_multiplies_its_strokes_by_five():

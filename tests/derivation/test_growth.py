@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
+import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lsys_kit import derive, system
 from lsys_kit.budget import limits
 from lsys_kit.derivation.growth import Growth, growth
 from lsys_kit.derivation.sequences import shortest_recurrence
+from lsys_kit.derivation.timed import growth_base
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.read import read
 
@@ -83,3 +88,92 @@ def test_the_shortest_recurrence_is_one(rule: list[int], start: list[int]) -> No
 
 def test_nothing_obeys_no_rule() -> None:
     assert shortest_recurrence([0, 0, 0]) == []
+
+
+# The systems of the seeds
+
+
+@pytest.mark.parametrize(("id", "rule", "rate"), [
+    ("J4", (0, 1, 1), 1.3247), ("J5", (0, 1, 0, 0, 1), 1.2365), ("P2", (0, 0, 0, 1, 1), 1.1673),
+    ("K19", (1, 0, 0, 1, -1, 0, 0, 1, -1), 1.1278)])
+def test_the_growth_of_a_seed_s_system(id: str, rule: tuple[int, ...], rate: float) -> None:
+    found = growth(system(id))
+    assert found.recurrence == rule
+    assert found.rate == pytest.approx(rate, abs=5e-5)
+
+
+@pytest.mark.parametrize("id", ["J4", "J5", "P2"])
+def test_the_counts_are_those_of_the_words(id: str) -> None:
+    found = growth(system(id))
+    for step, word in enumerate(derive(system(id), 30)):
+        counted = {module: number for module, number in zip(found.states, found.counts(step), strict=True) if number}
+        assert counted == Counter(word)
+        assert found.length(step) == len(word)
+
+
+@pytest.mark.parametrize("id", ["J4", "J5", "P2", "K19"])
+def test_each_symbol_occurs_as_often_as_in_the_words(id: str) -> None:
+    found, words = growth(system(id)), derive(system(id), 30)
+    for symbol in words[30].counts():
+        assert found.counts_of(symbol, 30) == [word.counts().get(symbol, 0) for word in words]
+
+
+@pytest.mark.parametrize(("id", "step"), [("J4", 45), ("J5", 60), ("P2", 80), ("K19", 75)])
+def test_the_length_of_a_late_step_is_that_of_its_word(id: str, step: int) -> None:
+    assert growth(system(id)).length(step) == len(derive(system(id), step)[-1]) > 100_000
+
+
+def test_the_cells_of_j4_are_padovan_s_numbers() -> None:
+    """Seed 000, figure 2: N(t) = N(t-2) + N(t-3)."""
+    assert growth(system("J4")).lengths(9) == [1, 1, 1, 2, 2, 3, 4, 5, 7, 9]
+    assert growth(system("J5")).lengths(8) == [1, 1, 2, 2, 3, 3, 4, 5, 6]
+
+
+@pytest.mark.parametrize(("id", "a", "b"), [("J4", 3, 2), ("J5", 2, 5), ("J4", 6, 1), ("J5", 4, 4)])
+def test_life_spans_decide_the_growth(id: str, a: int, b: int) -> None:
+    """1 = x^-lifeTimeA + x^-lifeTimeB (seed 000)."""
+    found = growth(system(id), lifeTimeA=a, lifeTimeB=b)
+    assert found.rate**-a + found.rate**-b == pytest.approx(1)
+    lengths = found.lengths(60)
+    assert all(lengths[t] == lengths[t - a] + lengths[t - b] for t in range(max(a, b), 61))
+
+
+def test_five_stages_grow_as_the_cells_of_l_system_7() -> None:
+    """A step of L-system 2 is a fifth of a cell's life: x^5 = x + 1, and x^5 is the base a = 2.1673 (seed 002, section 8)."""
+    found = growth(system("P2"))
+    x = sympy.Symbol("x")
+    assert found.polynomial.as_expr() == x**5 - x - 1
+    assert found.rate**5 == pytest.approx(growth_base(1, 0, 0.2), abs=1e-12)
+
+
+def test_every_four_steps_lychnis_opens_fibonacci_less_one_flowers() -> None:
+    """Seed 003: 1 flower from step 1, 2 from 5, 4 from 9."""
+    flowers = growth(system("K19")).counts_of("K", 100)
+    assert flowers[0] == 0
+    assert flowers[1:25:4] == [1, 2, 4, 7, 12, 20]
+    assert all(flowers[n] == flowers[n + 1 - (n % 4 or 4)] for n in range(1, 101))
+    assert all(flowers[n] == flowers[n - 4] + flowers[n - 8] + 1 for n in range(9, 101))
+    assert flowers[:31] == [word.counts().get("K", 0) for word in derive(system("K19"), 30)]
+
+
+def test_the_rule_of_lychnis_flowers() -> None:
+    """x^8 = x^4 + 1, and 1 more in each generation: the golden ratio in four steps."""
+    found = growth(system("K19"))
+    rule, flowers = found.recurrence_of("K"), found.counts_of("K", 60)
+    assert all(flowers[n] == sum(c * flowers[n - k] for k, c in enumerate(rule, 1)) for n in range(len(rule) + 1, 61))
+    x = sympy.Symbol("x")
+    characteristic = sympy.Poly([1, *(-c for c in rule)], x)
+    assert characteristic == sympy.Poly((x - 1) * (x**8 - x**4 - 1), x)
+    assert found.rate**4 == pytest.approx((1 + 5**0.5) / 2)
+
+
+@pytest.mark.parametrize("id", ["J1", "J4", "J5", "T2", "P2", "P4", "P5", "P9w", "K2", "K5", "K11", "K19", "K27", "L1"])
+def test_a_closed_form_gives_every_length(id: str) -> None:
+    found = growth(system(id))
+    assert found.closed_form is not None
+    written_out = found.closed_form.replace(
+        lambda part: isinstance(part, sympy.RootSum),
+        lambda part: sympy.Add(*(part.fun(root) for root in part.poly.nroots(n=60, maxsteps=500))))
+    for step in (*range(9), 15, 30, 100):
+        length = found.length(step)
+        assert abs(written_out.evalf(40, subs={"t": step}) - length) < sympy.Float("1e-30") * length
