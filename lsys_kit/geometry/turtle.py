@@ -8,19 +8,17 @@ itself, without the word and without its rules.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from lsys_kit.budget import current
-from lsys_kit.derivation.interpret import images
-from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
-from lsys_kit.errors import ModelLimitError
-from lsys_kit.geometry.commands import COMMANDS, Command
+from lsys_kit.geometry.actions import COMMON, Act, Outline, Round, Turtle, follow, left_behind
+from lsys_kit.geometry.commands import LEFT_SIDE, Order, first_step
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
-from lsys_kit.notation.model import Module
 
 
 @dataclass(frozen=True)
@@ -36,11 +34,17 @@ class Path:
     parents
         Shape (n,): the number of the earlier step at whose end it starts; -1 for the origin.
     drawn
-        Shape (n,): whether it leaves a stroke.
+        Shape (n,): whether it leaves a stroke; a step may also lead to the corner of a leaf.
     orders
         Shape (n,): in how many brackets it stands.
     states
         Shape (n,): the state of its module.
+    widths, colours
+        Shape (n,), as of `Segments`.
+    outlines, rounds
+        Polygons, circles and discs; their places are numbers of steps, at whose ends they are.
+    unknown
+        As of `Scene`.
     """
 
     turns: Floats
@@ -50,18 +54,73 @@ class Path:
     drawn: np.ndarray[tuple[int], np.dtype[np.bool_]]
     orders: Integers
     states: Integers
+    widths: Floats
+    colours: Integers
+    outlines: tuple[Outline, ...] = ()
+    rounds: tuple[Round, ...] = ()
+    unknown: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.turns)
 
 
+class _Crawler(Turtle):
+    """A turtle in the plane: it is at the end of a step, and has turned left by the angle, by degrees, and perhaps over."""
+
+    __slots__ = ("steps",)
+
+    def __init__(self, side: int, step: float) -> None:
+        super().__init__(-1, (0.0, 0.0, side), step)
+        self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
+
+    def go(self, length: float, drawn: bool) -> None:
+        turns, offset, _ = self.way
+        self.at = self.step(turns, offset, length, self.at, drawn)
+        if drawn:
+            self.last = self.at
+
+    def spot(self, ahead: float, left: float, up: float) -> int:
+        turns, offset, side = self.way
+        return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.at)
+
+    def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
+        """Note a step, and say its number."""
+        self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.width, self.colour))
+        return len(self.steps) - 1
+
+
+def _turn(turtle: _Crawler, order: Order) -> None:
+    turns, offset, side = turtle.way
+    turtle.way = turns + side * order.factor, offset + side * order.addend, side
+
+
+def _roll(turtle: _Crawler, order: Order) -> None:
+    if order.factor == 0 and order.addend % 360 == 180:
+        turns, offset, side = turtle.way
+        turtle.way = turns, offset, -side
+
+
+def _back(turtle: _Crawler, order: Order) -> None:
+    if turtle.last is not None:
+        turns, offset, length, parent, *_ = turtle.steps[turtle.last]
+        turtle.at = turtle.step(turns, offset, length * (order.factor + order.addend), parent)
+
+
+_KINDS = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
+          "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
+ACTS: Mapping[str, Act] = {**COMMON, "turn": _turn, "roll": _roll, "back": _back}
+"""What a turtle in the plane does, by the names of the actions."""
+
+
 def traced(word: Word) -> Path:
-    """The path of a turtle that follows a word.
+    """The path of a turtle that follows a word; commands that lead out of the plane are passed over.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
+    ModelValueError
+        A value is no number that can be drawn.
 
     Examples
     --------
@@ -71,33 +130,16 @@ def traced(word: Word) -> Path:
     >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
-    orders = _orders(word.states, word.numbers())
-    steps: list[tuple[float, float, float, int, bool, int, int]] = []
-    turns, offset, parent = 0.0, 0.0, -1
-    stack: list[tuple[float, float, int]] = []
-    deepest = current().brackets
-    for state in word.numbers():
-        for action, amount, degrees in orders[state]:
-            if action == "turn":
-                turns, offset = turns + amount, offset + degrees
-            elif action == "open":
-                stack.append((turns, offset, parent))
-                turns += amount
-                if len(stack) > deepest:
-                    raise ModelLimitError(f"More than {deepest:,} brackets are open at once", limit=deepest)
-            elif action == "close":
-                if stack:
-                    turns, offset, parent = stack.pop()
-            else:
-                steps.append((turns, offset, amount, parent, action == "draw", len(stack), state))
-                parent = len(steps) - 1
-    columns = list(zip(*steps, strict=True)) or [()] * 7
-    kinds = (np.float64, np.float64, np.float64, np.int64, np.bool_, np.int64, np.int64)
-    return Path(*(np.array(column, dtype=kind) for column, kind in zip(columns, kinds, strict=True)))
+    system = word.states.system
+    turtle = _Crawler(LEFT_SIDE[system.turtle], first_step(system))
+    follow(turtle, word, ACTS)
+    columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_KINDS)
+    steps: dict[str, Any] = {name: np.array(column, kind) for (name, kind), column in zip(_KINDS.items(), columns, strict=True)}
+    return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds), unknown=tuple(turtle.unknown))
 
 
 def placed(path: Path, angle: float, heading: float = 90.0) -> Scene:
-    """The strokes of a path for an angle and a first heading, in degrees.
+    """The strokes and shapes of a path for an angle and a first heading, in degrees.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
@@ -108,8 +150,12 @@ def placed(path: Path, angle: float, heading: float = 90.0) -> Scene:
     radians = np.radians(path.turns * angle + path.offsets + heading)
     vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
     ends = _summed(vectors, path.parents)
-    strokes = np.concatenate([ends - vectors, ends], axis=1)[path.drawn]
-    return Scene(Segments(strokes, path.orders[path.drawn], path.states[path.drawn]))
+    drawn = path.drawn
+    strokes = Segments(np.concatenate([ends - vectors, ends], axis=1)[drawn], path.orders[drawn], path.states[drawn],
+                       path.widths[drawn], path.colours[drawn])
+    places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
+    polygons, discs = left_behind(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
+    return Scene(strokes, polygons=polygons, discs=discs, unknown=path.unknown)
 
 
 def _summed(vectors: Floats, parents: Integers) -> Floats:
@@ -120,21 +166,3 @@ def _summed(vectors: Floats, parents: Integers) -> Floats:
         sums = sums + sums[above]
         above = above[above]
     return sums[:-1]
-
-
-def _orders(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[str, float, float]]]:
-    """For each state what it tells the turtle: an action, an amount, and degrees besides."""
-    table = COMMANDS[states.system.turtle]
-    return {state: [order for module in image for order in _order(table.get(module.symbol), module)]
-            for state, image in images(states, numbers).items()}
-
-
-def _order(command: Command | None, module: Module) -> list[tuple[str, float, float]]:
-    if command is None:
-        return []
-    if not module.arguments or command.action in ("open", "close"):
-        return [(command.action, float(command.amount), 0.0)]
-    value = float(module.arguments[0])  # type: ignore[arg-type]
-    if command.action == "turn":
-        return [("turn", 0.0, command.argument * value)]
-    return [(command.action, value, 0.0)]

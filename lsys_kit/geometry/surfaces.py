@@ -1,0 +1,57 @@
+"""Surfaces that a model can name, as in `~L(2)`: leaves, petals, buds and flowers; their shapes are in `surfaces.toml`."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import TypeAlias
+
+Corner: TypeAlias = tuple[float, float, float]
+"""A point in the turtle's own axes: ahead, to the left, up."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A surface of plane faces.
+
+    Attributes
+    ----------
+    name
+        What it is called.
+    symbols
+        The symbols that stand for it behind a tilde.
+    faces
+        The corners of each face, one after another; the surface is about 1 long.
+    """
+
+    name: str
+    symbols: tuple[str, ...]
+    faces: tuple[tuple[Corner, ...], ...]
+
+
+@cache
+def surfaces() -> Mapping[str, Surface]:
+    """All surfaces, by their names.
+
+    >>> list(surfaces())
+    ['leaf', 'petal', 'bud', 'flower', 'rosette']
+    >>> len(surfaces()["bud"].faces)
+    10
+    """
+    tables = tomllib.loads((files(__package__) / "surfaces.toml").read_text(encoding="utf-8"))
+    return {name: Surface(name, tuple(table["symbols"]), tuple(tuple((ahead, left, up) for ahead, left, up in face)
+                                                               for face in table["faces"]))
+            for name, table in tables.items()}
+
+
+@cache
+def surface_called(symbol: str) -> Surface | None:
+    """The surface that a symbol stands for behind a tilde, or None.
+
+    >>> surface_called("K").name
+    'flower'
+    """
+    return next((surface for surface in surfaces().values() if symbol in surface.symbols), None)
