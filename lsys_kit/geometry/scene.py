@@ -189,7 +189,7 @@ class Scene:
     @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
-        return self.segments.ends.shape[1] // 2
+        return int(self.segments.ends.shape[1]) // 2
 
     @property
     def corners(self) -> tuple[Floats, Floats]:

@@ -18,15 +18,16 @@ from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelFileError, ModelValueError
+from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.turtle import placed, traced
 from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures import raster
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import GREEN, colours
-from lsys_kit.pictures.plots import new_axes, plot_rows, plot_strokes
-from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, strokes_svg
+from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
+from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, turtle_svg
+from lsys_kit.pictures.view import seen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -79,7 +80,7 @@ class Picture:
                 data = base64.b64encode(self.png).decode()
                 body = f'<image width="{width * 10}" height="{height * 10}" href="data:image/png;base64,{data}"/>'
             else:
-                body = strokes_svg(self.scene.segments, frame, self.colour_of, self.marked)
+                body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
         return document(background(width, height) + body, width, height, self.text)
 
     @cached_property
@@ -87,7 +88,7 @@ class Picture:
         """The picture as PNG, without text."""
         if len(self.scene.cells):
             return raster.rows_png([row.scene for row in self.rows], self.colour_of)
-        return raster.strokes_png(self.scene, self.colour_of)
+        return raster.turtle_png(self.scene, self.colour_of)
 
     def save(self, path: str | Path) -> None:
         """Write the picture to a file, in the format that its name ends in: .svg, .png or .pdf.
@@ -203,9 +204,8 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
     if is_filament(what.states.system):
         return _sequence(what, marked)
     turn = float(number_from(angle, "angle") if angle is not None else what.states.system.angle)
-    step, word = (what.steps, what[-1]) if isinstance(what, Derivation) else (0, what)
-    scene = placed(traced(word), turn, float(what.states.system.heading))
-    return Picture((Row(step, scene),), state_colours(word), None, marked)
+    step = what.steps if isinstance(what, Derivation) else 0
+    return Picture((Row(step, seen(scene_of(what, turn))),), state_colours(what), None, marked)
 
 
 def _sequence(what: Derivation | Word, marked: Collection[int]) -> Picture:
@@ -245,7 +245,7 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     if len(picture.scene.cells):
         plot_rows(ax, picture.rows, picture.colour_of)
     else:
-        plot_strokes(ax, picture.scene, picture.colour_of)
+        plot_turtle(ax, picture.scene, picture.colour_of)
     ax.set_aspect("equal")
     ax.autoscale_view()
     ax.set_axis_off()

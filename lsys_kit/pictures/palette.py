@@ -14,6 +14,10 @@ from lsys_kit.pictures.labels import twins
 
 GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#D55E00", "#56B4E9"
 SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
+CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A5A2B", "#B9C0C6", "#6B7680", "#56B4E9",
+          "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8")
+"""What a turtle chooses by number: the sixteen colours of GROGRA (seed 003), in shades that can be told apart and be seen on
+white: black, blue, green, cyan, red, magenta, brown, light and dark grey, the light ones, yellow, white."""
 INK = "#22303C"
 """Text and arrows."""
 QUIET = "#7A8794"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lsys_kit.geometry.scene import Scene
-from lsys_kit.pictures.palette import GREEN, INK, tinted
-from lsys_kit.pictures.svg import STROKES, Row, frame_of, stroke_scale
+from lsys_kit.geometry.scene import CIRCLE, Scene
+from lsys_kit.pictures.palette import GREEN, INK, PAPER, tinted
+from lsys_kit.pictures.svg import Row, frame_of, groups, shape_colours
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,15 +20,23 @@ def new_axes() -> Axes:
     return Figure(figsize=(6, 4), layout="constrained").add_subplot()
 
 
-def plot_strokes(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
-    """A turtle's strokes."""
-    from matplotlib.collections import LineCollection
+def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
+    """What a turtle has drawn: surfaces, strokes, discs."""
+    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.patches import Circle
 
-    thin = stroke_scale(scene.segments, frame_of(scene.box).scale)
-    orders = scene.segments.orders.clip(max=len(STROKES) - 1)
-    ax.add_collection(LineCollection(scene.segments.ends.reshape(-1, 2, 2).tolist(), capstyle="round",
-                                     colors=[colour_of.get(state, GREEN) for state in scene.segments.states.tolist()],
-                                     linewidths=[0.8 * STROKES[order] * thin for order in orders.tolist()]))
+    if len(scene.polygons):
+        edges = shape_colours(scene.polygons, colour_of)
+        ax.add_collection(PolyCollection(list(scene.polygons), edgecolors=edges, linewidths=0.5,
+                                         facecolors=[tinted(colour, 0.7) for colour in edges]))
+    for colour, width, chosen in groups(scene.segments, frame_of(scene.box).scale, colour_of):
+        strokes = scene.segments.ends[chosen].reshape(-1, 2, 2).tolist()
+        ax.add_collection(LineCollection(strokes, capstyle="round", colors=colour, linewidths=0.08 * width))
+    discs = scene.discs
+    for centre, radius, kind, colour in zip(discs.centres.tolist(), discs.radii.tolist(), discs.kinds.tolist(),
+                                            shape_colours(discs, colour_of), strict=True):
+        ax.add_patch(Circle(centre, radius, edgecolor=colour, linewidth=0.8,
+                            facecolor=PAPER if kind == CIRCLE else tinted(colour, 0.7)))
 
 
 def plot_rows(ax: Axes, rows: Sequence[Row], colour_of: Mapping[int, str]) -> None:

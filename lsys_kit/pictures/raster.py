@@ -12,9 +12,9 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.geometry.scene import Cells, Scene
+from lsys_kit.geometry.scene import CIRCLE, Cells, Scene
 from lsys_kit.pictures.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import HEIGHT, MARGIN, STROKES, WIDTH, frame_of, groups, stroke_scale
+from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, frame_of, groups, shape_colours
 
 Coordinates: TypeAlias = NDArray[np.float32]
 FINE = 3
@@ -23,25 +23,36 @@ BLOCK = 2**16
 """So many strokes are taken at a time: what lies between two operations stays in the processor's cache."""
 
 
-def strokes_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
-    """A turtle's strokes as a PNG picture.
+def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
+    """What a turtle has drawn as a PNG picture.
 
     Strokes of one colour and width are points on a fine grid, spread to their width all at once; so a million of them take
     no longer than their points do.
     """
-    from PIL import Image
+    from PIL import Image, ImageDraw
 
     frame = frame_of(scene.box)
-    image = np.full((frame.height * FINE, frame.width * FINE, 3), 255, dtype=np.uint8)
-    thin = stroke_scale(scene.segments, frame.scale)
+    sheet = Image.new("RGB", (frame.width * FINE, frame.height * FINE), PAPER)
+    pen = ImageDraw.Draw(sheet)
+    for corners, colour in zip(scene.polygons, shape_colours(scene.polygons, colour_of), strict=True):
+        pen.polygon((frame.points(corners) * (FINE / 10)).ravel().tolist(), fill=tinted(colour, 0.7), outline=colour, width=2)
+    image = np.array(sheet)
     fine = frame.scale * FINE
     ends = scene.segments.ends.astype(np.float32)
     across = (ends[:, ::2] - np.float32(frame.left)) * np.float32(fine) + np.float32(MARGIN * FINE)
     down = (np.float32(frame.top) - ends[:, 1::2]) * np.float32(fine) + np.float32(MARGIN * FINE)
-    for colour, order, chosen in groups(scene.segments, colour_of):
+    for colour, width, chosen in groups(scene.segments, frame.scale, colour_of):
         found = touched(across[chosen], down[chosen], image.shape[:2])
-        image[spread(found, STROKES[order] * thin * FINE / 2)] = tuple(bytes.fromhex(colour[1:]))
-    return _png(Image.fromarray(image).resize((frame.width, frame.height), Image.Resampling.BOX))
+        image[spread(found, width * FINE / 20)] = tuple(bytes.fromhex(colour[1:]))
+    sheet = Image.fromarray(image)
+    pen = ImageDraw.Draw(sheet)
+    discs, middles = scene.discs, frame.points(scene.discs.centres) * (FINE / 10)
+    for (x, y), radius, kind, colour in zip(middles.tolist(), discs.radii.tolist(), discs.kinds.tolist(),
+                                            shape_colours(discs, colour_of), strict=True):
+        reach = max(2.0, radius * fine)
+        pen.ellipse((x - reach, y - reach, x + reach, y + reach), fill=PAPER if kind == CIRCLE else tinted(colour, 0.7),
+                    outline=colour, width=FINE)
+    return _png(sheet.resize((frame.width, frame.height), Image.Resampling.BOX))
 
 
 def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> NDArray[np.bool_]:

@@ -12,8 +12,8 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.geometry.scene import Cells, Floats, Integers, Scene, Segments
-from lsys_kit.pictures.palette import GREEN, INK, MARK, MARK_EDGE, PAPER, QUIET, tinted
+from lsys_kit.geometry.scene import CIRCLE, OWN, Cells, Discs, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.pictures.palette import CHOSEN, GREEN, INK, MARK, MARK_EDGE, PAPER, QUIET, tinted
 
 WIDTH, HEIGHT = 600, 400
 """The largest picture, in pixels."""
@@ -23,6 +23,8 @@ STROKES = (2.4, 1.7, 1.3, 1.0)
 """Stroke widths by branch order, in pixels; deeper branches have the last."""
 
 
+THINNEST, BROADEST = 3, 4_000
+"""The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
 SAMPLE = 20_000
 """Of so many strokes at most the lengths are looked at, to see how close they stand."""
 
@@ -62,28 +64,80 @@ def document(body: str, width: int, height: int, description: str) -> str:
             f"<title>{words}</title>{body}</svg>")
 
 
+def turtle_svg(scene: Scene, frame: Frame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
+    """What a turtle has drawn: surfaces, then strokes, then discs."""
+    parts = (polygons_svg(scene.polygons, frame, colour_of) if len(scene.polygons) else "",
+             strokes_svg(scene.segments, frame, colour_of, marked),
+             discs_svg(scene.discs, frame, colour_of) if len(scene.discs) else "")
+    return "".join(parts)
+
+
+def polygons_svg(polygons: Polygons, frame: Frame, colour_of: Mapping[int, str]) -> str:
+    """Surfaces: filled, with an edge of their own colour."""
+    shapes = []
+    for corners, colour in zip(polygons, shape_colours(polygons, colour_of), strict=True):
+        points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
+        shapes.append(f'<polygon points="{points}" fill="{tinted(colour, 0.7)}" stroke="{colour}"/>')
+    return f'<g stroke-width="6" stroke-linejoin="round">{"".join(shapes)}</g>'
+
+
+def discs_svg(discs: Discs, frame: Frame, colour_of: Mapping[int, str]) -> str:
+    """Circles, and discs and spheres, which are filled."""
+    shapes = []
+    for (x, y), radius, kind, colour in zip(frame.points(discs.centres).tolist(), discs.radii.tolist(), discs.kinds.tolist(),
+                                            shape_colours(discs, colour_of), strict=True):
+        fill = PAPER if kind == CIRCLE else tinted(colour, 0.7)
+        reach = max(8, round(radius * frame.scale * 10))
+        shapes.append(f'<circle cx="{x}" cy="{y}" r="{reach}" fill="{fill}" stroke="{colour}"/>')
+    return f'<g stroke-width="10">{"".join(shapes)}</g>'
+
+
 def strokes_svg(segments: Segments, frame: Frame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
-    """The strokes of a turtle: a path for each colour and branch order, marked ones on a broad band."""
+    """The strokes of a turtle: a path for each colour and width, marked ones on a broad band."""
     points = frame.points(segments.ends)
-    thin = stroke_scale(segments, frame.scale)
     body = []
     if marked:
         chosen = points[np.isin(segments.states, list(marked))]
-        body.append(f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{max(50, 90 * thin):.0f}" '
+        broad = max(50, 90 * stroke_scale(segments, frame.scale))
+        body.append(f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad:.0f}" '
                     'stroke-opacity="0.45"/>')
-    for colour, order, ours in groups(segments, colour_of):
-        body.append(f'<path d="{_path(points[ours])}" stroke="{colour}" stroke-width="{10 * STROKES[order] * thin:.0f}"/>')
+    for colour, width, ours in groups(segments, frame.scale, colour_of):
+        body.append(f'<path d="{_path(points[ours])}" stroke="{colour}" stroke-width="{width}"/>')
     return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'
 
 
-def groups(segments: Segments, colour_of: Mapping[int, str]) -> Iterator[tuple[str, int, NDArray[np.bool_]]]:
-    """The strokes that are drawn alike: for each colour and branch order, deep orders taken as one, which they are."""
-    orders = np.minimum(segments.orders, len(STROKES) - 1)
-    for colour in dict.fromkeys(colour_of.values()):
-        states = [state for state, own in colour_of.items() if own == colour]
-        ours = np.isin(segments.states, states) if len(colour_of) > 1 else np.ones(len(segments), dtype=bool)
-        for order in np.flatnonzero(np.bincount(orders[ours])).tolist():
-            yield colour, order, ours & (orders == order)
+def groups(segments: Segments, scale: float, colour_of: Mapping[int, str]) -> Iterator[tuple[str, int, NDArray[np.bool_]]]:
+    """The strokes that are drawn alike: their colour, their width in tenths of a pixel, and which they are; broad ones first.
+
+    A width that the turtle has set is one of the drawing; else it goes with the branch order, deep ones alike.
+    """
+    thin = stroke_scale(segments, scale)
+    by_order = np.array([round(10 * width * thin) for width in STROKES])
+    widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
+    if (segments.widths != OWN).any():
+        given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)
+        widths = np.where(segments.widths == OWN, widths, given)
+    names, numbers = numbered_colours(segments.states, segments.colours, colour_of)
+    both = numbers * (BROADEST + 1) + (BROADEST - widths)
+    for key in np.flatnonzero(np.bincount(both)).tolist():
+        yield names[key // (BROADEST + 1)], BROADEST - key % (BROADEST + 1), both == key
+
+
+def numbered_colours(states: Integers, colours: Integers, colour_of: Mapping[int, str]) -> tuple[list[str], Integers]:
+    """The colours in use, and for each shape the number of its own: that of its symbol, or the one that the turtle chose."""
+    names = list(dict.fromkeys((*colour_of.values(), GREEN, *CHOSEN)))
+    of_state = np.full(int(states.max(initial=0)) + 1, names.index(GREEN))
+    for state, colour in colour_of.items():
+        if state < len(of_state):
+            of_state[state] = names.index(colour)
+    chosen = np.array([names.index(colour) for colour in CHOSEN])
+    return names, np.where(colours == OWN, of_state[states], chosen[colours % len(CHOSEN)])
+
+
+def shape_colours(shapes: Polygons | Discs, colour_of: Mapping[int, str]) -> list[str]:
+    """The colour of each shape."""
+    names, numbers = numbered_colours(shapes.states, shapes.colours, colour_of)
+    return [names[number] for number in numbers.tolist()]
 
 
 def stroke_scale(segments: Segments, scale: float) -> float:
