@@ -1,36 +1,144 @@
-"""The kit's own notation, after The Algorithmic Beauty of Plants; its grammar is `abop.lark`."""
+"""The kit's own notation, after The Algorithmic Beauty of Plants, and its mathematical form; the grammar is `abop.lark`.
+
+Articles print systems as `p_1 : a_r → a_l b_r`, as `{ar -> al br, al -> bl ar}`, as `s < a > → a s,`. What only labels a
+production or parts it from the next is no part of it: it is cut off before the grammar reads the rest.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 from lark import Transformer
 from lark.visitors import merge_transformers
 
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.before_arrow import forgotten_colon
 from lsys_kit.notation.draft import Draft, assembled
-from lsys_kit.notation.glued import unglued
+from lsys_kit.notation.glued import parting
 from lsys_kit.notation.layout import first_lacking, sections, settings
-from lsys_kit.notation.model import LSystem, Production, joined
+from lsys_kit.notation.model import LSystem, Production, flat, joined
 from lsys_kit.notation.records import Expressions, Statements
-from lsys_kit.notation.slips import QUESTIONS
-from lsys_kit.notation.statements import statements
+from lsys_kit.notation.slips import QUESTIONS, without_colon
+from lsys_kit.notation.statements import ARROW, statements, without_comments
+from lsys_kit.notation.stumble import outside
 from lsys_kit.notation.tradition import Notation
+
+_LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
+_SET = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")
+_IN_A_SET = re.compile(rf"^[ \t]*{_SET.pattern}", re.MULTILINE)
+_COMPARED = re.compile(r"[<>=!]=|&&|\|\||[≤≥≠∧∨]|\\[lgn]eq?\b")
+_PARTED = re.compile(r"[()\[\]{},]")
+_MARKS = tuple(re.compile(pattern, re.MULTILINE) for pattern in (
+    rf"^[ \t]*{_LABEL.pattern}", r"\\omega|ω", r"\\delta|δ", r"\\(vec|over(right|left)arrow)\b|[\u20d6\u20d7]",
+    r"\\xrightarrow", r"::=", r"^[ \t]*[VP][ \t]*=[ \t]*\{", r"^[^()<>\n]*[<>][^()\\→⟶\n]*(→|⟶|\\(long)?rightarrow)"))
+"""What shows the mathematical form."""
+
+
+def printed(text: str) -> Iterator[tuple[int, int]]:
+    """The offsets of the statements, without what labels them and parts them from each other in print.
+
+    >>> text = "p_1: a -> b,\\nP = {b -> a, c -> b}"
+    >>> [text[start:end] for start, end in printed(text)]
+    ['a -> b', 'b -> a', 'c -> b']
+    """
+    plain = without_comments(text)
+    used = frozenset(re.findall(r"\b\w++(?!\s*:)", plain)) if _MARKS[0].search(plain) else frozenset()
+    for start, end in _members(plain, text):
+        label = _LABEL.match(plain, start, end)
+        if label and _labels(plain[label.end():end], label[1] in used):
+            start = label.end()
+        if plain[end - 1] == ",":
+            rule = plain[start:end - 1].rstrip()
+            arrow = ARROW.search(rule)
+            end = start + len(rule) if arrow and arrow.end() < len(rule) else end
+        yield start, end
+
+
+def _labels(rest: str, used: bool) -> bool:
+    """Whether a name with a colon behind it labels a production: then it stands for no module that has a condition."""
+    arrow = ARROW.search(rest)
+    head = rest[:arrow.start()] if arrow else ""
+    if head.strip() in ("", "*") or _COMPARED.search(head) or re.search(r"\([^()]*[<>]", head):
+        return False
+    bare = outside(head)
+    if ":" in bare or not re.search("[<>]", bare):
+        return True
+    sides = re.split("[<>]", bare)
+    return not any(re.search(r"(?<![\w.])[\d.]", side) for side in sides) and not (used and all(map(str.strip, sides)))
+
+
+def _members(plain: str, source: str) -> Iterator[tuple[int, int]]:
+    """The offsets of the statements, those of a set of productions one after another."""
+    opened, first, depth = None, 0, 0
+    for start, end in statements(source):
+        if opened is None:
+            opened = _SET.match(plain, start, end)
+            first, depth = start, 0
+        if opened is None:
+            yield start, end
+            continue
+        depth += plain.count("{", start, end) - plain.count("}", start, end)
+        if depth <= 0:
+            closed = plain[end - 1] == "}" and ARROW.search(plain, first, end)
+            yield from _parted(plain, opened.end(), end - 1) if closed else [(first, end)]
+            opened = None
+    if opened is not None:
+        raise ModelSyntaxError('This "{" is never closed', source, opened.end() - 1, opened.end(),
+                               'Every "{" needs a "}" behind it.')
+
+
+def _parted(plain: str, start: int, end: int) -> Iterator[tuple[int, int]]:
+    """The offsets of what stands between commas, as far as these are not in brackets."""
+    depth = 0
+    for match in (*_PARTED.finditer(plain, start, end), None):
+        if match is None or (match[0] == "," and depth == 0):
+            member = plain[start:match.start() if match else end]
+            if member.strip():
+                yield start + len(member) - len(member.lstrip()), start + len(member.rstrip())
+            start += len(member) + 1
+        else:
+            depth += (match[0] in "([{") - (match[0] in ")]}")
 
 
 def _records() -> Transformer[Any, Any]:
     return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
+def _settle(draft: Draft) -> None:
+    """Take in what the mathematical form says otherwise than the kit: an axiom beside a set, the angle δ, the length d."""
+    plain = without_comments(draft.source)
+    for kind, record, at in draft.more:
+        if kind == "axiom" and not _IN_A_SET.search(plain):
+            raise without_colon(draft.source, at[0], draft.source[at[0]:at[0] + 5], draft.source[at[0] + 5:at[1]])
+        draft.add(kind, record, at)
+    length = next((constant for constant in draft.constants if constant.name == "d"), None)
+    if length and re.search(r"(δ|\\delta)\s*=", plain) and len(re.findall(r"\bd\b", plain)) == 1:
+        draft.constants.remove(length)
+        draft.add("length", length.value, length.at or (0, 0))
+        draft.notes.append('"d" is read as the length of a segment.')
+
+
+def _made(draft: Draft) -> set[str]:
+    """The symbols that can occur in words."""
+    productions = [rule.successor for rules in draft.sections.values() for rule in rules]
+    words = (draft.axiom or (), *productions, *(rule.successor for rule in draft.meta))
+    return {module.symbol for word in words for module in flat(word)}
+
+
 def _finish(draft: Draft) -> LSystem:
     """The system with letters that were written together parted, and a note that says so."""
+    _settle(draft)
+    forgotten_colon(draft.sections["productions"], _made(draft), draft.source)
     system = assembled(draft)
-    notes: dict[str, None] = {}
+    parted, notes = parting(system), dict[str, None]()
 
     def part(word: tuple[Any, ...]) -> tuple[Any, ...]:
-        parted, said = unglued(word, system)
+        result, said = parted(word)
         notes.update(dict.fromkeys(said))
-        return parted
+        return result
 
     def parted_rules(rules: tuple[Production, ...]) -> tuple[Production, ...]:
         return tuple(replace(rule, left=part(rule.left), right=part(rule.right), successor=part(rule.successor))
@@ -47,6 +155,11 @@ def _write(system: LSystem) -> str:
                       *sections(system, str)])
 
 
+def _likely(text: str) -> int:
+    """More than one where the text shows the mathematical form."""
+    return 1 + sum(bool(mark.search(text)) for mark in _MARKS)
+
+
 ABOP = Notation(
-    name="abop", statements=statements, records=_records, finish=_finish, questions=QUESTIONS, module=str, joined=joined,
-    write=_write, lacking=lambda system: first_lacking(system, "round brackets as branches"), likely=lambda text: 1)
+    name="abop", statements=printed, records=_records, finish=_finish, questions=QUESTIONS, module=str, joined=joined,
+    write=_write, lacking=lambda system: first_lacking(system, "round brackets as branches"), likely=_likely)

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Iterable
 
 from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.checks import span
+from lsys_kit.notation.expressions import Name
+from lsys_kit.notation.model import Production
 from lsys_kit.notation.statements import ARROW
 from lsys_kit.notation.stumble import Stumble, outside
 
@@ -12,7 +16,8 @@ PRODUCTION = 'A production reads "A -> B": what is replaced, an arrow, what repl
 _NOT_IN_STRINGS = {"(": "values", ":": "conditions", "<": "contexts", ">": "contexts"}
 _OPERATORS = frozenset(("TIMES", "SIGN", "POWER"))
 _SIDES = 'A left context ends with "<", a right context begins with ">", as in "A < B > C -> D".'
-_CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠])\s*(\S?)")
+_CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠])\s*(\w+|\S?)")
+_COLON = 'A ":" is missing before the condition', 'A condition stands between ":" and the arrow, as in "A(t) : t < 5 -> B".'
 
 
 def before_arrow(stumble: Stumble) -> ModelSyntaxError | None:
@@ -52,10 +57,23 @@ def _condition(stumble: Stumble, head: str) -> ModelSyntaxError | None:
     if not found or head.startswith("meta") or not {"COLON", "LESSTHAN", "NAME"} & stumble.accepted:
         return None
     parameters = re.findall(r"\w+", stumble.text[stumble.start:second])[1:]
-    if found[1] or found[3] not in "<>" or found[2] in parameters or found[4].isdigit():
-        return stumble.error('A ":" is missing before the condition', 'A condition stands between ":" and the arrow, as in '
-                             '"A(t) : t < 5 -> B".', second)
+    if found[1] or found[3] not in "<>" or {found[2], found[4]} & {*parameters} or found[4][:1].isdigit():
+        return stumble.error(*_COLON, second)
     return None
+
+
+def forgotten_colon(productions: Iterable[Production], symbols: Collection[str], source: str) -> None:
+    """What reads as a left context must not be a condition without its colon, as in "A(t) t < T -> B".
+
+    There a parameter stands as if it were a module, and no module has its name.
+    """
+    for production in productions:
+        before = [*production.left, production.predecessor]
+        parameters = {argument.name for module in before for argument in module.arguments if isinstance(argument, Name)}
+        compared = {module.symbol for module in before if not module.arguments} & parameters
+        if production.left and compared - {*symbols}:
+            first = next(index for index, module in enumerate(before) if module.arguments)
+            raise ModelSyntaxError(_COLON[0], source, *span(before[min(first + 1, len(before) - 1)]), _COLON[1])
 
 
 def _context(stumble: Stumble) -> ModelSyntaxError | None:

@@ -8,14 +8,17 @@ whole.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import cache
+from functools import partial
+from typing import TypeAlias
 
 from lsys_kit.notation.model import Item, LSystem, Module, Repeat
 
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
+Parting: TypeAlias = Callable[[Iterable[Item]], tuple[tuple[Item, ...], list[str]]]
+"""What parts the glued names of a word; with the word come notes on what was parted."""
 
 
 def unglued(word: Iterable[Item], system: LSystem) -> tuple[tuple[Item, ...], list[str]]:
@@ -25,12 +28,22 @@ def unglued(word: Iterable[Item], system: LSystem) -> tuple[tuple[Item, ...], li
     >>> read("axiom: a\\na -> ab\\nb -> a").productions[0].successor
     (Module(symbol='a', arguments=()), Module(symbol='b', arguments=()))
     """
+    return parting(system)(word)
+
+
+def parting(system: LSystem) -> Parting:
+    """What parts the glued names of any word of a system."""
     whole, parts = _symbols(system)
+    return partial(_parted, whole, parts)
+
+
+def _parted(whole: frozenset[str], parts: frozenset[str], word: Iterable[Item]) -> tuple[tuple[Item, ...], list[str]]:
+    """The word with its glued names parted, and a note for each."""
     result: list[Item] = []
     notes: list[str] = []
     for module in word:
         if isinstance(module, Repeat):
-            body, said = unglued(module.body, system)
+            body, said = _parted(whole, parts, module.body)
             result.append(replace(module, body=body))
             notes += said
             continue
@@ -44,7 +57,6 @@ def unglued(word: Iterable[Item], system: LSystem) -> tuple[tuple[Item, ...], li
     return tuple(result), notes
 
 
-@cache
 def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     """The names that stay whole, and the symbols of which a name may be made."""
     rewritten = {rule.predecessor.symbol for rule in system.rules}

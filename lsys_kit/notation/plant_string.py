@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
-from lsys_kit.notation.draft import assembled
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.draft import Draft, assembled
 from lsys_kit.notation.layout import first_lacking, settings
-from lsys_kit.notation.model import LSystem, flat
+from lsys_kit.notation.model import LSystem, Module, flat
 from lsys_kit.notation.records import Statements
 from lsys_kit.notation.slips import QUESTIONS
-from lsys_kit.notation.statements import statements
+from lsys_kit.notation.statements import statements, without_comments
+from lsys_kit.notation.stumble import outside
 from lsys_kit.notation.tradition import Notation
 
 NAME = "plant-string"
+_WORD = r"[A-Za-z\[\]()+\-\s]*+"
+_LINE = re.compile(rf"""\s*+(?:
+      axiom\s*[:=](?P<axiom>{_WORD})
+    | (?P<rule>[A-Za-z]\s*(?:->|→)(?:{_WORD}|\s*[ε*]\s*))
+    | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*[\d.]+\s*
+    | turtle\s*:\s*[a-z-]+\s*
+    | productions\s*:\s*
+    | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
+"""A line of a plant string."""
+_MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
+    (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
+"""How lines begin that other notations hardly have, and how much each says."""
+
+
+def _finish(draft: Draft) -> LSystem:
+    """The system; where a text counts its productions, as those of the lesson's applet do, the axiom is always I."""
+    if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.more):
+        draft.axiom = (Module("I"),)
+        draft.notes.append("No axiom is given: it is I.")
+    return assembled(draft)
 
 
 def _lines(system: LSystem) -> Iterator[str]:
@@ -29,7 +52,28 @@ def _lacking(system: LSystem) -> str | None:
         "alphabet")
 
 
+def _likely(text: str) -> int:
+    """How much shows a plant string: nothing where a line cannot stand in one."""
+    try:
+        lines = [line for line in without_comments(text).splitlines() if line.strip()]
+    except ModelSyntaxError:
+        return 0
+    matches = [match for match in map(_LINE.fullmatch, lines) if match]
+    if len(matches) < len(lines):
+        return 0
+    marks = sum(weight for mark, weight in _MARKS if any(map(mark.match, lines)))
+    return marks + _branches(match["axiom"] or match["rule"] or "" for match in matches)
+
+
+def _branches(words: Iterable[str]) -> int:
+    """2 where round brackets hold symbols that stand outside of them too; 1 where they hold other capitals, perhaps values."""
+    texts = [*words]
+    if not any(re.search(r"\([A-Za-z\[(]", text) for text in texts):
+        return 0
+    every, shown = (set(filter(str.isalpha, "".join(some))) for some in (texts, map(outside, texts)))
+    return 2 if every == shown else int("".join(every - shown).isupper())
+
+
 PLANT_STRING = Notation(
-    name=NAME, statements=statements, records=Statements, finish=assembled, questions=QUESTIONS, module=str, joined="".join,
-    write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=lambda text: 0,
-    turtle=NAME)
+    name=NAME, statements=statements, records=Statements, finish=_finish, questions=QUESTIONS, module=str, joined="".join,
+    write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME)

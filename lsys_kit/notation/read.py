@@ -6,10 +6,12 @@ beside this file, one for each notation, and `expressions.lark`, which they shar
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.abop import ABOP
 from lsys_kit.notation.arithmetic import Value
 from lsys_kit.notation.checks import check_expression, check_word, value_of
@@ -19,7 +21,11 @@ from lsys_kit.notation.foresight import check_decomposition, idle
 from lsys_kit.notation.glued import unglued
 from lsys_kit.notation.model import LSystem, Module, flat
 from lsys_kit.notation.parsing import parse
-from lsys_kit.notation.registry import notation_called, recognised
+from lsys_kit.notation.registry import NOTATIONS, notation_called, recognised
+from lsys_kit.notation.tradition import Notation
+
+PER_RULE = 64
+"""How many characters there may be for each production that a model may have, blanks and comments not counted."""
 
 
 def read(text: str, notation: str | None = None) -> LSystem:
@@ -55,17 +61,59 @@ def read(text: str, notation: str | None = None) -> LSystem:
     if len(text) > current().text:
         raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
                               limit=current().text, needed=len(text))
-    chosen = notation_called(notation) if notation else recognised(text)
-    draft = Draft(text, chosen.name, chosen.turtle)
-    for number, (start, end) in enumerate(chosen.statements(text)):
-        if number >= 2 * current().rules:
-            raise ModelLimitError(f"The model has more than {2 * current().rules:,} lines that say something",
-                                  limit=2 * current().rules, source=text, start=start)
-        kind, record = parse(chosen, "statement", text, start, end)
+    if notation:
+        return _read_in(notation_called(notation), text)
+    chosen = recognised(text)
+    try:
+        system = _read_in(chosen, text)
+    except LSystemError as error:
+        other = next((other.name for other in _others(chosen, text) if _reads(other, text)), None)
+        if other:
+            error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
+        raise
+    return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
+
+
+def _others(chosen: Notation, text: str) -> Iterator[Notation]:
+    """The other notations of which a text shows a mark, if it is short enough to be read again."""
+    if len(text) <= current().expression:
+        yield from (notation for notation in NOTATIONS.values() if notation is not chosen and notation.likely(text) > 0)
+
+
+def _reads(notation: Notation, text: str) -> bool:
+    """Whether a text makes sense in a notation."""
+    try:
+        _read_in(notation, text)
+    except LSystemError:
+        return False
+    return True
+
+
+def _read_in(notation: Notation, text: str) -> LSystem:
+    """Read a system in a notation."""
+    draft = Draft(text, notation.name, notation.turtle)
+    for start, end in _bounded(notation.statements(text), text):
+        kind, record = parse(notation, "statement", text, start, end)
         draft.add(kind, record, (start, end))
-    system = chosen.finish(draft)
+    system = notation.finish(draft)
     check_decomposition(system)
     return replace(system, notes=(*system.notes, *idle(system)))
+
+
+def _bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int, int]]:
+    """The statements, if they are neither too many nor together too long."""
+    lines, most = 2 * current().rules, max(current().line, PER_RULE * current().rules)
+    found = [*islice(statements, lines + 1)]
+    if len(found) > lines:
+        raise ModelLimitError(f"The model has more than {lines:,} lines that say something", limit=lines, source=text,
+                              start=found[-1][0])
+    said = 0
+    for start, end in found:
+        said += len("".join(text[start:end].split()))
+        if said > most:
+            raise ModelLimitError(f"The model has more than {most:,} characters, without blanks and comments", limit=most,
+                                  source=text, start=start)
+    return found
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:

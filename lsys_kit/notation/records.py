@@ -19,7 +19,10 @@ from lsys_kit.notation.checks import suggestion
 from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, Place
 from lsys_kit.notation.model import Constant, MetaRule, Module, Production, Repeat
 
-_SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*"}
+_SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
+              "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}
+_LEFT = "\u20d6"
+"""An arrow to the left, over the letter before it."""
 
 
 class Misread(Exception):
@@ -32,13 +35,26 @@ class Misread(Exception):
 
 def _around(*parts: Any) -> Place:
     """The offsets from the first to the last of some tokens or records."""
-    starts, ends = zip(*((p.start_pos, p.end_pos) if isinstance(p, Token) else p.at for p in parts), strict=True)
-    return starts[0], ends[-1]
+    first, last = parts[0], parts[-1]
+    start: int = first.start_pos if isinstance(first, Token) else first.at[0]  # type: ignore[assignment]
+    end: int = last.end_pos if isinstance(last, Token) else last.at[1]  # type: ignore[assignment]
+    return start, end
 
 
 def _check_name(token: Token) -> None:
     if len(token) > current().name:
         raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", _around(token))
+
+
+def _symbol(token: Token) -> str:
+    """A symbol as the kit spells it: with an arrow over it in print, the letter and where the arrow points, L_r or L_l."""
+    _check_name(token)
+    if token.type != "PRINTED":
+        return _SPELLINGS.get(token, str(token))
+    letters = re.sub(r"^\\[a-z]+|\W", "", token)
+    if token[0] != "\\" and token[-1] == "}":
+        return letters
+    return letters + ("_l" if token[-1] == _LEFT or token.startswith("\\overleft") else "_r")
 
 
 def _number(token: Token) -> Number:
@@ -104,10 +120,11 @@ class Expressions(Transformer[Any, Any]):
 class Statements(Transformer[Any, Any]):
     """What the grammars of the notations name."""
 
-    def module(self, symbol: Token, *arguments: Expression) -> Module:
-        _check_name(symbol)
+    def module(self, symbol: Token, *arguments: Any) -> Module:
         at = _around(symbol, *arguments)
-        return Module(_SPELLINGS.get(symbol, str(symbol)), arguments, at)
+        if symbol.type == "TIMED":
+            symbol, arguments = arguments[0], arguments[1:]
+        return Module(_symbol(symbol), arguments, at)
 
     def word(self, *modules: Module) -> tuple[Module, ...]:
         return modules
@@ -149,16 +166,24 @@ class Statements(Transformer[Any, Any]):
         return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _named(part)))
 
     def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
-        for name in names:
-            _check_name(name)
-            if name in "[]":
-                raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(name),
-                              "Contexts follow the branches in any case.")
-        return (keyword.rstrip(": \t").lower(),
-                tuple(dict.fromkeys(_SPELLINGS.get(name, str(name)) for name in names)))
+        bracket = next((name for name in names if name in "[]"), None)
+        if bracket is not None:
+            raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
+                          "Contexts follow the branches in any case.")
+        return keyword.rstrip(": \t").lower(), tuple(dict.fromkeys(map(_symbol, names)))
 
     def axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, tuple[Module, ...]]:
         return "axiom", word
+
+    def plain_axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, Any]:
+        return "more", ("axiom", word)
+
+    def delta(self, _: Token, value: Expression, *sign: Token) -> tuple[str, Any]:
+        return "more", ("angle", value)
+
+    def vocabulary(self, _: Token, *letters: Token) -> tuple[str, tuple[str, ...]]:
+        """Only names of several letters might be mistaken."""
+        return "alphabet", tuple(letter for letter in map(_symbol, letters) if letter[0].isalpha() and len(letter) > 1)
 
     def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:
         ends = [part for part in rest if not isinstance(part, Token)]
@@ -178,3 +203,12 @@ class Statements(Transformer[Any, Any]):
 
     def section(self, keyword: Token) -> tuple[str, str]:
         return "section", keyword.rstrip(": \t").lower()
+
+    def heading(self, _: Token) -> tuple[str, Any]:
+        return "more", ("heading", None)
+
+    def how_many(self, _: Token, number: Token) -> tuple[str, Any]:
+        return "more", ("how many", _number(number))
+
+    def stage(self, _: Token, word: tuple[Module, ...]) -> tuple[str, Any]:
+        return "more", ("stage", word)

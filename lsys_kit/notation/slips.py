@@ -20,13 +20,15 @@ from lsys_kit.notation.stumble import Stumble, outside, possible, printed, quote
 from lsys_kit.notation.tradition import Notation, Question
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
-            "meta", "productions", "decomposition", "interpretation")
+            "meta", "productions", "decomposition", "decomposition depth", "interpretation")
 _ALSO = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books say for a keyword."""
 _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
 """The characters beyond ASCII that the grammars know."""
 _A_VALUE = frozenset(("NUMBER", "LPAR"))
 _AN_ARROW = "This is no arrow"
+_TURTLES = 'Turtles are "abop", "grogra" and "plant-string".'
+_BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
 _REPEAT = 'What is repeated reads "repeat(3) <F>", or, with a name that counts from 0, "repeat(3, i) <F(i)>".'
 _BEFORE_ARROW, _NO_ARROW = rf"(?=.*(?:{ARROW.pattern}))", rf"(?!.*(?:{ARROW.pattern}))"
 
@@ -39,6 +41,7 @@ SPELT: Sequence[tuple[str, str, str]] = (
     (r"\band\b|&", "This joins no conditions", '"And" is typed "&&".'),
     (r"\bor\b|\|", "This joins no conditions", '"Or" is typed "||".'),
     (r"\bnot\s+", "This denies no condition", '"Not" is typed "!", as in "!(t < 5)".'),
+    (r"[‐‑‒–—―]+", "This dash is no minus sign", 'A minus sign is typed "-".'),
     (r"\*\*", "This is no operator", 'A power is typed "t^2".'),
     (r"\d,\d", "A number is typed with a point", 'Type "1.4", not "1,4".'),
     (r"\d\.(?![\d.])", "This number is not finished", 'Type "1" or "1.0".'),
@@ -116,7 +119,7 @@ def _arrows(stumble: Stumble) -> ModelSyntaxError | None:
 
 def _keyword(stumble: Stumble) -> ModelSyntaxError | None:
     statement = stumble.text[stumble.start:stumble.end]
-    word = re.match(r"([A-Za-z_]+)([ \t]*:(?!=)(?!.*[<>=]))?", statement)
+    word = re.match(r"([A-Za-z_]+(?:[ \t]+depth)?)([ \t]*:(?!=)(?!.*[<>=]))?", statement)
     if not word or ARROW.search(statement):
         return None
     name, rest = word[1].lower(), statement[word.end():].strip()
@@ -129,8 +132,35 @@ def _keyword(stumble: Stumble) -> ModelSyntaxError | None:
     elif word[2] and not meant and rest[0].isdigit():
         said = f'I do not know "{word[1]}:"', f'A constant is declared with "=", as in "{word[1]} = {printed(rest)}".'
     elif not word[2] and meant == name and rest[:1] not in ("(", "="):
-        said = f'A ":" is missing behind "{word[1]}"', f'Type "{name}: {printed(rest)}".'
+        return without_colon(stumble.source, stumble.start, word[1], rest)
     return stumble.error(*said, stumble.start, len(word[1])) if said else None
+
+
+def _turtle(stumble: Stumble) -> ModelSyntaxError | None:
+    """Whose turtle it is: nobody's that is known."""
+    if "TRADITION" not in stumble.accepted:
+        return None
+    if not stumble.found:
+        return stumble.error('Nothing stands behind "turtle:"', _TURTLES, stumble.start, 6)
+    found = re.match(r"[\w-]+|.", stumble.after)
+    return stumble.error(f"I do not know the turtle {quoted(found[0] if found else stumble.found)}", _TURTLES)
+
+
+def _braces(stumble: Stumble) -> ModelSyntaxError | None:
+    """A brace of the mathematical form that is not closed, or a comma that is missing between two."""
+    statement = stumble.text[stumble.start:stumble.end]
+    opened = unclosed(statement, "{}") if _BRACED.search(statement) else None
+    if opened is not None:
+        return stumble.error('This "{" is never closed', 'Every "{" needs a "}" behind it.', stumble.start + opened, 1)
+    if {"COMMA", "RBRACE"} <= stumble.accepted:
+        return stumble.error('A "," is missing here', 'The letters of an alphabet are parted by commas, as in "V = {A, B}".')
+    return None
+
+
+def without_colon(source: str, start: int, word: str, rest: str) -> ModelSyntaxError:
+    """What is wrong where a keyword stands at an offset without its colon."""
+    return ModelSyntaxError(f'A ":" is missing behind "{word}"', source, start, start + len(word),
+                            f'Type "{word.lower()}: {printed(rest.strip())}".')
 
 
 def _repetition(stumble: Stumble) -> ModelSyntaxError | None:
@@ -217,6 +247,6 @@ def _anything_else(stumble: Stumble) -> ModelSyntaxError:
 
 
 QUESTIONS: Sequence[Question] = (
-    _comment, _repetition, _keyword, _parentheses, _arrows, _spelt_otherwise, _unreadable, before_arrow, _comparison,
-    _in_a_word, _equals, _value, _constant)
+    _comment, _repetition, _turtle, _keyword, _braces, _parentheses, _arrows, _spelt_otherwise, _unreadable, before_arrow,
+    _comparison, _in_a_word, _equals, _value, _constant)
 """What is asked about a slip in the kit's own notation and in plant strings, the most telling first."""

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from lsys_kit.errors import ModelSyntaxError
 
-ARROW = re.compile(r"-->|->|→|⟶")
-_STARTS = re.compile(rf"{ARROW.pattern}|^\s*[A-Za-z_]\w*\s*=(?!=)|^\s*[A-Za-zωδ]+\s*:(?!.*[<>=])")
+ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
+_STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
 _GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
 
 

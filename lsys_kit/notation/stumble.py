@@ -12,7 +12,7 @@ from lsys_kit.notation.statements import ARROW, without_comments
 
 _WORDS = {
     "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',
-    "COMMA": '","', "COLON": '":"', "RELATION": "a comparison", "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
+    "COMMA": '","', "COLON": '":"', "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
 }
 
 
@@ -59,7 +59,8 @@ def stumbled(slip: UnexpectedInput, source: str, start: int, end: int) -> Stumbl
     """What a parser says of the statement between two offsets, as a stumble."""
     at, found = _found(slip, source, start, end)
     parser = getattr(slip, "interactive_parser", None)
-    return Stumble(without_comments(source), source, start, end, at, found, frozenset(parser.accepts() if parser else ()))
+    accepted = frozenset(kind.split("__")[-1] for kind in parser.accepts()) if parser else frozenset()
+    return Stumble(without_comments(source), source, start, end, at, found, accepted)
 
 
 def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[int, str]:
@@ -70,7 +71,7 @@ def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[in
         at, found = slip.pos_in_stream or 0, slip.char
     else:
         return end, ""
-    for arrow in ARROW.finditer(source, max(start, at - 2), min(end, at + 3)):
+    for arrow in ARROW.finditer(source, max(start, at - 2), min(end, at + 16)):
         if arrow.start() <= at < arrow.end():
             return arrow.start(), arrow.group()
     return at, found

@@ -414,7 +414,7 @@ def test_a_message_names_what_cannot_be_printed() -> None:
         assert all(part.isprintable() for part in str(slip(text)).split("\n"))
 
 
-@pytest.mark.parametrize("notation", ["cpfg", "ABOP", "", "plant"])
+@pytest.mark.parametrize("notation", ["lpfg", "ABOP", "", "plant"])
 def test_an_unknown_notation_is_named(notation: str) -> None:
     if not notation:
         assert str(read("axiom: A", notation)) == "axiom: A"

@@ -58,8 +58,8 @@ def test_round_branches_are_for_plant_strings() -> None:
 
 
 def test_an_unknown_notation_is_named() -> None:
-    with pytest.raises(ModelNameError, match='There is no notation called "cpfg"'):
-        write(read("axiom: A"), "cpfg")
+    with pytest.raises(ModelNameError, match='There is no notation called "lpfg"'):
+        write(read("axiom: A"), "lpfg")
 
 
 def test_names_are_kept_apart_and_nothing_else() -> None:
