@@ -19,23 +19,45 @@ def _kind(module: Module) -> _Kind:
 
 
 def idle(system: LSystem) -> list[str]:
-    """A note for each production that can never match, because a module that it asks for never occurs.
+    """A note for each production that is never applied, for want of its modules or because another is always applied first.
 
     >>> from lsys_kit.notation.read import read
     >>> idle(read("axiom: M(1)\\nM(t,p) -> M(t+p)"))
     ['The production M(t,p) can never match: no module M with 2 parameters occurs.']
+    >>> idle(read("axiom: A\\nA -> B\\nA -> C"))
+    ['Production 2, for A, is never applied: production 1 comes before it and matches every A.']
     """
+    return [*_unmatched(system), *_overtaken(system.productions, system, "production"),
+            *_overtaken(system.decomposition, system, "decomposition rule")]
+
+
+def _unmatched(system: LSystem) -> Iterator[str]:
+    """A note for each production that can never match, because a module that it asks for never occurs."""
     rules = *system.productions, *system.decomposition
     successors = [*(rule.successor for rule in rules), *(rule.successor for rule in system.meta)]
     occurring = {_kind(module) for word in (system.axiom, *successors) for module in flat(word)}
     symbols = {symbol for symbol, _ in occurring}
-    notes = []
     for rule in rules:
         asked = rule.predecessor, *rule.left, *rule.right
         missing = next((module for module in asked if _kind(module) not in occurring and module.symbol != END), None)
         if missing is not None:
-            notes.append(f"The production {_head(rule)} can never match: no module {_described(missing, symbols)} occurs.")
-    return notes
+            yield f"The production {_head(rule)} can never match: no module {_described(missing, symbols)} occurs."
+
+
+def _overtaken(rules: Iterable[Production], system: LSystem, called: str) -> Iterator[str]:
+    """A note for each rule before which another always comes; none where chance is asked first."""
+    constants = {constant.name for constant in system.constants}
+    sure: dict[_Kind, int] = {}
+    chance: set[_Kind] = set()
+    for number, rule in enumerate(rules, 1):
+        kind = _kind(rule.predecessor)
+        if kind in sure:
+            yield (f"{called.capitalize()} {number}, for {_head(rule)}, is never applied: {called} {sure[kind]} comes before "
+                   f"it and matches every {rule.predecessor}.")
+        elif rule.probability is not None:
+            chance.add(kind)
+        elif kind not in chance and not rule.left and not rule.right and _always(rule, constants):
+            sure[kind] = number
 
 
 def _head(rule: Production) -> str:

@@ -45,6 +45,32 @@ def test_what_may_match_is_not_told(rules: str) -> None:
     assert read(f"axiom: A\n{rules}").notes == ()
 
 
+@pytest.mark.parametrize(("rules", "note"), [
+    ("A -> B\nA -> C", "Production 2, for A, is never applied: production 1 comes before it and matches every A."),
+    ("B(t) : t > 2 -> A\nB(t) -> A\nB(1) -> C\nA -> B(1)",
+     "Production 3, for B(1), is never applied: production 2 comes before it and matches every B(1)."),
+    ("A -> B\nB < A > B : 1 < 2 -> C\nB -> A",
+     "Production 2, for B < A > B, is never applied: production 1 comes before it and matches every A."),
+    ("A -> B\nA -> C : 1/2", "Production 2, for A, is never applied: production 1 comes before it and matches every A."),
+    ("decomposition:\nA -> B\nA -> C",
+     "Decomposition rule 2, for A, is never applied: decomposition rule 1 comes before it and matches every A."),
+])
+def test_a_production_that_another_always_precedes_is_told(rules: str, note: str) -> None:
+    assert read(f"axiom: A\n{rules}").notes == (note,)
+
+
+@pytest.mark.parametrize("rules", [
+    "A : 1 < 2 -> B\nA -> C", "B < A -> B\nA -> C\nB -> A", "A > B -> B\nA -> C\nB -> A", "A -> B : 1/2\nA -> C : 1/2",
+    "A -> B(1)\nB(1) -> A\nB(t) -> C", "A -> B(1)\nB(k) -> A\nB(t) -> C", "A -> B\nB -> A\ndecomposition:\nB -> C",
+    "A -> B(1)\nB(t) -> B\nB -> A"])
+def test_productions_that_have_their_turn_are_not_told(rules: str) -> None:
+    assert read(f"k = 1\naxiom: A\n{rules}").notes == ()
+
+
+def test_no_certain_production_is_told_behind_chance() -> None:
+    assert read("axiom: A\nA -> B : 1/2\nA -> C\nA -> D").notes == ()
+
+
 @pytest.mark.parametrize("rules", ["A -> A", "A -> B\nB -> C\nC -> x A", "A -> repeat(1) <A>", "A(t) -> A(t-1)", "A -> [A]"])
 def test_endless_decomposition_is_told_before_it_runs(rules: str) -> None:
     with pytest.raises(ModelValueError, match=r"Rule A decomposes into itself: A -> .* It can never finish"):
