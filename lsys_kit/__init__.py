@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.catalogue import system, systems
     from lsys_kit.classroom.exercises import check
     from lsys_kit.classroom.explorer import explore
+    from lsys_kit.derivation.continuity import continuity
     from lsys_kit.derivation.derive import derive
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth import growth
@@ -41,8 +42,9 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
-    "ModelSyntaxError": "errors", "ModelValueError": "errors", "check": "classroom.exercises", "derive": "derivation.derive",
-    "draw": "pictures.draw", "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
+    "ModelSyntaxError": "errors", "ModelValueError": "errors", "check": "classroom.exercises",
+    "continuity": "derivation.continuity", "derive": "derivation.derive", "draw": "pictures.draw",
+    "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth", "limits": "budget", "read": "notation.read", "stages": "derivation.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",
 }
@@ -55,6 +57,7 @@ __all__ = [
     "ModelSyntaxError",
     "ModelValueError",
     "check",
+    "continuity",
     "derive",
     "draw",
     "explain",
