@@ -82,3 +82,10 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return __all__
+
+
+def load_ipython_extension(shell: Any) -> None:
+    """What `%load_ext lsys_kit` does in a notebook: cells may begin with `%%lsystem NAME` and hold a model."""
+    from lsys_kit.classroom.magic import load
+
+    load(shell)

@@ -1,0 +1,183 @@
+"""`%%lsystem NAME`: a cell whose text is a model, which is read and shown; or its mistake, underlined where it stands.
+
+Nothing in such a cell is run as code: its text is for the kit's grammars alone, and its first line is no place for `{...}` or
+`$...`, which other magics fill in by running them.
+"""
+
+from __future__ import annotations
+
+import builtins
+import re
+import unicodedata
+from html import escape
+from keyword import iskeyword
+from typing import Any
+
+import lsys_kit
+from lsys_kit.classroom.typeset import boxed, shown
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, printable
+from lsys_kit.notation.checks import suggestion
+from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.read import read
+from lsys_kit.notation.registry import NOTATIONS, notation_called
+from lsys_kit.notation.stumble import printed
+from lsys_kit.pictures.palette import INK, MARK, PAPER, QUIET, VERMILION
+
+AROUND, WIDTH = 8, 100
+"""How many lines before and behind a mistake are shown, and how many characters of them."""
+
+
+def load(shell: Any) -> None:
+    """Make `%%lsystem` known to a notebook, and have it show every system as that does.
+
+    Parameters
+    ----------
+    shell
+        IPython's shell, as `%load_ext` gives it.
+    """
+    from IPython.core.magic import no_var_expand
+
+    def lsystem(line: str, cell: str) -> None:
+        """Define an L-system from the text in the cell, and show it.
+
+        `%%lsystem NAME` gives it a name, `%%lsystem NAME NOTATION` says in which notation it is written, `%%lsystem` alone
+        shows it only:
+
+            %%lsystem koch
+            angle: 60
+            axiom: F--F--F
+            F -> F+F--F+F
+        """
+        shell.display_pub.publish(_answered(shell, line, cell))
+
+    shell.register_magic_function(no_var_expand(lsystem), "cell")
+    shell.display_formatter.mimebundle_formatter.for_type(LSystem, shown)
+
+
+def _answered(shell: Any, line: str, cell: str) -> dict[str, str]:
+    """What a cell shows: its system, which has its name from then on; or its mistake."""
+    head, name = f"%%lsystem {line}", ""
+    try:
+        name, notation = _asked(head, shell)
+        system = read(f"\n{cell.rstrip()}", notation or None)  # the first line of the cell counts, as in its editor
+    except LSystemError as mistake:
+        return underlined(mistake, f"{head}\n{cell.rstrip()}", _standing(name, shell))
+    notes = _shadowed(name, shell)
+    if name:
+        shell.push({name: system})
+    return shown(system, name, notes)
+
+
+def _asked(head: str, shell: Any) -> tuple[str, str]:
+    """The name and the notation that the first line of a cell asks for; empty where it asks for none."""
+    words = [(match.group(), match.span()) for match in re.finditer(r"\S+", head)][1:]
+    if len(words) > 2:
+        raise ModelSyntaxError("Only a name and a notation can stand here", head, words[2][1][0], words[-1][1][1],
+                               'Write "%%lsystem NAME" or "%%lsystem NAME NOTATION".')
+    for word, at in words[:1]:
+        wrong = _unfit(word, shell)
+        if wrong:
+            raise ModelNameError(wrong[0], head, *at, wrong[1])
+    for word, at in words[1:]:
+        try:
+            notation_called(printed(word))
+        except ModelNameError as unknown:
+            raise ModelNameError(unknown.message, head, *at, suggestion(word[:20], NOTATIONS) or unknown.hint) from None
+    name, notation = ([word for word, _ in words] + ["", ""])[:2]
+    return unicodedata.normalize("NFKC", name), notation  # as Python reads names
+
+
+def _unfit(name: str, shell: Any) -> tuple[str, str] | None:
+    """Why something cannot be the name of a system, and what to do; or None."""
+    quoted, another = f'"{printed(name)}"', "Take another name."
+    plain = unicodedata.normalize("NFKC", name)
+    if name in NOTATIONS:
+        return f"{quoted} is a notation, and no name", f'Put a name before it, as in "%%lsystem plant {name}".'
+    if not plain.isidentifier() or len(plain) > 64:
+        return f"{quoted} cannot be a name", "A name is made of letters, digits and _, and begins with a letter."
+    if iskeyword(plain):
+        return f"{quoted} is a word of Python's own", another
+    if plain in lsys_kit.__all__:
+        return f"{quoted} is a name of the kit's own", another
+    if plain.startswith("_") or (plain in shell.user_ns_hidden and shell.user_ns_hidden[plain] is shell.user_ns.get(plain)):
+        return f"{quoted} is a name of the notebook's own", another
+    return None
+
+
+def _shadowed(name: str, shell: Any) -> list[str]:
+    """What to tell where a name meant something else before."""
+    if name in shell.user_ns:
+        return [] if isinstance(shell.user_ns[name], LSystem) else [
+            f'"{name}" meant something else in this notebook. From now on it is this system.']
+    return [f'"{name}" is a name of Python\'s too. In this notebook it is this system from now on.'] \
+        if hasattr(builtins, name) else []
+
+
+def _standing(name: str, shell: Any) -> str:
+    """What a name means after a text that could not be read."""
+    if not name:
+        return ""
+    if isinstance(shell.user_ns.get(name), LSystem):
+        return f'"{name}" is still the system that was read before.'
+    return f'There is no system "{name}" yet.'
+
+
+def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, str]:
+    """A mistake as a notebook shows it: what is wrong, the text with the wrong stretch underlined, what to try.
+
+    Parameters
+    ----------
+    mistake
+        The mistake.
+    text
+        The whole text, with the lines that the mistake counts.
+    after
+        What else to tell, whole sentences.
+
+    Returns
+    -------
+    dict
+        Its HTML and its plain text, by their kinds.
+
+    Examples
+    --------
+    >>> mistake = LSystemError("Here is no arrow", "A B", 2, 3, "Type one.")
+    >>> print(underlined(mistake, "A B")["text/plain"])
+    Not readable yet. Here is no arrow (line 1, column 3). Type one.
+      A B
+        ^
+    """
+    said = str(mistake).partition("\n")[0]
+    html = (f'<span aria-hidden="true">&#9888;</span> <b>Not readable yet.</b> {escape(said)}'
+            f"{_quotation(mistake, text)}{escape(after)}")
+    return {"text/html": boxed("lsys-mistake", "alert", VERMILION, html),
+            "text/plain": f"Not readable yet. {mistake}" + (f"\n{after}" if after else "")}
+
+
+def _quotation(mistake: LSystemError, text: str) -> str:
+    """The lines around a mistake, with their numbers."""
+    if mistake.line is None:
+        return "<br>"
+    lines = text.split("\n")
+    first, last = max(0, mistake.line - 1 - AROUND), min(len(lines), mistake.line + AROUND)
+    digits = len(str(last))
+    quoted = (f'<span style="color:{QUIET};user-select:none">{number + 1:>{digits}}  </span>'
+              + (_marked(lines[number], mistake) if number + 1 == mistake.line else _clean(lines[number][:WIDTH]))
+              for number in range(first, last))
+    return f'<pre style="margin:6px 0;color:{INK};background:{PAPER};overflow-x:auto">' + "\n".join(quoted) + "</pre>"
+
+
+def _marked(line: str, mistake: LSystemError) -> str:
+    """The line of a mistake, with the wrong stretch underlined; of a long line what stands around it."""
+    assert mistake.column is not None
+    assert mistake.end is not None
+    start, end = mistake.column - 1, min(mistake.end - 1, mistake.column - 1 + WIDTH)
+    first = max(0, start - WIDTH // 2)
+    look = f"background:{MARK};font-weight:bold;text-decoration:underline wavy {VERMILION} 2px;text-underline-offset:3px"
+    return (_clean(line[first:start]) + f'<u style="{look}">{_clean(line[start:end]) or "&nbsp;"}</u>'
+            + _clean(line[end:first + 2 * WIDTH]))
+
+
+def _clean(text: str) -> str:
+    """A piece of a text as it may stand in a page."""
+    return escape("".join(map(printable, text)))
