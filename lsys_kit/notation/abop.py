@@ -30,6 +30,7 @@ _LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
 _SET = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")
 _IN_A_SET = re.compile(rf"^[ \t]*{_SET.pattern}", re.MULTILINE)
 _COMPARED = re.compile(r"[<>=!]=|&&|\|\||[≤≥≠∧∨]|\\[lgn]eq?\b")
+_TWO_NAMES = re.compile(r"\s*(?!not\b)[A-Za-z_]\w*\s+(?!and\b|or\b)[A-Za-z_]")
 _PARTED = re.compile(r"[()\[\]{},]")
 _MARKS = tuple(re.compile(pattern, re.MULTILINE) for pattern in (
     rf"^[ \t]*{_LABEL.pattern}", r"\\omega|ω", r"\\delta|δ", r"\\(vec|over(right|left)arrow)\b|[\u20d6\u20d7]",
@@ -61,13 +62,14 @@ def _labels(rest: str, used: bool) -> bool:
     """Whether a name with a colon behind it labels a production: then it stands for no module that has a condition."""
     arrow = ARROW.search(rest)
     head = rest[:arrow.start()] if arrow else ""
+    bare = outside(head)
+    if ":" in bare or _TWO_NAMES.match(bare):
+        return True
     if head.strip() in ("", "*") or _COMPARED.search(head) or re.search(r"\([^()]*[<>]", head):
         return False
-    bare = outside(head)
-    if ":" in bare or not re.search("[<>]", bare):
-        return True
     sides = re.split("[<>]", bare)
-    return not any(re.search(r"(?<![\w.])[\d.]", side) for side in sides) and not (used and all(map(str.strip, sides)))
+    numbers = any(re.search(r"(?<![\w.])[\d.]", side) for side in sides)
+    return len(sides) == 1 or not (numbers or (used and all(map(str.strip, sides))))
 
 
 def _members(plain: str, source: str) -> Iterator[tuple[int, int]]:
@@ -75,7 +77,7 @@ def _members(plain: str, source: str) -> Iterator[tuple[int, int]]:
     opened, first, depth = None, 0, 0
     for start, end in statements(source):
         if opened is None:
-            opened = _SET.match(plain, start, end)
+            opened = _SET.match(plain, start)
             first, depth = start, 0
         if opened is None:
             yield start, end

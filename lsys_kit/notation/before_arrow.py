@@ -16,7 +16,7 @@ PRODUCTION = 'A production reads "A -> B": what is replaced, an arrow, what repl
 _NOT_IN_STRINGS = {"(": "values", ":": "conditions", "<": "contexts", ">": "contexts"}
 _OPERATORS = frozenset(("TIMES", "SIGN", "POWER"))
 _SIDES = 'A left context ends with "<", a right context begins with ">", as in "A < B > C -> D".'
-_CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠])\s*(\w+|\S?)")
+_CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠]|\\[lgn]eq?)\s*(\w+|\S?)")
 _COLON = 'A ":" is missing before the condition', 'A condition stands between ":" and the arrow, as in "A(t) : t < 5 -> B".'
 
 
@@ -32,12 +32,18 @@ def before_arrow(stumble: Stumble) -> ModelSyntaxError | None:
         return None
     if stumble.accepted == {"ARROW"} and stumble.found in _NOT_IN_STRINGS:
         return stumble.error(f"A plant string has no {_NOT_IN_STRINGS[stumble.found]}", PRODUCTION)
+    if stumble.found == "ε":
+        return stumble.error('This "ε" ends no branch', 'It stands before the "]" of a branch in a right context, as in '
+                             '"A > [B ε]C -> D".')
     return _condition(stumble, head) or _context(stumble) or _several(stumble, head)
 
 
 def _missing_arrow(stumble: Stumble) -> ModelSyntaxError | None:
     if not {"ARROW", "LESSTHAN"} & stumble.accepted or stumble.found.startswith("="):
         return None
+    garbled = re.compile(r"\.{2,}|[•…⋯]+").search(stumble.text, stumble.start, stumble.end)
+    if garbled:
+        return stumble.error("This is no arrow", 'An arrow is typed "->", in one piece.', garbled.start(), len(garbled.group()))
     at = _behind_first(stumble) if stumble.accepted == {"LESSTHAN"} else stumble.at
     return stumble.error("An arrow is missing here", PRODUCTION, at)
 

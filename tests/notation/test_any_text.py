@@ -69,13 +69,20 @@ PIECES = [
     "axiom:", "angle:", "steps:", "alphabet:", "interpretation:",
     "decomposition:", "meta:", "ignore:", "depth:", "repeat(2, i) <", "repeat(", "uniform(", "> ",
     "\n", " ", "  ", "\t", "\r", "\x00", "\ufeff", "\u202e",
-    "\ud800", "Ф",
+    "\ud800", "Ф", "p_1:", "V = {", "P = {", "ω =", "\\omega:", "δ =", "°", "::=", "\\vec{", "\\overleftarrow{A}", "A\u20d7",
+    "_{r}", "\\rightarrow", "\\xrightarrow{", "\\geq", "(A, 0)", "@o", "@Ts", "?P", "turtle:", "seed:",
+    "Number of productions:",
 ]
 MODELS = [
     "dt = 0.7 in 0.1 .. 2 by 0.1\naxiom: A(0)\nA(t) : t+dt >= 1 && !(t > 3) -> [+A(t+dt-1)]B(sqrt(t)^2)\nA(t) -> A(t+dt)",
     "angle: 25.7\nsteps: 4\naxiom: F\nF -> F[+F]F[-F]F /* a plant */",
     "ignore: + -\naxiom: A B\nA < B > [C]A : 1 < 2 -> repeat(2, i) <F(uniform(0, i))> A : 1/3\nB -> C\nmeta: F F -> F",
     "axiom: ar\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al\ninterpretation:\nar -> R(2,1)",
+    "V = {\\vec{A}, b_r}\nω = \\vec{A}\np_1 : \\vec{A} \\rightarrow A\u20d6 b_{r},\n"
+    "p_2 : A\u20d6 > b_r \\rightarrow ,\nδ = 60°\nd = 2",
+    "P = {F ::= F+F--F+F, f ::= f}\naxiom F\nG(t) : t \\geq 1 \\xrightarrow{0.5} F@o",
+    "ω : (a, 0)\np_1 : (a, 1) → (a, 0)(b, 0)\np_2 : b < a > [b ε] → ?P",
+    "Number of productions: 1\nI -> I[A](I)\nStage 0 string: I",
 ]
 
 
