@@ -1,0 +1,232 @@
+"""cpfg's notation: what its texts say, and that a system written in it reads back as the same."""
+
+from __future__ import annotations
+
+import tomllib
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lsys_kit.classroom.catalogue import system as catalogued
+from lsys_kit.derivation.derive import derive
+from lsys_kit.derivation.interpret import images
+from lsys_kit.notation.cpfg import CPFG
+from lsys_kit.notation.model import Production
+from lsys_kit.notation.read import read, read_word
+from lsys_kit.notation.write import write
+
+LISTINGS = Path(__file__).parents[1] / "listings"
+TABLE = tomllib.loads((LISTINGS / "listings.toml").read_text(encoding="utf-8"))["listing"]
+PRINTED = {listing["system"]: listing for listing in TABLE if listing["notation"] == "cpfg"}
+
+
+def rule(text: str) -> Production:
+    """The first rule of a system with a constant."""
+    return read(f"#define k 3\nAxiom: A\n{text}", "cpfg").rules[0]
+
+
+def abop(text: str) -> Production:
+    return read(f"k = 3\naxiom: A\n{text}").productions[0]
+
+
+# The listings of seed 002
+
+def listing(id: str) -> str:
+    """A listing with its corrections."""
+    text = (LISTINGS / PRINTED[id]["file"]).read_text(encoding="utf-8")
+    for correction in PRINTED[id]["corrections"]:
+        assert text.count(correction["printed"]) == 1
+        text = text.replace(correction["printed"], correction["corrected"])
+    return text
+
+
+def cells(id: str, word: Any) -> str:
+    """A word as the table spells the words of a system."""
+    polarity = {-1: "L", 1: "R"}
+    if id == "P4":
+        return "".join(f"M({m.arguments[0]},{polarity[m.arguments[1]]})" for m in word)
+    if id == "P9":
+        return " ".join(m.symbol + f"{float(m.arguments[0]):g}" for m in word)
+    texts = [f"{round(float(m.arguments[0]), 4):g}{polarity[m.arguments[1]]}" for m in word]
+    return " ".join(texts)
+
+
+@pytest.mark.parametrize("id", PRINTED)
+def test_the_listings_of_the_seed_derive_what_their_authors_print(id: str) -> None:
+    system = read(listing(id))
+    assert system == read(listing(id), "cpfg")
+    assert read(listing(id), "cpfg").notes == ()
+    for step, word in PRINTED[id]["expected"]:
+        expected = word.strip("{}").replace(" .", " 0.").replace("W.", "W0.").replace("M.", "M0.").replace("M1.0", "M1")
+        expected = "0" + expected if expected.startswith(".") else expected
+        assert cells(id, derive(system, step)[-1]) == expected
+    counts = PRINTED[id].get("counts", [])
+    assert derive(system, max(0, len(counts) - 1)).lengths[:len(counts)] == counts
+
+
+def test_a_filament_of_l_system_7_is_as_long_as_the_powers_of_its_growth() -> None:
+    derivation = derive(read(listing("P7")), 5)
+    for word, length in zip(derivation, PRINTED["P7"]["filament_lengths"], strict=True):
+        drawn = images(derivation.states, word.numbers())
+        assert sum(cell.arguments[0] for number in word.numbers() for cell in drawn[number]) == pytest.approx(length, rel=1e-4)
+
+
+def test_l_system_9_as_printed_says_that_its_cells_can_never_divide() -> None:
+    notes = read((LISTINGS / "002-L9.cpfg.txt").read_text(encoding="utf-8"), "cpfg").notes
+    assert notes == ("The production W(tl) < M(t,p) > W(tr) can never match: no module M with 2 parameters occurs.",) * 2
+
+
+@pytest.mark.parametrize("id", ["P4", "P5", "P6", "P7", "P8"])
+def test_a_listing_and_the_catalogue_have_the_same_words(id: str) -> None:
+    assert [str(word) for word in derive(read(listing(id)), 5)] == [str(word) for word in derive(catalogued(id), 5)]
+
+
+# What a text says
+
+FULL = """#define dt 0.7 /* 0.1 .. 2 by 0.1 */
+#define k (dt * 2)
+Lsystem: 1
+seed: 3
+derivation length: 9
+ignore: +-?P
+/* angle: 25.7 */
+/* heading: 0 */
+/* length: 5 */
+Axiom: A(0)F//F[+F]@o;(2)
+/ / < A(t) > [B=]F : t < 5 --> A(t + dt)
+A > [B]F[C[D=]] --> *
+B --> [+B]B : 40
+B --> B : 0.6
+decomposition
+maximum depth: 2
+M(t) --> I(t)I(t)
+homomorphism
+maximum depth: 3
+I(x) --> ;F(x)
+endlsystem"""
+
+
+def test_a_text_is_written_as_it_was_laid_out() -> None:
+    system = read(FULL)
+    assert (system.notation, system.seed, system.steps, system.angle, system.heading, system.length) == \
+        ("cpfg", 3, 9, Fraction(257, 10), 0, 5)
+    assert (system.decomposition_depth, system.depth, system.ignored) == (2, 3, ("+", "-", "?P"))
+    assert str(system) == FULL
+    assert read(str(system)) == system
+
+
+@pytest.mark.parametrize(("word", "symbols"), [
+    ("/////", "/ / / / /"), ("0F1", "0 F 1"), ("F(1)F", "F F"), ("@o@Ts@M(1,2,3)?P(0,0,0)", "@o @Ts @M ?P"),
+    (",;'#!", ", ; ' # !"), ("~H(1)|$%{.}\\^&", "~ H | $ % { . } \\ ^ &"), ("@T s", "@T s"), ("F [ +F ]\n  F", "F [ + F ] F"),
+])
+def test_every_character_is_a_symbol_but_for_those_of_two(word: str, symbols: str) -> None:
+    system = read(f"Lsystem: 1\nAxiom: {word}")
+    assert [module.symbol for module in system.axiom] == symbols.split()
+    assert read_word(CPFG.word(system.axiom), "cpfg") == read_word(word, "cpfg")
+
+
+def test_a_comment_stands_anywhere_and_rolls_stay_rolls() -> None:
+    text = """// a comment
+        Lsystem: 1
+        #define n 3   // how many
+        derivation length: n // as many
+        /* before
+           the axiom */ Axiom: F /* in a word */ F//F
+            // below, not in the word
+        F : 1 // always
+            --> F//F
+             //(90)F
+        endlsystem // the end"""
+    system = read(text)
+    assert (system.steps, len(system.axiom), len(system.productions), len(system.productions[0].successor)) == (3, 5, 1, 7)
+
+
+def test_prose_behind_a_successor_is_pointed_out() -> None:
+    system = read("Lsystem: 1\nAxiom: F\nF --> FF // doubles", "cpfg")
+    assert len(system.productions[0].successor) == 11
+    assert system.notes == ('"// doubles" is read as symbols, two rolls first; a comment stands between "/*" and "*/".',)
+
+
+def test_numbers_are_those_of_c() -> None:
+    assert [module.arguments for module in read_word("A(.5)B(5e-1)C(1.)D(1e1)E(-2^2)", "cpfg")] == \
+        [(Fraction(1, 2),), (Fraction(1, 2),), (1,), (10,), (4,)]
+
+
+@pytest.mark.parametrize(("cpfg", "kit"), [
+    ("x ? 1 : 2", "if(x != 0, 1, 2)"), ("x < 1 ? 1 : x < 2 ? 2 : 3", "if(x < 1, 1, if(x < 2, 2, 3))"),
+    ("(x < 5) * 2", "if(x < 5, 1, 0) * 2"), ("2^x^3", "(2^x)^3"), ("-x^2", "(-x)^2"), ("-(x^2)", "-(x^2)"),
+    ("fabs(x)", "abs(x)"), ("abs(x)", "abs(x)"), ("pow(x,2)", "x^2"), ("sin(x)", "sin(x)"), ("x % 3", "mod(x, 3)"),
+    ("ran(x)", "uniform(0, x)"), ("nran(1, x)", "normal(1, x)"), ("biran(x, 0.5)", "binomial(x, 0.5)"),
+    ("x + ran(5 - x)", "uniform(x, 5)"), ("x < 2 ? x : 2", "min(x, 2)"), ("x > 2 ? x : 2", "max(x, 2)"),
+    ("trunc(x)", "if(x < 0, ceil(x), floor(x))"), ("sign(x)", "if(x < 0, -1, if(x > 0, 1, 0))"),
+])
+def test_expressions_mean_what_they_mean_in_c(cpfg: str, kit: str) -> None:
+    assert rule(f"A(x) --> B({cpfg})") == abop(f"A(x) -> B({kit})")
+
+
+@pytest.mark.parametrize(("cpfg", "kit"), [
+    ("1", "*"), ("*", "*"), ("0.5", "*"), ("0", "0 != 0"), ("x", "x != 0"), ("!x", "!(x != 0)"), ("x <> 3", "x != 3"),
+    ("x && !(x > 5)", "x != 0 && !(x > 5)"), ("!x < 5", "if(!(x != 0), 1, 0) < 5"), ("x == 3 || x", "x == 3 || x != 0"),
+    ("x - k", "x - k != 0"),
+])
+def test_conditions_are_numbers_and_numbers_conditions(cpfg: str, kit: str) -> None:
+    assert rule(f"A(x) : {cpfg} --> B") == abop(f"A(x) : {kit} -> B")
+
+
+def test_angles_of_functions_are_in_degrees() -> None:
+    assert str(derive(read("Lsystem: 1\nAxiom: A(30)\nA(x) --> B(sin(x),cos(2*x),atan(1))"), 1)[-1]) == "B(0.5,0.5,45)"
+
+
+@pytest.mark.parametrize(("cpfg", "branch"), [
+    ("[B]", "[ B ε ]"), ("[B=]", "[ B ]"), ("[=]", "[ ]"), ("[]", "[ ε ]"), ("[B(x)[C=]]D", "[ B [ C ] ε ] D"),
+])
+def test_a_named_branch_is_a_whole_branch_unless_something_stands_for_the_rest(cpfg: str, branch: str) -> None:
+    assert [module.symbol for module in rule(f"A > {cpfg} --> E").right] == branch.split()
+
+
+def test_contexts_of_anything_are_no_contexts() -> None:
+    assert rule("* < A > * : * --> B") == rule("A --> B")
+    assert rule("* < A > B --> B") == rule("A > B --> B")
+
+
+@pytest.mark.parametrize(("blocks", "condition", "successor"), [
+    ("t > 1 {x = t - 1; y = x^2;}", "t > 1", "B(t - 1,(t - 1)^2)"),
+    ("{x = t + k; y = 1;} x > 5", "t + k > 5", "B(t + k,1)"),
+    ("{t = t * 2;} t > 1 {x = t; y = 1;}", "t * 2 > 1", "B(t * 2,1)"),
+    ("1 {if (t > 1) {x = 1;} else {x = 2;} y = x;}", "*", "B(if(t > 1, 1, 2),if(t > 1, 1, 2))"),
+    ("1 {x = t; if (t) x = 5; y = 0;}", "*", "B(if(t != 0, 5, t),0)"),
+    ("1 {if (t > 1) {x = 1; y = 1;} else if (t < 0) {x = 2; y = 2;} else {x = 3; y = 3;}}", "*",
+     "B(if(t > 1, 1, if(t < 0, 2, 3)),if(t > 1, 1, if(t < 0, 2, 3)))"),
+    ("1 {x = ran(1); y = x + 1; x = 2;}", "*", "B(2,uniform(0, 1) + 1)"),
+])
+def test_what_a_block_computes_stands_where_it_is_used(blocks: str, condition: str, successor: str) -> None:
+    assert rule(f"A(t) : {blocks} --> B(x,y)") == abop(f"A(t) : {condition} -> {successor}")
+
+
+def test_sections_go_with_a_colon_or_without() -> None:
+    text = "Lsystem: 1\nAxiom: A\nA --> B\ndecomposition{0}\nB --> C\nhomomorphism{0}\nC --> F\nproductions{0}\nC --> A"
+    system = read(text.format(""))
+    assert system == read(text.format(":"))
+    assert [len(rules) for rules in (system.productions, system.decomposition, system.interpretation)] == [2, 1, 1]
+    assert system == read(text.format(" no warnings").replace("homomorphism", "interpretation"))
+
+
+def test_brackets_may_be_considered_like_other_symbols() -> None:
+    assert read("Lsystem: 1\nConsider: JFD?P[]\nAxiom: J").considered == ("J", "F", "D", "?P")
+
+
+def test_a_macro_is_a_number_and_not_its_text() -> None:
+    system = read("#define a 1\n#define b a+1\n#define c (a+1)\n#define d -a\nAxiom: F(2*b)", "cpfg")
+    assert system.notes == ('The macro "b" is a number here; cpfg puts its text in place: write "(a+1)".',)
+    assert str(derive(system, 0)[0]) == "F(4)"
+    assert "#define b (a + 1)" in write(system)
+
+
+def test_a_model_is_recognised() -> None:
+    for text in ("#define n 1\naxiom: A", "Lsystem: 1\nAxiom: A", "Axiom: A\nendlsystem", "derivation length: 1\nAxiom: A",
+                 "Axiom: A\nA --> B\nhomomorphism\nB --> F", "Axiom: FX\nX < F(x) : x > limit --> FF"):
+        assert CPFG.likely(text) > 1, text
+    for text in ("axiom: A\nA -> B", "Axiom: al\nal --> bl", "Axiom: I\nI -> I[A]I", "axiom: A\nA --> B", ""):
+        assert CPFG.likely(text) == 0, text
