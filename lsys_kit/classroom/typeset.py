@@ -20,6 +20,7 @@ from lsys_kit.notation.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.layout import settings
 from lsys_kit.notation.model import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
 from lsys_kit.notation.operators import OPERATORS
+from lsys_kit.notation.registry import notation_called
 from lsys_kit.pictures.labels import html_label
 from lsys_kit.pictures.palette import BLUE, INK, PAPER, QUIET
 
@@ -38,7 +39,7 @@ _SECTIONS = (("productions", "p", "productions"), ("meta", "m", "what shortens a
 """For each row of rules its letter, and its heading in words."""
 _QUIET = f'style="color:{QUIET}"'
 _ASIDE = f"color:{QUIET};font:14px sans-serif"
-_CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:none;white-space:normal;max-width:none"
+_CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:none;max-width:none"
 
 
 def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[str, str]:
@@ -110,7 +111,7 @@ def _plain(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Wor
 
 def _box(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
     called = f"<b>{escape(name)}</b>" if name else "This"
-    set_so = " &nbsp;·&nbsp; ".join(map(escape, settings(system)))
+    set_so = " &nbsp;·&nbsp; ".join(map(escape, settings(system, notation_called(system.notation).turtle)))
     steps = "".join(_row((f"<span {_QUIET}>{step}</span>", word_html(word))) for step, word in enumerate(words))
     return boxed("lsys-system", "group", BLUE,
                  f"<div>{called} is an L-system in the notation {escape(system.notation)}.</div>"
@@ -140,8 +141,8 @@ def _row(cells: Iterable[str], wide: int = 0) -> str:
     """A row of a table; its last cell goes over several columns, if so asked."""
     *most, last = cells
     span = f' colspan="{wide}"' if wide else ""
-    inner = "".join(f'<td style="{_CELL}">{cell}</td>' for cell in most)
-    return f'<tr style="background:{PAPER}">{inner}<td{span} style="{_CELL}">{last}</td></tr>'
+    inner = "".join(f'<td style="{_CELL};white-space:nowrap">{cell}</td>' for cell in most)
+    return f'<tr style="background:{PAPER}">{inner}<td{span} style="{_CELL};white-space:normal">{last}</td></tr>'
 
 
 def _rows(system: LSystem) -> Iterator[str]:

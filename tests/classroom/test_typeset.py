@@ -90,6 +90,12 @@ def test_the_notation_is_named(notation):
     assert said["text/plain"].startswith(f"plant is an L-system in the notation {notation}.\n")
 
 
+def test_the_turtle_is_told_where_it_is_not_the_notations_own():
+    strange, own = read("turtle: abop\nAxiom: I", "plant-string"), read("Axiom: I", "plant-string")
+    assert "turtle: abop" in shown(strange)["text/html"]
+    assert "turtle:" not in shown(own)["text/html"]
+
+
 # --- rules as mathematics ---------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize(("text", "row"), [
@@ -140,14 +146,14 @@ def test_long_words_are_not_among_the_first():
 
 
 def test_what_is_large_is_shown_in_part_and_soon():
-    text = "axiom: " + "A " * 20_000 + "\nA -> A A\n" + "".join(f"B{n} -> " + "C " * 300 + "\n" for n in range(150))
+    text = "axiom: " + "A " * 20_000 + "\nA -> A A\n" + "".join(f"B{n} -> " + "C " * 300 + "\n" for n in range(100))
     large = read(text)
     started = time.monotonic()
     bundle = shown(large)
     assert time.monotonic() - started < 6
     assert len(bundle["text/html"]) < 2_000_000
     assert len([row for row in rows(bundle["text/html"]) if re.fullmatch(r"p\d+", row[0])]) == MOST_RULES
-    assert f"… {151 - MOST_RULES:,} more" in bundle["text/html"]
+    assert f"… {101 - MOST_RULES:,} more" in bundle["text/html"]
     assert "… 19,800 more" in harmless(bundle["text/html"])
 
 
