@@ -14,31 +14,27 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
+from lsys_kit.derivation.equations import roots
+from lsys_kit.derivation.lengths import functions_of, in_sympy, is_continuous, is_decided, texts_of, the_age
 from lsys_kit.derivation.rules import number_from, unknown
-from lsys_kit.derivation.timed import Timed, roots, timed
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.notation.arithmetic import is_symbolic, number_text
-from lsys_kit.notation.checks import check_expression, span, suggestion
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number, names_in, to_sympy
+from lsys_kit.derivation.timed import Timed, timed
+from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.arithmetic import number_text
+from lsys_kit.notation.checks import suggestion
 from lsys_kit.notation.model import LSystem, Module, Production
-from lsys_kit.notation.read import read_expression
 
 if TYPE_CHECKING:
     import sympy
 
 Fate: TypeAlias = tuple[Production, Module, list[Module]]
 """What becomes of a letter: a production, the mother, her daughters."""
-AGE = "t"
-"""What a growth function calls the age."""
-MOST_ORDER, MOST_TEXT, MOST_TOWERS, MOST_BITS, MOST_DEGREE = 9, 300, 3, 10**8, 12
-"""The highest derivative; how long a growth function is; how deep powers, how long numbers and how high powers in it are."""
+MOST_ORDER = 9
+"""The highest derivative."""
 ALIKE = 1e-9
 """Lengths that differ by no more than this share are equal."""
-JUMPS = frozenset(("if", "floor", "ceil", "mod"))
-"""Operators that are not continuous where their operands are."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +179,7 @@ class Continuity:
         except ValueError:  # it compares what is no real number
             return False
         return (all(_equal(before, after) and (order or before != 0) for order, before, after in lengths)
-                and all(_is_continuous(function, life) is not False for function, life in growth))
+                and all(is_continuous(function, life) is not False for function, life in growth))
 
     def __repr__(self) -> str:
         return "\n".join([*map(str, self.divisions), *(f"{letter}: unknown names decide whether its growth is continuous"
@@ -234,10 +230,10 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     growing, given = _given(system, constants)
     fates = list(_fates(growing))
     lives = _lives(growing, fates)
-    texts = _texts(lengths, lives)
-    functions = _functions(growing, texts, given, lives)
+    texts = texts_of(lengths, lives)
+    functions = functions_of(growing, texts, given, lives)
     undecided = tuple(letter for letter, life in lives.items()
-                      if not _is_decided(letter, texts[letter], functions[letter], life, order))
+                      if not is_decided(letter, texts[letter], functions[letter], life, order))
     divisions = tuple(Division(production, k, _total([mother], functions, k), _total(daughters, functions, k))
                       for k in range(order + 1) for production, mother, daughters in fates)
     return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
@@ -259,13 +255,6 @@ def _plain(value: object) -> object:
     return float(value) if isinstance(value, sympy.Expr) and value.is_number and not value.is_Rational else value
 
 
-def _in_sympy(value: object, name: str = "age") -> sympy.Expr:
-    """A value as sympy has it; a number or a text is read exactly."""
-    import sympy
-
-    found = value if isinstance(value, sympy.Expr) else number_from(value, name)
-    return found if is_symbolic(found) else to_sympy(Number(found))
-
 
 def _fates(growing: Timed) -> Iterator[Fate]:
     """Each production, its mother at her terminal age, her daughters at their first ages."""
@@ -285,158 +274,19 @@ def _lives(growing: Timed, fates: Iterable[Fate]) -> dict[str, sympy.Set]:
     for module in (*(growing.states.modules[state] for state in growing.states.axiom), *ended,
                    *(made for _, _, daughters in fates for made in daughters)):
         if module.arguments:
-            ages.setdefault(module.symbol, []).append(_in_sympy(module.arguments[0]))
+            ages.setdefault(module.symbol, []).append(in_sympy(module.arguments[0]))
     endless = ages.keys() - {module.symbol for module in ended}
     return {symbol: sympy.Interval(sympy.Min(*found), sympy.oo if symbol in endless else sympy.Max(*found))
             for symbol, found in ages.items()}
-
-
-def _texts(lengths: Mapping[str, str], lives: Mapping[str, sympy.Set]) -> dict[str, str]:
-    """The growth function of each letter as it is written."""
-    texts = {symbol: text for symbols, text in lengths.items() for symbol in symbols.split()}
-    for symbol in (*texts, *lives):
-        if symbol not in lives:
-            raise ModelNameError(f'The system has no letter "{symbol}" with an age',
-                                 hint=suggestion(symbol, lives) or f"Its letters are: {', '.join(lives)}.")
-        if symbol not in texts:
-            raise ModelNameError(f'The letter "{symbol}" has no growth function', hint='Where it has no length, write "0".')
-    return texts
-
-
-def _functions(growing: Timed, texts: Mapping[str, str], given: Mapping[str, object],
-               lives: Mapping[str, sympy.Set]) -> dict[str, sympy.Expr]:
-    """The growth function of each letter, with the values of all known names in it."""
-    import sympy
-
-    trees = {text: _read(text) for text in texts.values()}
-    constants = [constant.name for constant in growing.states.system.constants]
-    if AGE in constants:
-        raise ModelNameError(f'The system has a constant "{AGE}", which is the age in a growth function',
-                             hint="Give the constant another name.")
-    used = {name for tree in trees.values() for name in names_in(tree)} - {AGE, *constants}
-    for name in given.keys() - used:
-        raise ModelNameError(f'Neither the system nor a growth function has the name "{name}"',
-                             hint=suggestion(name, {*used, *constants}))
-    values = {name: _in_sympy(value) for name, value in zip(constants, growing.states.constants, strict=True)}
-    values |= {name: _in_sympy(given[name], name) if name in given else unknown(name) for name in used}
-    sizes = {name: _size(value) for name, value in values.items()}
-    sizes[AGE] = max(_size(end) for life in lives.values() for end in (life.inf, life.sup))
-    symbols = {sympy.Symbol(name): value for name, value in {**values, AGE: _age()}.items()}
-    functions = {}
-    for text, tree in trees.items():
-        if _bits(tree, sizes) > MOST_BITS:
-            raise ModelLimitError("The powers here are too large", limit=MOST_BITS, source=text, start=0, end=len(text))
-        try:
-            functions[text] = to_sympy(tree).xreplace(symbols)
-        except ValueError:  # it compares what is no real number
-            raise ModelValueError("This growth function has no value", text, 0, len(text)) from None
-    return {symbol: functions[texts[symbol]] for symbol in lives}
-
-
-def _read(text: object) -> Expression:
-    """A growth function as it is written."""
-    if not isinstance(text, str):
-        raise ModelValueError(f'A growth function is a text, such as "1 + t", not {type(text).__name__}')
-    if len(text) > MOST_TEXT:
-        raise ModelLimitError(f"A growth function has at most {MOST_TEXT} characters", limit=MOST_TEXT, needed=len(text))
-    tree = read_expression(text)
-    check_expression(tree, names_in(tree), text)
-    if _towers(tree, text) > MOST_TOWERS:
-        raise ModelLimitError("The powers here are too large", limit=MOST_TOWERS, source=text, start=0, end=len(text))
-    return tree
-
-
-def _towers(tree: Expression, text: str) -> int:
-    """How deeply powers stand in the exponents of others, where nothing jumps."""
-    if not isinstance(tree, Apply):
-        return 0
-    if tree.operator in JUMPS:
-        raise ModelValueError(f'"{tree}" may jump, which no length does', text, *span(tree),
-                              "A length that stays within limits is written with min, max and abs.")
-    return max(_towers(operand, text) for operand in tree.operands) + (tree.operator in ("^", "exp"))
-
-
-def _bits(tree: Expression, sizes: Mapping[str, float]) -> float:
-    """About how long the numbers are that an expression comes to, in bits."""
-    if isinstance(tree, Number):
-        return _size(_in_sympy(tree.value))
-    if isinstance(tree, Name):
-        return sizes[tree.name]
-    parts = [_bits(operand, sizes) for operand in tree.operands]
-    return parts[0] * 2 ** min(parts[1], 1000) if tree.operator == "^" else 1 + sum(parts)
-
-
-def _size(value: sympy.Expr) -> float:
-    """The length of a rational number in bits; names and what is not rational stay as they are."""
-    return float(max(int(value.p).bit_length(), int(value.q).bit_length())) if value.is_Rational else 1.0
-
-
-def _is_decided(letter: str, text: str, function: sympy.Expr, life: sympy.Set, order: int) -> bool:
-    """Whether a growth function and its derivatives are known to be continuous on a life span; refused where they are not."""
-    import sympy
-
-    verdicts = [_is_continuous(sympy.diff(function, _age(), k), life) for k in range(order + 1)]
-    if False in verdicts:
-        which = f"Derivative {verdicts.index(False)} of the" if verdicts.index(False) else "The"
-        raise ModelValueError(f'{which} growth function "{text}" is not continuous on the life span of {letter}, '
-                              f"from {life.inf} to {life.sup}")
-    if None in verdicts and not (function.free_symbols | life.free_symbols) - {_age()}:
-        raise ModelValueError(f'Whether the growth function "{text}" is continuous on the life span of {letter} cannot be told',
-                              hint="Write it in a simpler way.")
-    return None not in verdicts
-
-
-def _is_continuous(function: sympy.Expr, life: sympy.Set) -> bool | None:
-    """Whether a function is continuous at all ages of a life span; None where that is not known."""
-    import sympy
-    from sympy.calculus.util import continuous_domain
-
-    if function.has(sympy.zoo, sympy.nan, sympy.I, sympy.DiracDelta):
-        return False
-    age, names = _age(), (function.free_symbols | life.free_symbols) - {_age()}
-    if _is_hard(function):
-        return None
-    positive = {name: sympy.Dummy(positive=True) for name in names}
-    real = function.replace(lambda part: part.is_Pow and part.exp.is_Rational and part.exp.q > 1,
-                            lambda part: part.base ** (part.exp / 2))  # an odd root of a negative number is none here
-    whole = life.xreplace(positive)
-    try:
-        found = continuous_domain(real.xreplace(positive), age, whole)
-    except (NotImplementedError, TypeError, ValueError):  # as where an unknown name stands in an inequality
-        return None
-    if found == whole:
-        return True
-    return None if found.free_symbols or found.has(sympy.ConditionSet, sympy.Complement) else False
-
-
-def _is_hard(function: sympy.Expr) -> bool:
-    """Whether it might take for ever to find where a function is continuous."""
-    import sympy
-
-    def bent(part: sympy.Expr) -> bool:
-        return bool(sympy.diff(part, _age()).has(_age()))
-
-    everywhere = (sympy.exp, sympy.sin, sympy.cos, sympy.atan, sympy.Abs)
-    parts = {part for part in function.atoms(sympy.Pow, sympy.Function) if part.has(_age())}
-    for outer in parts:
-        inner = outer.args[0]
-        if isinstance(outer, sympy.Function) and not isinstance(outer, (*everywhere, sympy.log)) and bent(inner):
-            return True
-        for part in () if isinstance(outer, everywhere) else parts & inner.atoms(sympy.Pow, sympy.Function):
-            base, exponent = part.as_base_exp()
-            if bent(part.args[0] if base == part else exponent) or bool(
-                    base.has(_age()) and not (exponent.is_Rational and max(abs(exponent.p), exponent.q) <= MOST_DEGREE)):
-                return True
-    return False
 
 
 def _total(modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
     """The length of some modules together, or a derivative of it."""
     import sympy
 
-    cells = Counter((module.symbol, _in_sympy(module.arguments[0])) for module in modules if module.arguments)
+    cells = Counter((module.symbol, in_sympy(module.arguments[0])) for module in modules if module.arguments)
     try:
-        return sympy.Add(*(number * sympy.diff(functions[symbol], _age(), order).subs(_age(), age)
+        return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
                            for (symbol, age), number in cells.items()))
     except ValueError:  # it compares what is no real number
         told = " or ".join(symbol for symbol, _ in cells)
@@ -464,11 +314,3 @@ def _brief(value: sympy.Expr) -> sympy.Expr | float:
 
 def _names(*expressions: sympy.Expr) -> set[str]:
     return {symbol.name for expression in expressions for symbol in expression.free_symbols}
-
-
-@cache
-def _age() -> sympy.Symbol:
-    """The age in a growth function, which no unknown name is."""
-    import sympy
-
-    return sympy.Dummy(AGE, real=True)

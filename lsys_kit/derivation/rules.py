@@ -191,6 +191,11 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
         except (ArithmeticError, ValueError) as fault:
             raise ModelValueError(f'The constant "{constant.name}" has no value: {reason(fault)}', system.source or None,
                                   *(constant.at or (None, None))) from None
+        except TypeError:
+            if not any(map(is_symbolic, values)):
+                raise
+            raise ModelValueError(f'The constant "{constant.name}" has no value: it depends on an unknown constant',
+                                  system.source or None, *(constant.at or (None, None))) from None
         values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
     return tuple(values)
 
