@@ -188,7 +188,7 @@ class Stepping:
         for number, replacement in enumerate(self._stepper.replacements(codes, step - 1)):
             made.append(replacement)
             size += len(replacement.states)
-            if number % OFTEN == 0:
+            if number % OFTEN == 0 or len(replacement.states) > OFTEN:
                 check_time(self.states, step, until)
                 check_size(self.states, step, size)
         check_size(self.states, step, size)
