@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import takewhile
 
 from lsys_kit.derivation.rules import Branch, Rule, is_branch
 from lsys_kit.notation.arithmetic import Value
@@ -148,7 +147,8 @@ def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
 def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int, behind: int,
               ignored: Container[str]) -> tuple[int, ...] | None:
     """The positions of a row that begins with branches, which stand behind a position and behind the branches named already."""
-    named: list[Branch] = list(takewhile(is_branch, row))
+    first = next((index for index, item in enumerate(row) if not is_branch(item)), len(row))
+    named = [item for item in row[:first] if is_branch(item)]
     there = list(branches(symbols, around, position, ignored))
     found: list[int] = []
     for branch in named:

@@ -13,7 +13,8 @@ from lsys_kit.notation.checks import check_constants, check_expression, span, va
 from lsys_kit.notation.cpfg_blocks import put_in
 from lsys_kit.notation.cpfg_lines import statements
 from lsys_kit.notation.cpfg_records import Records
-from lsys_kit.notation.cpfg_slips import ASKED, reworded
+from lsys_kit.notation.cpfg_slips import ASKED
+from lsys_kit.notation.cpfg_words import reworded
 from lsys_kit.notation.cpfg_writer import joined, lacking, module_text, written
 from lsys_kit.notation.draft import Draft, assembled
 from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number

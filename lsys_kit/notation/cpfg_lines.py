@@ -26,19 +26,20 @@ _END = re.compile(r"endlsystem\b", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class _Line:
-    """A line without its comments: where it begins and ends, apart from blanks, and whether it stands to the right."""
+    """A line without its comments: where it begins and ends, apart from blanks, and how far to the right it stands."""
 
     start: int
     end: int
     text: str
-    indented: bool
+    indent: int
 
 
 def statements(text: str) -> Iterator[tuple[int, int]]:
     r"""The offsets of the statements.
 
-    A production or an axiom goes on over the indented lines below; but a line with an arrow of its own goes on only with what
-    has none. `//` begins a comment at the beginning of a line and behind a setting or a condition; in a word it is two rolls.
+    A production or an axiom goes on over the lines below that stand further to the right; but a line with an arrow of its own
+    goes on only with what has none. `//` begins a comment at the beginning of a line and behind a setting or a condition; in
+    a word it is two rolls.
 
     >>> text = "Axiom: F//F\nF : 1 // always\n    --> FF\n// the end"
     >>> [text[start:end] for start, end in statements(text)]
@@ -58,38 +59,39 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
 
 def _cut(text: str) -> Iterator[tuple[int, int]]:
     """The offsets of what is no comment."""
-    open_: list[_Line] = []
+    first: _Line | None = None
+    end, has_arrow = 0, False
     for line in _lines(text):
-        if open_ and not _goes_on(line, open_):
-            yield open_[0].start, open_[-1].end
-            open_ = []
-        if line.text.startswith("//") and (not open_ or line.text[2:3].isspace()):
+        if first is not None and not _goes_on(line, first, has_arrow):
+            yield first.start, end
+            first = None
+        if line.text.startswith("//") and (first is None or line.text[2:3].isspace()):
             continue
-        open_.append(line)
-    if open_:
-        yield open_[0].start, open_[-1].end
+        if first is None:
+            first, has_arrow = line, _AXIOM.match(line.text) is not None
+        end, has_arrow = line.end, has_arrow or ARROW.search(line.text) is not None
+    if first is not None:
+        yield first.start, end
+
+
+def _goes_on(line: _Line, first: _Line, has_arrow: bool) -> bool:
+    """Whether a line goes on with a statement that begins with another; an axiom counts as having its arrow."""
+    if _KEYWORD.match(first.text) or _KEYWORD.match(line.text) or _AXIOM.match(line.text):
+        return False
+    if ARROW.match(line.text):
+        return not _AXIOM.match(first.text)
+    return line.indent > first.indent and not (has_arrow and ARROW.search(line.text))
 
 
 def _lines(text: str) -> Iterator[_Line]:
     """The lines in which something stands, without a comment behind a setting."""
-    bare = without_comments(text)
-    lines = [(match.start(), match.group()) for match in re.finditer(r"[^\n]+", bare) if match.group().strip()]
-    base = min((len(line) - len(line.lstrip()) for _, line in lines if not line.lstrip().startswith("//")), default=0)
-    for offset, line in lines:
-        indent = len(line) - len(line.lstrip())
-        said = line.strip()
+    for found in re.finditer(r"[^\n]+", without_comments(text)):
+        line, said = found.group(), found.group().strip()
+        if not said:
+            continue
+        blank = line[:len(line) - len(line.lstrip())]
+        start = found.start() + len(blank)
         if _KEYWORD.match(said):
             said = said.split("//")[0].rstrip()
-        ranged = _RANGED.match(text, offset + indent + len(said)) if said.startswith("#") else None
-        yield _Line(offset + indent, ranged.end() if ranged else offset + indent + len(said), said, indent > base)
-
-
-def _goes_on(line: _Line, before: list[_Line]) -> bool:
-    """Whether a line goes on with the lines of a statement before it."""
-    first = before[0].text
-    if _KEYWORD.match(first) or _KEYWORD.match(line.text) or _AXIOM.match(line.text):
-        return False
-    if ARROW.match(line.text):
-        return not _AXIOM.match(first)
-    has_arrow = _AXIOM.match(first) or any(ARROW.search(earlier.text) for earlier in before)
-    return line.indented and not (has_arrow and ARROW.search(line.text))
+        ranged = _RANGED.match(text, start + len(said)) if said.startswith("#") else None
+        yield _Line(start, ranged.end() if ranged else start + len(said), said, len(blank.expandtabs()))

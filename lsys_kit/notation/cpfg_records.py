@@ -13,6 +13,7 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.cpfg_blocks import Assignment, Block, Choice
 from lsys_kit.notation.cpfg_expressions import as_number, as_truth, called, shortened, wanted
+from lsys_kit.notation.cpfg_words import in_cpfg
 from lsys_kit.notation.expressions import Apply, Expression, Number
 from lsys_kit.notation.model import END, Constant, Module
 from lsys_kit.notation.records import Expressions, Misread, Statements
@@ -76,7 +77,11 @@ class _Expressions(Expressions):
         return self._applied(made.operator, made.operands, at)
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: Any) -> Apply:
-        return shortened(super()._applied(operator, wanted(operator, operands), at))
+        try:
+            return shortened(super()._applied(operator, wanted(operator, operands), at))
+        except Misread as misread:
+            misread.hint = misread.hint and in_cpfg(misread.hint)
+            raise
 
 
 @v_args(inline=True)

@@ -1,19 +1,17 @@
-"""What is asked about a slip in a cpfg text, and how the kit's hints read there."""
+"""What is asked about a slip in a cpfg text."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import TypeVar
 
-from lsys_kit.errors import LSystemError, ModelSyntaxError
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.cpfg_words import reworded
 from lsys_kit.notation.slips import QUESTIONS
 from lsys_kit.notation.statements import ARROW
 from lsys_kit.notation.stumble import Stumble, printed, quoted, unclosed
 from lsys_kit.notation.tradition import Question
-
-Slip = TypeVar("Slip", bound=LSystemError)
 
 _CONSTANTS = 'Constants are declared with "#define", as in "#define n 3".'
 _OWN_BLOCK = "Compute what a rule needs in its own block, with assignments and if."
@@ -38,30 +36,6 @@ _ALSO = {"steps": "derivation length", "derivation": "derivation length", "depth
          "initiator": "Axiom", "interpretations": "homomorphism", "end lsystem": "endlsystem"}
 """What others say for a keyword."""
 _MACRO = re.compile(r"#[ \t]*define\b[ \t]*(\w+)?[ \t]*")
-
-_WORDS: Sequence[tuple[str, str]] = (
-    (r"(?<!-)->", "-->"), (r'"ε" or "\*"', '"*"'), (r'"dt = 0\.5"', '"#define dt 0.5"'), (r'"c = \.\.\."', '"#define c ..."'),
-    (r'"axiom: A"', '"Axiom: A"'), ("of the interpretation", "of the homomorphism"), (r"uniform\(1, 2\)", "ran(2)"),
-    (r'"uniform\(0, ([^"]*)"', r'"ran(\1"'),
-)
-"""What the kit's own notation spells otherwise."""
-
-
-def in_cpfg(said: str) -> str:
-    """A sentence about the kit's own notation, as it reads for cpfg.
-
-    >>> in_cpfg('A production reads "A -> B".')
-    'A production reads "A --> B".'
-    """
-    for pattern, spelt in _WORDS:
-        said = re.sub(pattern, spelt, said)
-    return said
-
-
-def reworded(error: Slip) -> Slip:
-    """An error in cpfg's words."""
-    error.message = in_cpfg(error.message)
-    return error.with_hint(in_cpfg(error.hint)) if error.hint else error
 
 
 def _feature(stumble: Stumble) -> ModelSyntaxError | None:

@@ -143,6 +143,11 @@ def test_a_comment_stands_anywhere_and_rolls_stay_rolls() -> None:
     assert (system.steps, len(system.axiom), len(system.productions), len(system.productions[0].successor)) == (3, 5, 1, 7)
 
 
+def test_indented_lines_go_on_unless_they_have_an_arrow_of_their_own() -> None:
+    text = "Lsystem: 1\n  Axiom: A\n\tB\n  A -->\n    B\n  B : 1\n  --> C\n  decomposition\n  C --> D\n    E\nendlsystem"
+    assert str(read(text)) == "Lsystem: 1\nAxiom: AB\nA --> B\nB --> C\ndecomposition\nC --> DE\nendlsystem"
+
+
 def test_prose_behind_a_successor_is_pointed_out() -> None:
     system = read("Lsystem: 1\nAxiom: F\nF --> FF // doubles", "cpfg")
     assert len(system.productions[0].successor) == 11

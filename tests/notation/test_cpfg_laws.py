@@ -19,7 +19,7 @@ from lsys_kit.notation.cpfg import CPFG
 from lsys_kit.notation.cpfg_expressions import lacking, text_of
 from lsys_kit.notation.expressions import Apply, Expression, Name, Number, is_random
 from lsys_kit.notation.model import END, LSystem, Module, Production
-from lsys_kit.notation.read import read, read_word
+from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, systems, systems_with
 
@@ -135,6 +135,17 @@ def expressions(draw: st.DrawFn, truth: bool = False, depth: int = 3) -> Express
     return Apply(draw(st.sampled_from(("abs", "sqrt", "sin", "atan", "floor", "exp"))), operands[:1])
 
 
+@pytest.mark.parametrize(("kit", "cpfg"), [
+    ("-t^2", "-(t^2)"), ("(-t)^2", "(-t)^2"), ("t^x^2", "t^(x^2)"), ("(t^x)^2", "(t^x)^2"), ("t^-x", "t^(-x)"),
+    ("2 * mod(t + 1, x)", "2 * ((t + 1) % x)"), ("-if(t < 1, x, 2)", "-(t < 1 ? x : 2)"), ("t - (x - 1)", "t - (x - 1)"),
+    ("max(t, -x)", "(t > -x ? t : -x)"), ("uniform(-1, x)", "((-1) + ran(x - -1))"),
+])
+def test_what_binds_otherwise_in_cpfg_is_put_in_parentheses(kit: str, cpfg: str) -> None:
+    expression = read_expression(kit)
+    assert text_of(expression) == cpfg
+    assert read(f"Axiom: A\nA(t,x) --> B({cpfg})", "cpfg").productions[0].successor == (Module("B", (expression,)),)
+
+
 @given(expressions(), expressions(True))
 def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expression) -> None:
     assume(not lacking(number) and not lacking(truth))
@@ -222,9 +233,9 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
     "Axiom: A\nA : {" + "if(1){" * 8_000, "Axiom: A\nA : 1 {" + "if(1){" * 4_000 + "}" * 4_000 + "} --> B",
     "Axiom: A(1)\nA(t) : {" + "t=t+t;" * 60 + "} 1 --> A(t)", "Axiom: A(1)\nA(t) : {" + "if(t>1){t=t+t;}" * 60 + "} 1 --> A(t)",
     "derivation length: 9^9^9^9\nAxiom: A", "#define a 1 /* " * 60_000, "a\n" * 400_000, "//" * 499_000,
-    "#define" + " " * 900_000,
+    "#define" + " " * 900_000, "A\n" + " B\n" * 300_000,
     "Axiom: A\n" + "".join(f"A(t) : t < {i} --> A(t+1)[+B(t*2)]{'F//F' * 230}\n" for i in range(999)),
-], ids=range(14))
+], ids=range(15))
 def test_no_text_takes_long(text: str) -> None:
     started = time.process_time()
     error_of(lambda: read(text, "cpfg"))
