@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import tomllib
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.interpret import images
 from lsys_kit.notation.cpfg import CPFG
 from lsys_kit.notation.model import Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 
 LISTINGS = Path(__file__).parents[1] / "listings"
-TABLE = tomllib.loads((LISTINGS / "listings.toml").read_text(encoding="utf-8"))["listing"]
-PRINTED = {listing["system"]: listing for listing in TABLE if listing["notation"] == "cpfg"}
 
 
 def rule(text: str) -> Production:
@@ -31,56 +26,11 @@ def abop(text: str) -> Production:
     return read(f"k = 3\naxiom: A\n{text}").productions[0]
 
 
-# The listings of seed 002
-
-def listing(id: str) -> str:
-    """A listing with its corrections."""
-    text = (LISTINGS / PRINTED[id]["file"]).read_text(encoding="utf-8")
-    for correction in PRINTED[id]["corrections"]:
-        assert text.count(correction["printed"]) == 1
-        text = text.replace(correction["printed"], correction["corrected"])
-    return text
-
-
-def cells(id: str, word: Any) -> str:
-    """A word as the table spells the words of a system."""
-    polarity = {-1: "L", 1: "R"}
-    if id == "P4":
-        return "".join(f"M({m.arguments[0]},{polarity[m.arguments[1]]})" for m in word)
-    if id == "P9":
-        return " ".join(m.symbol + f"{float(m.arguments[0]):g}" for m in word)
-    texts = [f"{round(float(m.arguments[0]), 4):g}{polarity[m.arguments[1]]}" for m in word]
-    return " ".join(texts)
-
-
-@pytest.mark.parametrize("id", PRINTED)
-def test_the_listings_of_the_seed_derive_what_their_authors_print(id: str) -> None:
-    system = read(listing(id))
-    assert system == read(listing(id), "cpfg")
-    assert read(listing(id), "cpfg").notes == ()
-    for step, word in PRINTED[id]["expected"]:
-        expected = word.strip("{}").replace(" .", " 0.").replace("W.", "W0.").replace("M.", "M0.").replace("M1.0", "M1")
-        expected = "0" + expected if expected.startswith(".") else expected
-        assert cells(id, derive(system, step)[-1]) == expected
-    counts = PRINTED[id].get("counts", [])
-    assert derive(system, max(0, len(counts) - 1)).lengths[:len(counts)] == counts
-
-
-def test_a_filament_of_l_system_7_is_as_long_as_the_powers_of_its_growth() -> None:
-    derivation = derive(read(listing("P7")), 5)
-    for word, length in zip(derivation, PRINTED["P7"]["filament_lengths"], strict=True):
-        drawn = images(derivation.states, word.numbers())
-        assert sum(cell.arguments[0] for number in word.numbers() for cell in drawn[number]) == pytest.approx(length, rel=1e-4)
-
-
-def test_l_system_9_as_printed_says_that_its_cells_can_never_divide() -> None:
-    notes = read((LISTINGS / "002-L9.cpfg.txt").read_text(encoding="utf-8"), "cpfg").notes
-    assert notes == ("The production W(tl) < M(t,p) > W(tr) can never match: no module M with 2 parameters occurs.",) * 2
-
-
 @pytest.mark.parametrize("id", ["P4", "P5", "P6", "P7", "P8"])
 def test_a_listing_and_the_catalogue_have_the_same_words(id: str) -> None:
-    assert [str(word) for word in derive(read(listing(id)), 5)] == [str(word) for word in derive(catalogued(id), 5)]
+    listing = (LISTINGS / f"002-L{id[1:]}.cpfg.txt").read_text(encoding="utf-8")
+    assert read(listing) == read(listing, "cpfg")
+    assert list(map(str, derive(read(listing), 5))) == list(map(str, derive(catalogued(id), 5)))
 
 
 # What a text says
