@@ -8,10 +8,11 @@ from lsys_kit.errors import ModelNameError
 from lsys_kit.notation.abop import ABOP
 from lsys_kit.notation.cpfg import CPFG
 from lsys_kit.notation.grogra import GROGRA
+from lsys_kit.notation.mathematica import MATHEMATICA
 from lsys_kit.notation.plant_string import PLANT_STRING
 from lsys_kit.notation.tradition import Notation
 
-NOTATIONS: Mapping[str, Notation] = {notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG)}
+NOTATIONS: Mapping[str, Notation] = {notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA)}
 """The notations that can be read and written."""
 
 
