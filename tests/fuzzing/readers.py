@@ -1,0 +1,82 @@
+"""Whatever a text holds, a reader reads it or explains what is wrong: texts made by a fuzzer that looks at which code they reach.
+
+    python -m tests.fuzzing.readers 12               twelve seconds for each notation
+    python -m tests.fuzzing.readers 600 grogra       ten minutes for one
+
+The fuzzer begins with the listings of the seeds and the systems of the catalogue. What is read is written again, must read back
+as the same system, and is derived for two steps. Only the kit's own errors may come of it, within a second; anything else ends
+the run with the text that did it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+LONGEST = 400
+"""The longest text that is tried; longer ones have tests of their own."""
+SLOWEST = 10
+"""Seconds after which a text is taken to hang."""
+LISTINGS = Path(__file__).parent.parent / "listings"
+
+
+def seeds(notation: str, folder: Path) -> None:
+    """Write what the fuzzer begins with: listings, and the catalogue's systems."""
+    from lsys_kit import ModelValueError, system, systems, write
+
+    texts = [path.read_text() for path in sorted(LISTINGS.glob(f"*.{notation}.txt"))]
+    for id in systems():
+        with contextlib.suppress(ModelValueError):
+            texts.append(write(system(id), notation))
+    for number, text in enumerate(texts):
+        (folder / f"seed{number}").write_text(text)
+
+
+def fuzz(notation: str, folder: str, seconds: int) -> None:
+    """Fuzz one reader; this never returns."""
+    import atheris
+
+    with atheris.instrument_imports(include=["lsys_kit.notation"]):
+        from lsys_kit import LSystemError, derive, limits, read, write
+
+    def one(data: bytes) -> None:
+        text = data.decode(errors="replace")
+        try:
+            with limits(modules=2_000, seconds=1.0):
+                found = read(text, notation)
+                assert read(write(found), notation) == found, write(found)
+                derive(found, 2)[-1]
+        except LSystemError as error:
+            str(error)
+
+    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-max_total_time={seconds}", f"-timeout={SLOWEST}",
+                   f"-artifact_prefix={folder}/"], one)
+    atheris.Fuzz()
+
+
+def main(seconds: int, *notations: str) -> int:
+    """Fuzz the readers one after another, each in a process of its own; 0 if all is well."""
+    from lsys_kit.notation.registry import NOTATIONS
+
+    for notation in notations or tuple(NOTATIONS):
+        with tempfile.TemporaryDirectory() as folder:
+            seeds(notation, Path(folder))
+            run = subprocess.run([sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(seconds)],
+                                 capture_output=True, text=True, check=False)
+            told = [line for line in run.stderr.splitlines() if "DONE" in line or "stat::" in line]
+            print(notation, *told[-1:], sep=": ", flush=True)
+            if run.returncode:
+                print(run.stderr[-6_000:], run.stdout[-2_000:], file=sys.stderr)
+                for found in (*Path(folder).glob("crash-*"), *Path(folder).glob("timeout-*")):
+                    print(f"{found.name}: {found.read_bytes()!r}", file=sys.stderr)
+                return 1
+    return 0
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--fuzz":
+        fuzz(sys.argv[2], sys.argv[3], int(sys.argv[4]))
+    sys.exit(main(int(sys.argv[1]), *sys.argv[2:]))
