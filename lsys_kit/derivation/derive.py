@@ -22,7 +22,8 @@ from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model import LSystem
 
 
-def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact", **constants: object) -> Derivation:
+def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
+           **constants: object) -> Derivation:
     """Derive a system: the words of steps 0 to `steps`.
 
     Parameters

@@ -12,17 +12,16 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.chance import Chance, chosen
+from lsys_kit.derivation.faults import AXIOM, fault_in, undecided
 from lsys_kit.derivation.rules import Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.notation.arithmetic import SMALL, Value, is_symbolic, reason, same, settled_value, sound
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.notation.arithmetic import SMALL, Value, is_symbolic, same, settled_value, sound
 from lsys_kit.notation.model import LSystem, Module, Production
 
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
 CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
-_AXIOM = Module("axiom")
-"""What the axiom is made of."""
 
 
 class Successors(dict[int, tuple[int, ...]]):
@@ -150,9 +149,9 @@ class States:
             return (all(same(values[i], wanted(given)) for i, wanted in rule.equalities)
                     and (rule.condition is None or bool(rule.condition(given))))
         except TypeError:
-            raise self._undecided(module, rule) from None
+            raise undecided(self.system, self.constants, module, rule) from None
         except (ArithmeticError, ValueError) as fault:
-            raise self.fault(module, rule, fault) from None
+            raise fault_in(self.system, module, rule, fault) from None
 
     def drawn(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None) -> Rule | None:
         """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
@@ -163,7 +162,7 @@ class States:
         try:
             return lots[chosen([weight for _, weight in lots], unit)][0]
         except ValueError as fault:
-            raise self.fault(lots[0][0].production.predecessor, lots[0][0], fault) from None
+            raise fault_in(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
 
     def made(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
              chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:
@@ -172,11 +171,11 @@ class States:
         try:
             yield from self._written(rule.successor, given, chance)
         except (ArithmeticError, ValueError) as fault:
-            raise self.fault(module, rule, fault) from None
+            raise fault_in(self.system, module, rule, fault) from None
         except TypeError:
             if not any(map(is_symbolic, given)):
                 raise
-            raise self.fault(module, rule, ValueError("it depends on an unknown constant")) from None
+            raise fault_in(self.system, module, rule, ValueError("it depends on an unknown constant")) from None
 
     def _written(self, parts: Iterable[Part | Parts], given: tuple[object, ...],
                  chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
@@ -208,7 +207,7 @@ class States:
             if self._outgrown and self.inexact is None:
                 self.inexact = Module(symbol, made)
             found.append(Module(symbol, made))
-            if len(found) > most and module is not _AXIOM:  # the axiom is step 0, which is checked like any step
+            if len(found) > most and module is not AXIOM:  # the axiom is step 0, which is checked like any step
                 start, end = rule.production.at or (None, None)
                 raise ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
                                       source=self.system.source or None, start=start, end=end)
@@ -246,8 +245,8 @@ class States:
     def _axiom(self) -> Iterable[int]:
         """The axiom's states: its arguments may use the constants, so it is made like a successor."""
         places = [module.at for module in self.system.axiom if module.at]
-        start = Production(_AXIOM, self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
-        return self.made_numbers(rule_for(self.system, 0, start, self.arithmetic), _AXIOM)
+        start = Production(AXIOM, self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
+        return self.made_numbers(rule_for(self.system, 0, start, self.arithmetic), AXIOM)
 
     def _kept(self, value: Value) -> Value:
         """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
@@ -262,21 +261,6 @@ class States:
             return value
         self._outgrown = True
         return float(value)
-
-    def _undecided(self, module: Module, rule: Rule) -> LSystemError:
-        """A condition hangs on a constant that is not known."""
-        names = sorted({str(name) for value in self.constants for name in getattr(value, "free_symbols", ())})
-        said = f"Whether production {rule.number + 1}, {rule.production}, is for {module} cannot be decided"
-        start, end = rule.production.at or (None, None)
-        return ModelValueError(said, self.system.source or None, start, end,
-                               f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
-
-    def fault(self, module: Module, rule: Rule, fault: Exception) -> LSystemError:
-        """What went wrong in a rule, with the module and the production."""
-        what = "The axiom" if module is _AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
-        hint = None if module is _AXIOM else "A condition before the arrow can keep such values out."
-        start, end = rule.production.at or (None, None)
-        return ModelValueError(f"{what} has no value: {reason(fault)}", self.system.source or None, start, end, hint)
 
 
 def _symbols(system: LSystem) -> set[str]:

@@ -18,6 +18,7 @@ from itertools import repeat
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.faults import fault_in
 from lsys_kit.derivation.rules import kind_of, number_from
 from lsys_kit.derivation.states import States, check_settled
 from lsys_kit.derivation.words import Word
@@ -108,7 +109,7 @@ class Timed:
         try:
             terminal = rules[0].equalities[0][1]((*module.arguments, *self.states.constants))
         except (ArithmeticError, ValueError) as fault:
-            raise self.states.fault(module, rules[0], fault) from None
+            raise fault_in(self.states.system, module, rules[0], fault) from None
         except TypeError:
             raise self._undecided(module, rules[0].production) from None
         return Module(module.symbol, (terminal, *module.arguments[1:]))

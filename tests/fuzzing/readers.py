@@ -1,4 +1,4 @@
-"""Whatever a text holds, a reader reads it or explains what is wrong: texts made by a fuzzer that looks at which code they reach.
+"""Whatever a text holds, a reader reads it or explains what is wrong: texts made by a fuzzer that sees which code they reach.
 
     python -m tests.fuzzing.readers 12               twelve seconds for each notation
     python -m tests.fuzzing.readers 600 grogra       ten minutes for one

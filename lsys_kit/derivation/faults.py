@@ -1,0 +1,30 @@
+"""What goes wrong while a production is applied, told with the module and the production."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lsys_kit.derivation.rules import Rule
+from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.notation.arithmetic import Value, reason
+from lsys_kit.notation.model import LSystem, Module
+
+AXIOM = Module("axiom")
+"""What the axiom is made of."""
+
+
+def fault_in(system: LSystem, module: Module, rule: Rule, fault: Exception) -> LSystemError:
+    """A value that cannot be computed."""
+    what = "The axiom" if module is AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
+    hint = None if module is AXIOM else "A condition before the arrow can keep such values out."
+    start, end = rule.production.at or (None, None)
+    return ModelValueError(f"{what} has no value: {reason(fault)}", system.source or None, start, end, hint)
+
+
+def undecided(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
+    """A condition that hangs on a constant that is not known."""
+    names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
+    said = f"Whether production {rule.number + 1}, {rule.production}, is for {module} cannot be decided"
+    start, end = rule.production.at or (None, None)
+    return ModelValueError(said, system.source or None, start, end,
+                           f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
