@@ -105,6 +105,10 @@ def _parted(plain: str, start: int, end: int) -> Iterator[tuple[int, int]]:
             depth += (match[0] in "([{") - (match[0] in ")]}")
 
 
+_SYMBOL = re.compile(r"[A-Za-z_]\w*|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
+"""What a symbol may be."""
+
+
 def _records() -> Transformer[Any, Any]:
     return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
@@ -157,6 +161,13 @@ def _write(system: LSystem) -> str:
                       *sections(system, str)])
 
 
+def _lacking(system: LSystem) -> str | None:
+    """What the notation cannot write: round branches, and symbols such as digits or a comma."""
+    strange = (module.symbol for module in system.modules if not _SYMBOL.fullmatch(module.symbol))
+    found = next(strange, None)
+    return first_lacking(system, "round brackets as branches") or (None if found is None else f'symbol "{found}"')
+
+
 def _likely(text: str) -> int:
     """More than one where the text shows the mathematical form."""
     return 1 + sum(bool(mark.search(text)) for mark in _MARKS)
@@ -164,4 +175,4 @@ def _likely(text: str) -> int:
 
 ABOP = Notation(
     name="abop", statements=printed, records=_records, finish=_finish, questions=QUESTIONS, module=str, joined=joined,
-    write=_write, lacking=lambda system: first_lacking(system, "round brackets as branches"), likely=_likely)
+    write=_write, lacking=_lacking, likely=_likely)

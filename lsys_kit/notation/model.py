@@ -38,14 +38,15 @@ class Module:
 
 
 def joined(texts: Iterable[str]) -> str:
-    """The texts of modules as one word, with a blank only where two names would run together.
+    """The texts of modules as one word, with a blank only where two would run together: two names, or a roll and a name, which
+    might be taken for a macro of LaTeX.
 
-    >>> joined(["A(1)", "[", "al", "br", "]", "C"])
-    'A(1)[al br]C'
+    >>> joined(["A(1)", "[", "al", "br", "]", "C", "\\\\", "vec"])
+    'A(1)[al br]C\\\\ vec'
     """
     parts: list[str] = []
     for text in texts:
-        if parts and _word_like(text[:1]) and _word_like(parts[-1][-1:]):
+        if parts and _word_like(text[:1]) and (_word_like(parts[-1][-1:]) or (parts[-1] == "\\" and text[:1].islower())):
             parts.append(" ")
         parts.append(text)
     return "".join(parts)

@@ -35,4 +35,5 @@ def recognised(text: str) -> Notation:
     >>> recognised("axiom: A").name
     'abop'
     """
-    return max(NOTATIONS.values(), key=lambda notation: notation.likely(text))
+    said = "\n".join(line for line in text.split("\n") if not line.isspace() and line)  # a pattern may look again at each blank
+    return max(NOTATIONS.values(), key=lambda notation: notation.likely(said))

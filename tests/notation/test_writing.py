@@ -57,6 +57,21 @@ def test_round_branches_are_for_plant_strings() -> None:
         write(read("Axiom: I\nI -> I(A)", "plant-string"), "abop")
 
 
+@pytest.mark.parametrize(("text", "notation", "symbol"), [
+    ("Axiom: F1F0\n1 < 0 --> 1", "cpfg", "1"), ("Axiom: F,A", "cpfg", ","), ("* # u1' F,", "grogra", "*"),
+    ("\\axiom L*0.5 F,", "grogra", "L*")])
+def test_symbols_that_the_kit_s_own_notation_cannot_have_are_named(text: str, notation: str, symbol: str) -> None:
+    with pytest.raises(ModelValueError) as caught:
+        write(read(text, notation), "abop")
+    assert caught.value.message == f'The notation abop has no symbol "{symbol}", which this system needs'
+
+
+def test_a_roll_stands_apart_from_a_name_that_latex_might_know() -> None:
+    system = read("axiom: A \\ vec \\ F \\(90) vec")
+    assert write(system) == "axiom: A\\ vec\\F\\(90)vec"
+    assert read(write(system)) == system
+
+
 def test_an_unknown_notation_is_named() -> None:
     with pytest.raises(ModelNameError, match='There is no notation called "lpfg"'):
         write(read("axiom: A"), "lpfg")
