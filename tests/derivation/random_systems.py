@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from fractions import Fraction
+from itertools import chain
 
 from hypothesis import strategies as st
 
@@ -56,7 +57,8 @@ def conditions(draw: st.DrawFn, names: tuple[str, ...], depth: int = 1) -> Expre
     if kind == "not":
         return Apply("!", (draw(conditions(names, 0)),))
     left = Name(draw(st.sampled_from(names))) if names else Number(draw(numbers))
-    return Apply(draw(st.sampled_from(RELATIONS)), (left, draw(expressions(names, 1))))
+    right = st.integers(0, 3).map(Number) | expressions(names, 1)
+    return Apply(draw(st.sampled_from(RELATIONS)), (left, draw(right)))
 
 
 @st.composite
@@ -85,12 +87,20 @@ def productions(draw: st.DrawFn, constants: tuple[str, ...]) -> Production:
     symbol = draw(st.sampled_from((*SYMBOLS, "A", "al")))
     formal: list[Expression] = []
     for name in ("t", "x")[:ARITY[symbol]]:
-        asked = st.one_of(numbers.map(Number), *([st.sampled_from(constants).map(Name)] if constants else []))
-        formal.append(draw(asked) if draw(st.integers(0, 4)) == 0 else Name(name))
+        asked = st.one_of(st.integers(0, 2).map(Number), *([st.sampled_from(constants).map(Name)] if constants else []))
+        formal.append(draw(asked) if draw(st.integers(0, 3)) == 0 else Name(name))
     parameters = tuple(e.name for e in formal if isinstance(e, Name) and e.name not in constants)
     names = (*parameters, *constants)
     condition = draw(conditions(names)) if parameters and draw(st.integers(0, 3)) else None
     return Production(Module(symbol, tuple(formal)), draw(successors(names)), condition)
+
+
+@st.composite
+def instances(draw: st.DrawFn, formal: Module, constants: tuple[str, ...] = ()) -> Module:
+    """A module as a pattern says: its parameters have some values, what it asks for is there."""
+    return Module(formal.symbol, tuple(
+        Number(draw(numbers)) if isinstance(argument, Name) and argument.name not in constants else argument
+        for argument in formal.arguments))
 
 
 @st.composite
@@ -103,8 +113,7 @@ def systems(draw: st.DrawFn) -> LSystem:
     rules = draw(st.lists(productions(names), min_size=2, max_size=7))
     if draw(st.integers(0, 3)):
         rules.sort(key=lambda rule: rule.condition is None)  # as in good models, where what always applies stands last
-    started = dict.fromkeys(rule.predecessor.symbol for rule in rules[:2])
-    axiom = [Module(symbol, tuple(Number(draw(numbers)) for _ in range(ARITY[symbol]))) for symbol in started]
+    axiom = [draw(instances(rule.predecessor, names)) for rule in rules[:2]]
     return LSystem((*axiom, *draw(successors(names))), tuple(rules), tuple(constants),
                    alphabet=tuple(symbol for symbol in SYMBOLS if len(symbol) > 1))
 
@@ -144,7 +153,7 @@ def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more
 def items(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], least: int = 0, most: int = 2) -> tuple[Item, ...]:
     """A part of a word, perhaps with a branch in it, perhaps with a part written several times."""
     word: list[Item] = list(draw(st.lists(lively(names, kinds), min_size=least, max_size=most)))
-    if word and CUT in kinds and draw(st.integers(0, 2)) == 0:
+    if word and CUT in kinds and draw(st.booleans()):
         word.insert(draw(st.integers(0, len(word))), Module("%"))
     if word and draw(st.integers(0, 2)) == 0:
         start, end = sorted((draw(st.integers(0, len(word))), draw(st.integers(0, len(word)))))
@@ -170,12 +179,14 @@ def repeats(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], dep
 
 @st.composite
 def patterns(draw: st.DrawFn, names: str, branches: bool) -> tuple[Module, ...]:
-    """Up to two neighbours; to the right some of them may stand on branches."""
+    """Up to two neighbours, of which values may be asked for; to the right some of them may stand on branches."""
     word = []
+    named = branches and draw(st.integers(0, 2)) == 0
     for name in names[:draw(st.sampled_from((1, 1, 2)))]:
         symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+")))
-        word.append(Module(symbol, (Name(name),) * ARITIES[symbol]))
-    if branches and draw(st.integers(0, 2)) == 0:
+        asked = Number(draw(st.integers(0, 2))) if not named and draw(st.integers(0, 7)) == 0 else Name(name)
+        word.append(Module(symbol, (asked,) * ARITIES[symbol]))
+    if named:
         ways = [[OPEN, word[0], CLOSE, *word[1:]], [OPEN, *word, CLOSE]]
         if len(word) == 2:
             ways += [[word[0], OPEN, word[1], CLOSE], [OPEN, word[0], CLOSE, OPEN, word[1], CLOSE],
@@ -185,7 +196,8 @@ def patterns(draw: st.DrawFn, names: str, branches: bool) -> tuple[Module, ...]:
 
 
 @st.composite
-def rules(draw: st.DrawFn, kinds: Collection[str]) -> Production:
+def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
+    """A rule, or two between which chance decides."""
     symbol = draw(st.sampled_from(("S", *LIVELY, "S", "+")))
     asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name("x")
     predecessor = Module(symbol, (asked,) * ARITIES[symbol])
@@ -193,10 +205,18 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> Production:
     left = draw(patterns("lm", branches=False)) if sides in ("left", "both") else ()
     right = draw(patterns("rs", branches=True)) if sides in ("right", "both") else ()
     names = tuple(a.name for module in (*left, predecessor, *right) for a in module.arguments if isinstance(a, Name))
-    condition = draw(conditions(names, 0)) if names and draw(st.integers(0, 3)) else None
-    probability = draw(st.sampled_from(WEIGHTS)) if CHANCE in kinds and draw(st.integers(0, 3)) else None
-    successor = draw(items(names, kinds, least=draw(st.sampled_from((0, 1, 1, 1)))))
-    return Production(predecessor, successor, condition, left, right, probability)
+    condition = draw(conditions(names, 0)) if names and draw(st.integers(0, 7)) else None
+    chancy = CHANCE in kinds and draw(st.integers(0, 3))
+    successors = items(names, kinds, least=draw(st.sampled_from((0, 1, 1, 1))))
+    return [Production(predecessor, draw(successors), condition, left, right, probability)
+            for probability in (draw(st.lists(st.sampled_from(WEIGHTS), min_size=1, max_size=2)) if chancy else (None,))]
+
+
+@st.composite
+def apices(draw: st.DrawFn, kinds: Collection[str]) -> Production:
+    """A rule for an apex that ages and grows where no other rule has a say."""
+    older = Module("S", (Apply("+", (Name("x"), Number(1))),))
+    return Production(Module("S", (Name("x"),)), (*draw(items(("x",), kinds, most=1)), older))
 
 
 @st.composite
@@ -231,25 +251,20 @@ def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
     if not kinds:
         without = draw(st.lists(st.sampled_from(KINDS), max_size=2))
         kinds = tuple(kind for kind in KINDS if kind not in without)
-    rewriting = tuple(draw(st.lists(rules(kinds), min_size=4, max_size=8)))
+    rewriting = list(chain(*draw(st.lists(rules(kinds), min_size=3, max_size=6))))
+    if draw(st.integers(0, 3)):
+        rewriting.sort(key=lambda rule: not (rule.left or rule.right or rule.condition))  # what always applies stands last
+    if draw(st.integers(0, 3)):
+        rewriting.append(draw(apices(kinds)))
     meta = tuple(draw(st.lists(metas(), min_size=1, max_size=3))) if META in kinds else ()
     plain = tuple(kind for kind in kinds if kind not in (CHANCE, REPETITION, CUT))
     decomposed = (Module("D", (Number(draw(st.integers(1, 3))),)), Module("E")) if DECOMPOSITION in kinds else ()
-    axiom = [*draw(items((), plain, most=4)), *decomposed, *draw(instances(rewriting[:4], meta))]
+    found = [m for rule in rewriting[:4] for m in (*rule.left, rule.predecessor, *rule.right)]
+    found += [m for rule in meta for m in rule.predecessors]
+    axiom = [*draw(items((), plain, most=4)), *decomposed, *(draw(instances(module)) for module in found)]
     ignored = draw(st.sampled_from(((), ("+",), ("+", "F")))) if CONTEXT in kinds else ()
     return LSystem(
-        tuple(axiom), rewriting,  # type: ignore[arg-type]
+        tuple(axiom), tuple(rewriting),  # type: ignore[arg-type]
         decomposition=tuple(draw(st.lists(decompositions(kinds), min_size=1, max_size=3))) if DECOMPOSITION in kinds else (),
         meta=meta, ignored=ignored,
         considered=draw(st.sampled_from(((), (), LIVELY))) if CONTEXT in kinds and not ignored else ())
-
-
-@st.composite
-def instances(draw: st.DrawFn, rewriting: Collection[Production], meta: Collection[MetaRule]) -> list[Module]:
-    """A word in which rules find what they look for, as far as numbers and their neighbours allow."""
-    word: list[Module] = []
-    for rule in rewriting:
-        word += [*rule.left, rule.predecessor, *rule.right]
-    for joined in meta:
-        word += joined.predecessors
-    return [Module(m.symbol, tuple(Number(draw(st.integers(0, 3))) for _ in m.arguments)) for m in word]
