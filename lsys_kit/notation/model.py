@@ -38,18 +38,23 @@ class Module:
 
 
 def joined(texts: Iterable[str]) -> str:
-    """The texts of modules as one word, with a blank only where two would run together: two names, or a roll and a name, which
-    might be taken for a macro of LaTeX.
+    """The texts of modules as one word, with a blank only where two would run together: two names, or a name behind a roll or
+    an @, which might be taken for a macro of LaTeX or for one symbol.
 
-    >>> joined(["A(1)", "[", "al", "br", "]", "C", "\\\\", "vec"])
-    'A(1)[al br]C\\\\ vec'
+    >>> joined(["A(1)", "[", "al", "br", "]", "C", "\\\\", "vec", "@", "o"])
+    'A(1)[al br]C\\\\ vec@ o'
     """
     parts: list[str] = []
     for text in texts:
-        if parts and _word_like(text[:1]) and (_word_like(parts[-1][-1:]) or (parts[-1] == "\\" and text[:1].islower())):
+        if parts and _word_like(text[:1]) and _runs_on(parts[-1], text):
             parts.append(" ")
         parts.append(text)
     return "".join(parts)
+
+
+def _runs_on(last: str, name: str) -> bool:
+    """Whether a name directly behind a module would be read together with it."""
+    return _word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower())
 
 
 def _word_like(character: str) -> bool:

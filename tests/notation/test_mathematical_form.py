@@ -245,7 +245,7 @@ def test_a_right_context_may_say_that_a_branch_ends() -> None:
 
 @pytest.mark.parametrize(("text", "modules"), [
     ("@oF@cF", "@o F @c F"), ("@O(2)@v@M(1,2)@D", "@O(2) @v @M(1,2) @D"), ("F@Ts@Tx(1)", "F @Ts @Tx(1)"),
-    ("?P(1,2)?H?U?LA?E(0)", "?P(1,2) ?H ?U ?L A ?E(0)"), ("@(0.5)F", "@(0.5) F"), ("~L(0)~K", "~ L(0) ~ K"), ("@T S", "@T S"),
+    ("?P(1,2)?H?U?LA?E(0)", "?P(1,2) ?H ?U ?L A ?E(0)"), ("@(0.5)F", "@(0.5) F"), ("~L(0)~K", "~ L(0) ~ K"), ("@T S", "@T S"), ("@ F", "@ F"),
 ])
 def test_commands_of_two_characters_are_symbols(text: str, modules: str) -> None:
     word = read_word(text)
