@@ -1,0 +1,157 @@
+"""How fast texts are read, in every notation: the expressions of the catalogue, and texts of a million characters.
+
+Goals: an expression in under 0.3 ms; a text of a million characters is read or refused in under 2 s. With `--benchmark-only` a
+table of the figures is printed; without it each text is read once, and may take three times as long on a busy machine.
+"""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+
+import pytest
+
+from lsys_kit import system, systems
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.expressions import Expression
+from lsys_kit.notation.model import LSystem, Module, flat
+from lsys_kit.notation.parsing import parse
+from lsys_kit.notation.read import read
+from lsys_kit.notation.registry import NOTATIONS, recognised
+from lsys_kit.notation.write import write
+
+MOST_MS, MOST_SECONDS, BUSY = 0.3, 2.0, 3
+MILLION = 1_000_000
+MOST = 49_000
+"""How many characters are read in every notation, even where they are one statement."""
+WITH_EXPRESSIONS = [name for name in NOTATIONS if name != "plant-string"]
+RULE = {
+    "abop": "A(t) : t < {} && t > 2 -> B(t+1)[+C(2*t)]F(t^2) A(t)\n", "plant-string": "A -> I[A]A(I)AFFI[L](L)IFA[A]B(B)\n",
+    "cpfg": "A(t) : t < {} && t > 2 --> B(t+1)[+C(2*t)]F(t^2)A(t)\n",
+    "grogra": "(t<{} && t>2) A(t) # B(t+1) [+ C(2*t)] F(t^2) A(t),\n",
+    "mathematica": "LRule[LEFT[], PRED[A[t_ /; t < {} && t > 2]], RIGHT[], SUCC[B[t+1], C[2*t], F[t^2], A[t]]],\n",
+}
+"""A production of each notation, with a place for a number."""
+BEGUN = {"abop": "axiom: A\n", "plant-string": "Axiom: A\n", "cpfg": "Axiom: A\n", "grogra": "\\axiom A,\n",
+         "mathematica": "axiom = AXIOM[A];\nlrules = LRULES[\n"}
+ENDED = {"mathematica": "LRule[LEFT[], PRED[A], RIGHT[], SUCC[B]]];\nlsystem = LSystem[axiom, lrules];"}
+ARROW = {"cpfg": " --> ", "grogra": " # ", "mathematica": " -> "}
+
+
+def model(notation: str, rules: int, wide: int = 0) -> str:
+    """A model with so many productions, whose successors end in so many modules more."""
+    end = {"grogra": ",\n", "mathematica": "]],\n"}.get(notation, "\n")
+    more = ", A[t]" if notation == "mathematica" else " A" if notation == "plant-string" else " A(t)"
+    rule = RULE[notation].removesuffix(end) + more * wide + end
+    return BEGUN[notation] + "".join(rule.format(number) for number in range(rules)) + ENDED.get(notation, "")
+
+
+def million(notation: str) -> dict[str, str]:
+    """Texts of a million characters: models, what looks like one, and what is none."""
+    arrow = ARROW.get(notation, " -> ")
+    opening, closing = ("(*", "*)") if notation == "mathematica" else ("/*", "*/")
+    texts = {
+        "the most that is read": model(notation, MOST // len(RULE[notation].format(100))) + "\n" * MILLION,
+        "the longest line": BEGUN[notation] + f"A{arrow}{'+-' * 20_000}\n" + ENDED.get(notation, "") + "\n" * MILLION,
+        "many rules": model(notation, MILLION // len(RULE[notation])),
+        "a thousand long rules": model(notation, 990, 180),
+        "long lines": BEGUN[notation] + f"A{arrow}{'A ' * 20_000}\n" * 24,
+        "signs": BEGUN[notation] + f"A{arrow}{'+-' * 20_000}\n" * 24,
+        "blanks": model(notation, 100) + "\n" * MILLION,
+        "a comment": model(notation, 100) + opening + "x " * (MILLION // 2 - 20_000) + closing,
+        "open comments": model(notation, 100) + (opening + " x ") * (MILLION // 5),
+        "open brackets": BEGUN[notation] + "[" * MILLION,
+        "one word": "F" * MILLION,
+        "short lines": "A\n" * (MILLION // 2),
+        "comparisons": "A" + " < A" * (MILLION // 4),
+        "labels": "p_1 : A\n" * (MILLION // 8),
+        "sets": "P = {A, \n" * (MILLION // 9),
+        "wide blanks": ("A" + " " * 999) * (MILLION // 1_000) + "!",
+    }
+    return {name: text[:MILLION] for name, text in texts.items()}
+
+
+def expressions(model: LSystem) -> Iterator[Expression]:
+    """All expressions of a system's rules."""
+    for rule in model.rules:
+        modules = (*rule.parameters, *flat(rule.successor))
+        found = (*(argument for module in modules for argument in module.arguments), rule.condition, rule.probability)
+        yield from (expression for expression in found if isinstance(expression, Expression))
+
+
+class Table:
+    """The figures, a line each, printed when all is measured."""
+
+    def __init__(self) -> None:
+        self.lines = [("notation", "text", "median", "slowest", "goal")]
+
+    def __str__(self) -> str:
+        widths = [max(map(len, column)) for column in zip(*self.lines, strict=True)]
+        return "\n".join("  ".join(map(str.ljust, line, widths)).rstrip() for line in self.lines)
+
+
+@pytest.fixture(scope="module")
+def table(request: pytest.FixtureRequest) -> Iterator[Table]:
+    found = Table()
+    yield found
+    if request.config.option.benchmark_only:
+        with request.config.pluginmanager.getplugin("capturemanager").global_and_fixture_disabled():
+            print(f"\n\n{found}")
+
+
+@pytest.mark.parametrize("notation", WITH_EXPRESSIONS)
+def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
+    """Each expression of each system, spelt in the notation, the best of some rounds."""
+    chosen = NOTATIONS[notation]
+    spelt = {chosen.module(Module("a", (expression,)))[2:-1] for id in systems() if not chosen.lacking(system(id))
+             for expression in expressions(system(id))}
+    taken = dict.fromkeys(spelt, float("inf"))
+
+    def read_all() -> None:
+        for text in spelt:
+            started = time.perf_counter()
+            parse(chosen, "expression", text, 0, len(text))
+            taken[text] = min(taken[text], time.perf_counter() - started)
+
+    benchmark.pedantic(read_all, rounds=5, warmup_rounds=1)
+    milliseconds = sorted(1_000 * seconds for seconds in taken.values())
+    assert len(milliseconds) > 10
+    table.lines.append((notation, f"{len(spelt)} expressions", f"{statistics.median(milliseconds):.3f} ms",
+                        f"{milliseconds[-1]:.3f} ms", f"{MOST_MS} ms"))
+    assert milliseconds[-1] < MOST_MS * BUSY
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
+    """Each text is recognised, then read in the notation or refused with an explanation."""
+    texts, taken = million(notation), dict[str, float]()
+
+    def read_all() -> None:
+        for name, text in texts.items():
+            started = time.perf_counter()
+            recognised(text)
+            with suppress(LSystemError):
+                read(text, notation)
+            taken[name] = time.perf_counter() - started
+
+    benchmark.pedantic(read_all, rounds=1)
+    slowest = max(taken, key=lambda name: taken[name])
+    table.lines.append((notation, f"a million characters: {slowest}", f"{statistics.median(taken.values()):.2f} s",
+                        f"{taken[slowest]:.2f} s", f"{MOST_SECONDS:g} s"))
+    assert taken[slowest] < MOST_SECONDS * BUSY, slowest
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_a_model_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
+    """A plant and a parametric filament where the notation can express it: from text to system."""
+    texts = [write(system(id), notation) for id in ("K5", "P4") if not NOTATIONS[notation].lacking(system(id))]
+    assert benchmark(lambda: [read(text, notation) for text in texts])
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_the_largest_model_that_is_read(notation: str) -> None:
+    """The productions of the long texts are what they are taken for."""
+    rules = MOST // len(RULE[notation].format(100))
+    assert len(read(million(notation)["the most that is read"], notation).productions) == rules + (notation == "mathematica")
