@@ -1,7 +1,7 @@
 """Filaments: cells in a row, as in seed 000's figures 1 to 3 and seed 002's figures 1 and 3.
 
 A cell is what the interpretation rules make of a module: `L(length, width, shade)` points left, `R(length, width, shade)`
-points right; the shade, from 0 to 1, shows its age and may be left out.
+right, `O(length, width, shade)` nowhere; the shade, from 0 to 1, shows its age and may be left out.
 """
 
 from __future__ import annotations
@@ -47,4 +47,4 @@ def _cell(made: Module, module: Module) -> tuple[float, float, int, float]:
     length, width, *rest = (float(value) for value in made.arguments)  # type: ignore[arg-type]
     if length <= 0 or width <= 0:
         raise ModelValueError(f"{module} cannot be drawn as {made}: a cell's length and width are greater than 0")
-    return length, width, -1 if made.symbol == CELLS[0] else 1, min(1.0, max(0.0, rest[0])) if rest else 0.0
+    return length, width, CELLS[made.symbol], min(1.0, max(0.0, rest[0])) if rest else 0.0

@@ -54,5 +54,6 @@ def plot_rows(ax: Axes, rows: Sequence[Row], colour_of: Mapping[int, str]) -> No
             ax.add_patch(Ellipse((centre, y), length, width, facecolor=tinted(colour, 0.28 + 0.6 * shade), edgecolor=colour,
                                  linewidth=0.6))
             reach = 0.29 * length * way
-            ax.add_patch(FancyArrowPatch((centre - reach, y), (centre + reach, y), arrowstyle="->", color=INK, shrinkA=0,
-                                         shrinkB=0, linewidth=0.5, mutation_scale=4))
+            if way:
+                ax.add_patch(FancyArrowPatch((centre - reach, y), (centre + reach, y), arrowstyle="->", color=INK, shrinkA=0,
+                                             shrinkB=0, linewidth=0.5, mutation_scale=4))

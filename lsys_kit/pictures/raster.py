@@ -121,7 +121,7 @@ def _row(pen: object, cells: Cells, scale: float, left: float, middle: float, co
         colour = colour_of.get(state, GREEN)
         pen.ellipse((x - length, middle - width, x + length, middle + width), outline=colour,  # type: ignore[attr-defined]
                     fill=tinted(colour, 0.28 + 0.6 * shade), width=FINE)
-        if length > 7:
+        if length > 7 and way:
             reach, head = 0.58 * length * way, 0.32 * min(length, width)
             tip = x + reach
             back = tip - head * way

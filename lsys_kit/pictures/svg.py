@@ -203,7 +203,7 @@ def cells_svg(cells: Cells, scale: float, left: int, middle: int, colour_of: Map
         edge = f'{MARK_EDGE}" stroke-width="32' if state in marked else colour_of.get(state, GREEN)
         shapes.append(f'<ellipse cx="{x}" cy="{middle}" rx="{rx}" ry="{ry}" fill="{fills[state, shade]}" stroke="{edge}"/>')
     arrows = "".join(_arrow(x, middle, rx, ry, way)
-                     for x, (rx, ry), way in zip(centres, radii, cells.polarities.tolist(), strict=True) if rx > 25)
+                     for x, (rx, ry), way in zip(centres, radii, cells.polarities.tolist(), strict=True) if rx > 25 and way)
     return (f'<g stroke-width="10">{"".join(shapes)}</g>'
             f'<path d="{arrows}" fill="none" stroke="{INK}" stroke-width="9" stroke-linecap="round" stroke-linejoin="round"/>')
 

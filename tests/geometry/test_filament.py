@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from lsys_kit import ModelValueError, derive, read, system
+from lsys_kit import ModelValueError, derive, draw, read, system
 from lsys_kit.geometry.filament import filament
 
 
@@ -43,3 +43,10 @@ def test_the_filament_of_p2_grows_by_the_same_factor_in_every_step():
     lengths = [filament(word).width for word in derive(system("P2"), 12)]
     factors = [after / before for before, after in pairwise(lengths)]
     assert factors == pytest.approx([1.1673] * 12, abs=1e-3)
+
+
+def test_a_cell_without_polarity_has_no_arrow() -> None:
+    """Seed 000's ILSystem1 (J2): its cells are letters that point nowhere."""
+    picture = draw(system("J2"), 3)
+    assert set(picture.scene.cells.polarities.tolist()) == {0}
+    assert 'd=""' in picture.svg
