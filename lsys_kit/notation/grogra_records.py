@@ -22,6 +22,10 @@ _GLUED = re.compile(r"([^\d.-]+)(-?)([\d.]+)")
 _PARTS = re.compile(r"[(),]|^[ \t]*Startwort[ \t]+[A-Za-z*](?![^\n]*(?:#|->|→|\\rightarrow))", re.MULTILINE)
 
 
+BLANKS = "\ufeff \t\r\n\u00a0"
+"""What stands between statements and means nothing."""
+
+
 def statements(text: str) -> Iterator[tuple[int, int]]:
     r"""The offsets of the statements: what stands between commas, but not those inside parentheses.
 
@@ -45,8 +49,8 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
 def _stripped(text: str, start: int, end: int) -> Iterator[tuple[int, int]]:
     """The offsets without the blanks around; nothing where there is nothing else."""
     stretch = text[start:end]
-    if stretch.strip("\ufeff \t\r\n\u00a0"):
-        yield start + len(stretch) - len(stretch.lstrip("\ufeff \t\r\n\u00a0")), start + len(stretch.rstrip())
+    if stretch.strip(BLANKS):
+        yield start + len(stretch) - len(stretch.lstrip(BLANKS)), start + len(stretch.rstrip(BLANKS))
 
 
 @v_args(inline=True)

@@ -1,0 +1,27 @@
+"""Texts on which a fuzzer once found a reader wrong: each is read and reads back, or is explained."""
+
+from __future__ import annotations
+
+import pytest
+
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.read import read
+from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.write import write
+
+FOUND = {
+    "a separator that is a blank to Python, and none to the grammar": " \x1c",
+    "a roll before a name that LaTeX knows": "\\omega : \\overrightarrow{A}\\overrightarrow B \\over",
+    "an @ before a name": "steps: 15\naxiom: @b@ a a a a a a/a a/!a @b a a a a aa d\nb < a -> V",
+}
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("text", FOUND.values(), ids=FOUND)
+def test_a_text_is_read_and_reads_back_or_is_explained(text: str, notation: str) -> None:
+    try:
+        found = read(text, notation)
+    except LSystemError as error:
+        assert error.message
+        return
+    assert read(write(found), notation) == found
