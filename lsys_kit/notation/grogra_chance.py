@@ -1,10 +1,10 @@
 """GROGRA's probabilities: `?p` behind a rule is the chance that it is applied, and what the rules leave is the chance that
 nothing happens (seed 003).
 
+One random number decides: of the rules that match, in the order written, the first up to whose sum of probabilities it is.
 The kit chooses among weights, whatever they add up to. So the rest becomes a rule of its own that changes nothing, a rule
-without `?` behind others gets what those leave, and a number that goes beyond 1 is cut off there. Only where rules with
-probabilities and different contexts, or more than 1 in all under different conditions, match at once are their weights taken
-in proportion.
+without `?` behind others gets what those leave, and a number that goes beyond 1 is cut off. Only where rules with
+probabilities and different contexts, or asked values, match at once are their weights taken in proportion.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ from fractions import Fraction
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.arithmetic import Value, number_text
+from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.checks import value_of
 from lsys_kit.notation.expressions import Apply, Expression, Name, Number, names_in
+from lsys_kit.notation.grogra_conditions import apart
 from lsys_kit.notation.model import Item, LSystem, Module, Production, Repeat
 
-_Share = tuple[Expression | None, Expression]
-"""When a rule matches, and with what probability it is applied then."""
+_Condition = Expression | None
+_COMPARED = 100
+"""So many conditions are compared with each other; of more, any two may hold together."""
 
 
 def completed(system: LSystem) -> tuple[tuple[Production, ...], tuple[str, ...]]:
@@ -44,11 +46,7 @@ def completed(system: LSystem) -> tuple[tuple[Production, ...], tuple[str, ...]]
         first = next((number for number in row if system.productions[number].probability is not None), None)
         if first is not None:
             row = [number for number in row if number >= first]
-            rules, said = _whole(list(_candidates(system.productions, row, constants, system.source)), constants, system.source)
-            for number, rule in zip(row, rules, strict=False):
-                found[number] = [rule]
-            found[row[-1]] += rules[len(row):]
-            notes += said
+            notes += _complete(system, row, constants, found)
     return tuple(rule for rules in found for rule in rules), tuple(notes)
 
 
@@ -68,19 +66,19 @@ def _parameters(rule: Production, constants: frozenset[str]) -> list[str]:
 
 
 def _candidates(rules: Sequence[Production], row: Sequence[int], constants: frozenset[str],
-                source: str) -> Iterator[tuple[Production, bool]]:
-    """The rules of a row, and between them those for all modules of the kind; the second of a pair says which is which."""
+                source: str) -> Iterator[tuple[int, Production]]:
+    """The rules of a row, and between them those for all modules of the kind, made for the modules of the row."""
     first, places = rules[row[0]], set(row)
     for number in range(row[0], len(rules)):
         rule = rules[number]
         if number in places:
-            yield rule, True
+            yield number, rule
         elif rule.probability is None and _is_for_all(rule, first, constants):
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
             condition = None if rule.condition is None else renamed(rule.condition, names)  # type: ignore[arg-type]
             if condition is None or names_in(condition) or value_of(condition, source):
-                yield replace(first, successor=renamed_items(rule.successor, names), probability=None,  # type: ignore[arg-type]
-                              condition=condition if condition and names_in(condition) else None), False
+                yield number, replace(first, successor=renamed_items(rule.successor, names), probability=None,  # type: ignore[arg-type]
+                                      condition=condition if condition and names_in(condition) else None)
 
 
 def _is_for_all(rule: Production, other: Production, constants: frozenset[str]) -> bool:
@@ -113,100 +111,118 @@ def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tup
 
 @dataclass
 class _Shares:
-    """What rules for the same modules take of a probability of 1.
+    """What rules for the same modules ask for of a probability of 1, one after another.
 
     Attributes
     ----------
+    source
+        The text.
     parts
-        For each rule its condition, and the probability with which it is applied where that holds.
-    total
-        Their sum, if all of them are numbers.
-    conditions
-        All conditions, each once.
+        For each condition the probabilities that are asked for where it holds; 1 for all that is left.
+    bounds
+        Their sums; those that are calculated from names are taken to leave room for others.
+    closed
+        The conditions under which nothing is left.
     """
 
-    parts: list[_Share] = field(default_factory=list)
-    total: Fraction | None = Fraction(0)
-    conditions: dict[Expression | None, None] = field(default_factory=dict)
-
-    def add(self, condition: Expression | None, share: Expression, source: str) -> None:
-        """Take in one rule more."""
-        value = _value(share, source)
-        self.total = None if self.total is None or value is None else self.total + Fraction(value)
-        self.conditions[condition] = None
-        self.parts.append((condition, share))
+    source: str
+    parts: dict[_Condition, list[Expression]] = field(default_factory=dict)
+    bounds: dict[_Condition, Fraction] = field(default_factory=dict)
+    closed: set[_Condition] = field(default_factory=set)
 
     @property
-    def common(self) -> Expression | None:
+    def common(self) -> _Condition:
         """The condition under which all the rules match; None where they have none or different ones."""
-        return self.parts[0][0] if len(self.conditions) == 1 else None
+        return next(iter(self.parts)) if len(self.parts) == 1 else None
 
-    def known(self, condition: Expression | None) -> Fraction | None:
-        """What they leave where a condition holds, if that is a number."""
-        apart = len(self.conditions) > 2 or self.conditions.keys() - {None, condition}
-        return None if apart or self.total is None else max(Fraction(0), 1 - self.total)
-
-    def left(self, condition: Expression | None) -> Expression:
-        """What they leave where a condition holds."""
-        known = self.known(condition)
-        return _remaining(self.parts, condition) if known is None else _number(known)
-
+    @property
     def complete(self) -> bool:
-        """Whether nothing is left: the sum is 1, or the last rule has just what the others leave."""
-        if self.known(self.common) is not None:
-            return self.known(self.common) == 0
-        condition, last = self.parts[-1]
-        return condition == self.common and last == _remaining(self.parts[:-1], condition)
+        """Whether nothing is left wherever one of the rules matches."""
+        return None in self.closed or self.common in self.closed
+
+    def beside(self, condition: _Condition) -> list[_Condition]:
+        """The conditions that may hold together with another."""
+        return [other for other in self.parts
+                if other in (None, condition) or len(self.parts) > _COMPARED or not apart(other, condition)]
+
+    def taken(self, condition: _Condition) -> Fraction:
+        """What is taken at most where a condition holds."""
+        return sum((self.bounds[other] for other in self.beside(condition)), Fraction(0))
+
+    def left(self, condition: _Condition) -> Expression:
+        """What is left where a condition holds: a number, if that is known."""
+        beside = self.beside(condition)
+        asked = [(other, share) for other in beside for share in self.parts[other]]
+        if {*beside} <= {None, condition} and not any(names_in(share) for _, share in asked):
+            return _number(max(Fraction(0), 1 - self.taken(condition)))
+        return _remaining([s if other in (None, condition) else Apply("if", (other, s, Number(0))) for other, s in asked])
+
+    def give(self, condition: _Condition, share: Expression | None) -> Expression:
+        """What a rule gets that asks for a probability, or for all that is left."""
+        written, asked, closes = self._answer(condition, share)
+        if closes:
+            self.closed.add(condition)
+        self.parts.setdefault(condition, []).append(asked)
+        value = Fraction(0) if names_in(asked) else Fraction(value_of(asked, self.source))
+        self.bounds[condition] = self.bounds.get(condition, Fraction(0)) + value
+        return written
+
+    def _answer(self, condition: _Condition, share: Expression | None) -> tuple[Expression, Expression, bool]:
+        """What a rule gets, what counts for the next ones, and whether nothing is left for these."""
+        if share is not None and not names_in(share):
+            together = self.taken(condition) + Fraction(value_of(share, self.source))
+            if together < 1:
+                return share, share, False
+            left = self.left(condition)
+            if together == 1:
+                return share, share, not names_in(left)
+        else:
+            left = self.left(condition)
+            if share is None or share in (left, *(left.operands[1:] if isinstance(left, Apply) else ())):
+                return share or left, Number(1) if names_in(left) else left, True
+            if isinstance(share, Apply) and share == Apply("min", (share.operands[0], left)):
+                return share, share.operands[0], False  # cut off already
+            if self.taken(condition) < 1:
+                return share, share, False
+        return (Apply("min", (share, left)), share, False) if names_in(left) else (left, left, True)
 
 
-def _remaining(parts: Sequence[_Share], condition: Expression | None) -> Expression:
+def _remaining(terms: list[Expression]) -> Expression:
     """What is left by probabilities that are not all numbers."""
-    terms = [share if when in (None, condition) else Apply("if", (when, share, Number(0))) for when, share in parts]
+    count = len(terms)
     while len(terms) > 1:  # in pairs, so that a long sum is not nested deeply
         terms = [Apply("+", (*terms[i:i + 2],)) if terms[i + 1:] else terms[i] for i in range(0, len(terms), 2)]
-    left = Apply("max", (Number(0), Apply("-", (Number(1), *terms))))
+    left = Apply("max", (Number(0), Apply("-", (Number(1), *terms)))) if terms else Number(1)
     if len(str(left)) > current().expression:
-        raise ModelLimitError(f"What {len(parts)} rules leave is written with more than {current().expression:,} characters",
+        raise ModelLimitError(f"What {count} rules leave is written with more than {current().expression:,} characters",
                               limit=current().expression, hint="Write their probabilities as numbers.")
     return left
 
 
-def _whole(candidates: Sequence[tuple[Production, bool]], constants: frozenset[str],
-           source: str) -> tuple[list[Production], list[str]]:
-    """The rules for the same modules with probabilities that add up to 1, those that are added last; and notes."""
-    first = candidates[0][0]
-    names = _parameters(first, constants)
-    found, added, notes, shares = list[Production](), list[Production](), list[str](), _Shares()
-    for rule, own in candidates:
-        if not own and shares.complete():
-            continue
+def _complete(system: LSystem, row: Sequence[int], constants: frozenset[str], found: list[list[Production]]) -> list[str]:
+    """Put the rules for the same modules, with probabilities that add up to 1, where they belong; what is worth telling."""
+    first, source = system.productions[row[0]], system.source
+    names, shares, notes = _parameters(first, constants), _Shares(source), list[str]()
+    for number, rule in _candidates(system.productions, row, constants, source):
         there = dict(zip(_parameters(rule, constants), map(Name, names), strict=True))
         condition = None if rule.condition is None else renamed(rule.condition, there)
-        known = shares.known(condition)
-        if rule.probability is None and known == 0:
-            found += [rule] * own  # never applied where the others are
-            continue
-        if rule.probability is None:
-            share = shares.left(condition)
+        if rule.probability is None and (shares.closed & {None, condition} or (number not in row and shares.complete)):
+            continue  # never applied where the others are
+        share = None if rule.probability is None else renamed(rule.probability, there)
+        given = shares.give(condition, share)
+        if share not in (None, given):
+            notes.append(f"The probabilities of {rule.predecessor} add up to more than 1: {share} is read as {given}.")
+        whole = replace(rule, probability=renamed(given, {new.name: Name(old) for old, new in there.items()}))
+        if number in row:
+            found[number][-1] = whole
         else:
-            share, value = renamed(rule.probability, there), _value(rule.probability, source)
-            if known is not None and value is not None and value > known:
-                share = _number(known)
-                notes.append(f"The probabilities of {rule.predecessor} add up to more than 1: {rule.probability} is read as "
-                             f"{share}.")
-        back = {new.name: Name(old) for old, new in there.items()}
-        (found if own else added).append(replace(rule, probability=renamed(share, back)))
-        shares.add(condition, share, source)
-    if not shares.complete():
-        rest = replace(first, successor=(first.predecessor,), condition=shares.common, probability=shares.left(shares.common))
-        added.append(rest)
+            found[number].insert(0, whole)
+    if not shares.complete:
+        condition = shares.common
+        rest = replace(first, successor=(first.predecessor,), condition=condition, probability=shares.left(condition))
+        found[row[-1]].append(rest)
         notes.append(f"{rest.predecessor} stays as it is with the probability that its rules leave: {rest.probability}.")
-    return [*found, *added], notes
-
-
-def _value(expression: Expression, source: str) -> Value | None:
-    """What an expression comes to, where it uses no names."""
-    return None if names_in(expression) else value_of(expression, source)
+    return notes
 
 
 def _number(value: Fraction) -> Expression:

@@ -14,6 +14,7 @@ from lsys_kit.notation.tradition import Question
 ARROW = re.compile(r"##?|-->|->|→|⟶|\\(?:long)?rightarrow")
 RULE = 'A rule reads "a # F a": what is replaced, "#", what replaces it.'
 COMMA = 'Rules are parted by commas: "a # F b, b # F a".'
+_COMMENT = 'A comment stands between "/*" and "*/".'
 _SIDES = 'A left context ends with "<", a right context begins with ">", as in "s < a > b # c".'
 _IN_FRONT = 'It stands in front, in parentheses: "(t < 6) k(t) # k(t+1)".'
 _REPEAT = 'What is repeated reads "&(3) < F a >"; where ABOP turns by "&", type "RL(60)".'
@@ -32,14 +33,17 @@ _ITS_OWN = (
 
 
 def _comment(stumble: Stumble) -> ModelSyntaxError | None:
+    """What begins as no rule does: a comment of another notation, or an arrow."""
     statement = stumble.text[stumble.start:stumble.end]
-    if not statement.startswith(("//", "#")):
-        return None
+    if statement.startswith("//"):
+        return stumble.error("This is no rule", _COMMENT, stumble.start, 2)
     if statement.startswith("#define"):
         return stumble.error("This is no rule", 'A constant is declared as in "\\const k 3,".', stumble.start, 7)
-    if statement.startswith("//"):
-        return stumble.error("This is no rule", 'A comment stands between "/*" and "*/".', stumble.start, 2)
-    return stumble.error('Nothing stands before the "#"', f'{RULE} A comment stands between "/*" and "*/".')
+    arrow = ARROW.match(statement)
+    if arrow is None:
+        return None
+    return stumble.error(f"Nothing stands before the {quoted(arrow[0])}", f"{RULE} {_COMMENT}" if arrow[0] == "#" else RULE,
+                         stumble.start, len(arrow[0]))
 
 
 def _comma(stumble: Stumble) -> ModelSyntaxError | None:
@@ -112,8 +116,6 @@ def _arrows(stumble: Stumble) -> ModelSyntaxError | None:
                              'One "#" is enough; "##" says how a symbol is drawn.')
     if ARROW.search(stumble.before):
         return stumble.error(f"A second {quoted(stumble.found)} stands in this rule", COMMA)
-    if not stumble.before:
-        return stumble.error(f"Nothing stands before the {quoted(stumble.found)}", RULE)
     return None
 
 
