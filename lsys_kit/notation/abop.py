@@ -27,15 +27,12 @@ from lsys_kit.notation.stumble import outside
 from lsys_kit.notation.tradition import Notation
 
 _LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
+_LABELLED = re.compile(rf"^[ \t]*{_LABEL.pattern}", re.MULTILINE)
 _SET = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")
 _IN_A_SET = re.compile(rf"^[ \t]*{_SET.pattern}", re.MULTILINE)
 _COMPARED = re.compile(r"[<>=!]=|&&|\|\||[≤≥≠∧∨]|\\[lgn]eq?\b")
 _TWO_NAMES = re.compile(r"\s*(?!not\b)[A-Za-z_]\w*\s+(?!and\b|or\b)[A-Za-z_]")
 _PARTED = re.compile(r"[()\[\]{},]")
-_MARKS = tuple(re.compile(pattern, re.MULTILINE) for pattern in (
-    rf"^[ \t]*{_LABEL.pattern}", r"\\omega|ω", r"\\delta|δ", r"\\(vec|over(right|left)arrow)\b|[\u20d6\u20d7]",
-    r"\\xrightarrow", r"::=", r"^[ \t]*[VP][ \t]*=[ \t]*\{", r"^[^()<>\n]*[<>][^()\\→⟶\n]*(→|⟶|\\(long)?rightarrow)"))
-"""What shows the mathematical form."""
 
 
 def printed(text: str) -> Iterator[tuple[int, int]]:
@@ -46,7 +43,7 @@ def printed(text: str) -> Iterator[tuple[int, int]]:
     ['a -> b', 'b -> a', 'c -> b']
     """
     plain = without_comments(text)
-    used = frozenset(re.findall(r"\b\w++(?!\s*:)", plain)) if _MARKS[0].search(plain) else frozenset()
+    used = frozenset(re.findall(r"\b\w++(?!\s*:)", plain)) if _LABELLED.search(plain) else frozenset()
     for start, end in _members(plain, text):
         label = _LABEL.match(plain, start, end)
         if label and _labels(plain[label.end():end], label[1] in used):
@@ -168,11 +165,6 @@ def _lacking(system: LSystem) -> str | None:
     return first_lacking(system, "round brackets as branches") or (None if found is None else f'symbol "{found}"')
 
 
-def _likely(text: str) -> int:
-    """More than one where the text shows the mathematical form."""
-    return 1 + sum(bool(mark.search(text)) for mark in _MARKS)
-
-
 ABOP = Notation(
     name="abop", statements=printed, records=_records, finish=_finish, questions=QUESTIONS, module=str, joined=joined,
-    write=_write, lacking=_lacking, likely=_likely)
+    write=_write, lacking=_lacking, likely=lambda text: 1)

@@ -42,6 +42,7 @@ def slip(text: str) -> LSystemError:
     ("axiom: A" + " B" * 30_000, "This line has 60,008 characters; the limit is 50,000"),
     ("axiom: A" + "\nA -> B" * 1_001, "The model has more than 1,000 productions"),
     ("c = 1\n" * 2_001, "The model has more than 2,000 lines that say something"),
+    ("axiom: A" + ("\nA -> " + "B " * 100) * 700, "The model has more than 64,000 characters, without blanks and comments"),
     ("axiom: A" + " " * 1_000_000, "The text has 1,000,008 characters; the limit is 1,000,000"),
 ])
 def test_what_is_too_long_is_refused(text: str, message: str) -> None:

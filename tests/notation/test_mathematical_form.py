@@ -95,6 +95,8 @@ UNREADABLE = [
      'A condition stands between ":" and the arrow, as in "A(t) : t < 5 -> B".'),
     ("ω: A\nA \\rightarrow",
      "Nothing stands behind the arrow", 2, 3, 'To erase A, write "ε" or "*" there.'),
+    ("ω: A\nA(1 \\longrightarrow B",
+     'This "(" is never closed', 2, 2, 'Every "(" needs a ")" behind it.'),
     ("ω: A\nA \\rightarrow B \\rightarrow C",
      "A second arrow stands in this production", 2, 17, "Write one production a line."),
     ("ω: A\nA \\xrightarrow{} B",
@@ -245,7 +247,8 @@ def test_a_right_context_may_say_that_a_branch_ends() -> None:
 
 @pytest.mark.parametrize(("text", "modules"), [
     ("@oF@cF", "@o F @c F"), ("@O(2)@v@M(1,2)@D", "@O(2) @v @M(1,2) @D"), ("F@Ts@Tx(1)", "F @Ts @Tx(1)"),
-    ("?P(1,2)?H?U?LA?E(0)", "?P(1,2) ?H ?U ?L A ?E(0)"), ("@(0.5)F", "@(0.5) F"), ("~L(0)~K", "~ L(0) ~ K"), ("@T S", "@T S"), ("@ F", "@ F"),
+    ("?P(1,2)?H?U?LA?E(0)", "?P(1,2) ?H ?U ?L A ?E(0)"), ("@(0.5)F", "@(0.5) F"), ("~L(0)~K", "~ L(0) ~ K"), ("@T S", "@T S"),
+    ("@ F", "@ F"),
 ])
 def test_commands_of_two_characters_are_symbols(text: str, modules: str) -> None:
     word = read_word(text)
