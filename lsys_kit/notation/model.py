@@ -300,6 +300,6 @@ END = "ε"
 """What a right context has before the closing bracket of a branch of which it names all modules: the branch ends there."""
 
 CELLS = {"L": -1, "R": 1, "O": 0}
-"""The cells of a filament, and where they point: `L(length, width, shade)` left and `R(length, width, shade)` right, the modules
-that seed 002 (L-system 7, section 7) assumes to be predefined, and `O(length, width, shade)` nowhere; the shade of age, 0 to
-1, is that of seed 000's figures."""
+"""The cells of a filament, and where they point: `L(length, width, shade)` left and `R(length, width, shade)` right, the
+modules that seed 002 (L-system 7, section 7) assumes to be predefined, and `O(length, width, shade)` nowhere; the shade of age,
+0 to 1, is that of seed 000's figures."""
