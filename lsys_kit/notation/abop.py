@@ -32,6 +32,8 @@ _SET = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")
 _IN_A_SET = re.compile(rf"^[ \t]*{_SET.pattern}", re.MULTILINE)
 _COMPARED = re.compile(r"[<>=!]=|&&|\|\||[≤≥≠∧∨]|\\[lgn]eq?\b")
 _TWO_NAMES = re.compile(r"\s*(?!not\b)[A-Za-z_]\w*\s+(?!and\b|or\b)[A-Za-z_]")
+_SYMBOL = re.compile(r"[A-Za-z_]\w*|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
+"""What a symbol may be."""
 _PARTED = re.compile(r"[()\[\]{},]")
 
 
@@ -100,10 +102,6 @@ def _parted(plain: str, start: int, end: int) -> Iterator[tuple[int, int]]:
             start += len(member) + 1
         else:
             depth += (match[0] in "([{") - (match[0] in ")]}")
-
-
-_SYMBOL = re.compile(r"[A-Za-z_]\w*|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
-"""What a symbol may be."""
 
 
 def _records() -> Transformer[Any, Any]:

@@ -6,13 +6,14 @@ import re
 from collections.abc import Iterable, Iterator
 
 from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.before_arrow import PRODUCTION
 from lsys_kit.notation.draft import Draft, assembled
 from lsys_kit.notation.layout import first_lacking, settings
 from lsys_kit.notation.model import LSystem, Module, flat
 from lsys_kit.notation.records import Statements
-from lsys_kit.notation.slips import QUESTIONS
-from lsys_kit.notation.statements import statements, without_comments
-from lsys_kit.notation.stumble import outside
+from lsys_kit.notation.slips import QUESTIONS, without_colon
+from lsys_kit.notation.statements import ARROW, statements, without_comments
+from lsys_kit.notation.stumble import Stumble, outside
 from lsys_kit.notation.tradition import Notation
 
 NAME = "plant-string"
@@ -25,9 +26,26 @@ _LINE = re.compile(rf"""\s*+(?:
     | productions\s*:\s*
     | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
 """A line of a plant string."""
+_KEYWORD = re.compile(r"(heading|alphabet|ignore|consider|meta|(decomposition[ \t]+)?depth|decomposition|interpretation)[ \t]*:",
+                      re.IGNORECASE)
+_HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
 _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
     (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
 """How lines begin that other notations hardly have, and how much each says."""
+
+
+def _of_others(stumble: Stumble) -> ModelSyntaxError | None:
+    """What only other notations have, or a line of a lesson without its colon."""
+    line = stumble.text[stumble.start:stumble.end]
+    keyword, heading = _KEYWORD.match(line), _HEADING.match(line)
+    if keyword:
+        return stumble.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
+                             "and turtle.", stumble.start, len(keyword[1]))
+    if heading:
+        return without_colon(stumble.source, stumble.start, heading[1], line[heading.end():])
+    if stumble.found == ":" and ARROW.search(stumble.before):
+        return stumble.error("A plant string has no probabilities", PRODUCTION)
+    return None
 
 
 def _finish(draft: Draft) -> LSystem:
@@ -75,5 +93,5 @@ def _branches(words: Iterable[str]) -> int:
 
 
 PLANT_STRING = Notation(
-    name=NAME, statements=statements, records=Statements, finish=_finish, questions=QUESTIONS, module=str, joined="".join,
-    write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME)
+    name=NAME, statements=statements, records=Statements, finish=_finish, questions=(_of_others, *QUESTIONS), module=str,
+    joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME)
