@@ -24,9 +24,9 @@ KINDS: Mapping[str, tuple[int, int, str]] = {
 }
 """For each kind of variable the least and the greatest number of its values, and an example of them."""
 ELSEWHERE = frozenset((
-    "negbinomial", "generation", "length", "diameter", "color", "colour", "order", "xcoordinate", "ycoordinate", "zcoordinate",
-    "register", "local", "inclination", "carbon", "internodes"))
-"""What variables of GROGRA may also stand for: what the turtle knows and words do not."""
+    "negbinomial", "generation", "length", "diameter", "color", "order", "xcoordinate", "ycoordinate", "zcoordinate",
+    "register", "local"))
+"""What variables of GROGRA may also stand for: most of it the turtle knows, and words do not."""
 _POSSIBLE = f"Kinds of variables are: {', '.join(KINDS)}."
 _UNKNOWN = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as "\\const k 3," '
             'or "\\var x uniform 0 360,".')

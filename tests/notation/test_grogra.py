@@ -222,6 +222,10 @@ def test_functions_of_expressions_are_the_kits_own() -> None:
      "a(t) : t < 5 -> b : 0.7 | a(t) : t > 2 -> c : min(0.7, max(0, 1 - if(t < 5, 0.7, 0))) | a(t) -> d : "
      "max(0, 1 - (if(t < 5, 0.7, 0) + if(t > 2, 0.7, 0)))"),
     ("a # b ?p, a # c ?(1-p)", "a -> b : p | a -> c : 1 - p"),
+    ("(t < 2) a(t) # b, (t < 3) a(t) # c ?p, (t < 1) a(t) # d, a(t) # e ?p",
+     "a(t) : t < 2 -> b | a(t) : t < 3 -> c : p | a(t) : t < 1 -> d : max(0, 1 - if(t < 3, p, 0)) | "
+     "a(t) -> e : min(p, max(0, 1 - (if(t < 3, p, 0) + if(t < 1, 1, 0)))) | "
+     "a(t) -> a(t) : max(0, 1 - (if(t < 3, p, 0) + if(t < 1, 1, 0) + p))"),
     ("(t < 5) a(t) # b ?0.3, (s < 5) a(s) # c(s) ?0.5",
      "a(t) : t < 5 -> b : 0.3 | a(s) : s < 5 -> c(s) : 0.5 | a(t) : t < 5 -> a(t) : 0.2"),
     ("a < a # b ?0.4, a # c", "a < a -> b : 0.4 | a < a -> c : 0.6 | a -> c"),
