@@ -26,6 +26,7 @@ from lsys_kit.notation.statements import ARROW, statements, without_comments
 from lsys_kit.notation.stumble import outside
 from lsys_kit.notation.tradition import Notation
 
+# What the mathematical form looks like: labels, sets of productions, and what cannot stand behind a label.
 _LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
 _LABELLED = re.compile(rf"^[ \t]*{_LABEL.pattern}", re.MULTILINE)
 _SET = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")

@@ -26,8 +26,8 @@ _LINE = re.compile(rf"""\s*+(?:
     | productions\s*:\s*
     | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
 """A line of a plant string."""
-_KEYWORD = re.compile(r"(heading|alphabet|ignore|consider|meta|(decomposition[ \t]+)?depth|decomposition|interpretation)[ \t]*:",
-                      re.IGNORECASE)
+_KEYWORD = re.compile(r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)"
+                      r"[ \t]*:", re.IGNORECASE)
 _HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
 _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
     (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))

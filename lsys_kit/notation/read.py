@@ -36,12 +36,13 @@ def read(text: str, notation: str | None = None) -> LSystem:
     text
         The model: constants, axiom, productions, one a line. `/* ... */` is a comment.
     notation
-        Its name; by default the notation of which the text shows most marks.
+        Its name; by default the notation of which the text shows most marks, and the first note of the system says which, if it
+        is not the kit's own.
 
     Raises
     ------
     ModelSyntaxError, ModelNameError, ModelValueError
-        The text makes no sense; the error has the place and a hint.
+        The text makes no sense; the error has the place and a hint, which may be that another notation fits.
     ModelLimitError
         The text is too long.
 
@@ -55,6 +56,8 @@ def read(text: str, notation: str | None = None) -> LSystem:
     ...     bl -> al''')
     >>> print(system.productions[0])
     ar -> al br
+    >>> read("Axiom: I\\nI -> I[A]A(I)A").notes
+    ('Read as plant-string.',)
     """
     if not isinstance(text, str):
         raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
