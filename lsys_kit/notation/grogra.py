@@ -36,7 +36,7 @@ _MARKS = re.compile(
     rf"|^[ \t]*\*[ \t]*{_ARROW}"                                                     # the rule for the start symbol
     rf"|^[ \t]*\([^()\n]{{1,80}}\)[ \t]*[A-Za-z*][^:\n#>→]{{0,80}}{_ARROW}"           # a condition in front
     r"|^[ \t]*[A-Za-z]\w{0,30}'*(?:\([^()\n]{1,80}\))?[ \t]+##?[ \t]"                # "#" as an arrow
-    rf"|{_ARROW}[^\n]{{0,200}}&[ \t]*(?:\d+|\w+|\([^()\n]{{1,80}}\))[ \t]*<"          # what is repeated
+    r"|&[ \t]*(?:\d+|\w+|\([^()\n]{1,80}\))[ \t]*<(?![^,\n]{0,200}(?:->|→))"        # what is repeated
     r"|\?[ \t]*\d*\.\d+[ \t]*(?:,|$)"                                                # a probability
     r"|(?<![\w'.(,*/+-])R[ULHV]-?\d", re.MULTILINE)
 """What only texts in this notation have."""
@@ -94,7 +94,7 @@ def _begin(draft: Draft, notes: list[str]) -> None:
     draft.axiom = START
     if all(rule.predecessor.symbol != "*" for rule in rules):
         first = rules[0].predecessor
-        draft.axiom = replace(first, arguments=tuple(a if isinstance(a, Number) else Number(0) for a in first.arguments)),
+        draft.axiom = (replace(first, arguments=tuple(a if isinstance(a, Number) else Number(0) for a in first.arguments)),)
         notes.append(f'No rule is for "*": the axiom is {module_text(draft.axiom[0])}, as in the first rule; '
                      'type "\\axiom ...," for another.')
 

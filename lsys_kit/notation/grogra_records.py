@@ -19,9 +19,7 @@ from lsys_kit.notation.statements import without_comments
 RELATIONS = {"=": "==", "\\leq": "<=", "\\le": "<=", "\\geq": ">=", "\\ge": ">=", "\\neq": "!=", "\\ne": "!="}
 """Comparisons that GROGRA or its slides spell otherwise."""
 _GLUED = re.compile(r"([^\d.-]+)(-?)([\d.]+)")
-_PARTS = re.compile(r"[(),]|^[ \t]*Startwort[ \t]+[A-Za-z*](?![^\n]*(?:#|->|→|\\rightarrow))", re.MULTILINE)
-
-
+_PARTS = re.compile(r"[()]|,[,\s]*|^[ \t]*Startwort[ \t]+[A-Za-z*](?![^\n]*(?:#|->|→|\\rightarrow))", re.MULTILINE)
 BLANKS = "\ufeff \t\r\n\u00a0"
 """What stands between statements and means nothing."""
 
@@ -40,9 +38,9 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     for part in _PARTS.finditer(text):
         if part.group() in "()":
             depth = max(0, depth + (1 if part.group() == "(" else -1))
-        elif depth == 0 or part.group() != ",":
+        elif depth == 0 or part.group()[0] != ",":
             yield from _stripped(text, start, part.start())
-            start, depth = part.end() if part.group() == "," else part.start(), 0
+            start, depth = part.end() if part.group()[0] == "," else part.start(), 0
     yield from _stripped(text, start, len(text))
 
 
