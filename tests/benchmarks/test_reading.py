@@ -132,6 +132,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
 def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
     """Each text is recognised, then read in the notation or refused with an explanation."""
     texts, taken = million(notation), dict[str, float]()
+    read(model(notation, 1), notation)  # the first makes the parser
 
     def read_all() -> None:
         for name, text in texts.items():
