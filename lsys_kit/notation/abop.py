@@ -17,9 +17,9 @@ from lark.visitors import merge_transformers
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.before_arrow import forgotten_colon
 from lsys_kit.notation.draft import Draft, assembled
-from lsys_kit.notation.glued import parting
+from lsys_kit.notation.glued import apart, with_letters_apart
 from lsys_kit.notation.layout import first_lacking, sections, settings
-from lsys_kit.notation.model import LSystem, Production, flat, joined
+from lsys_kit.notation.model import LSystem, flat, joined
 from lsys_kit.notation.records import Expressions, Statements
 from lsys_kit.notation.slips import QUESTIONS, without_colon
 from lsys_kit.notation.statements import ARROW, statements, without_comments
@@ -134,25 +134,12 @@ def _finish(draft: Draft) -> LSystem:
     """The system with letters that were written together parted, and a note that says so."""
     _settle(draft)
     forgotten_colon(draft.sections["productions"], _made(draft), draft.source)
-    system = assembled(draft)
-    parted, notes = parting(system), dict[str, None]()
-
-    def part(word: tuple[Any, ...]) -> tuple[Any, ...]:
-        result, said = parted(word)
-        notes.update(dict.fromkeys(said))
-        return result
-
-    def parted_rules(rules: tuple[Production, ...]) -> tuple[Production, ...]:
-        return tuple(replace(rule, left=part(rule.left), right=part(rule.right), successor=part(rule.successor))
-                     for rule in rules)
-
-    return replace(system, axiom=part(system.axiom), productions=parted_rules(system.productions),
-                   decomposition=parted_rules(system.decomposition), interpretation=parted_rules(system.interpretation),
-                   meta=tuple(replace(rule, successor=part(rule.successor)) for rule in system.meta),
-                   notes=(*system.notes, *notes))
+    return with_letters_apart(assembled(draft))
 
 
 def _write(system: LSystem) -> str:
+    while mistaken := apart(system)[1]:
+        system = replace(system, alphabet=(*system.alphabet, *mistaken))
     return "\n".join([*map(str, system.constants), *settings(system), f"axiom: {joined(map(str, system.axiom))}",
                       *sections(system, str)])
 

@@ -32,7 +32,7 @@ def suggestion(name: str, known: Collection[str], likeness: float = 0.6) -> str 
 
 _NO_NAMES = 'A parameter is named before the arrow, as in "A(t) -> A(t+1)"; a constant on a line before, as in "dt = 0.5".'
 _RANDOM = 'Random numbers stand behind the arrow of a production, as in "A -> F(uniform(1, 2))".'
-_SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))
+SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))
 """What is set with a colon and is no constant."""
 
 
@@ -78,7 +78,7 @@ def check_constants(constants: Iterable[Constant], source: str) -> None:
         if constant.name in values:
             raise ModelNameError(f'The constant "{constant.name}" is declared twice', source, *span(constant),
                                  "Keep one of the two lines.")
-        if constant.name in _SETTINGS:
+        if constant.name in SETTINGS:
             raise ModelNameError(f'"{constant.name}" is no constant', source, *span(constant),
                                  f'Type "{constant.name.lower()}: {constant.value}".')
         if isinstance(constant.value, Name) and constant.value.name not in values:

@@ -9,7 +9,7 @@ from typing import Any
 from lark import Transformer
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
-from lsys_kit.notation.checks import check_constants, check_expression, span, value_of
+from lsys_kit.notation.checks import SETTINGS, check_constants, check_expression, span, value_of
 from lsys_kit.notation.cpfg_blocks import put_in
 from lsys_kit.notation.cpfg_lines import statements
 from lsys_kit.notation.cpfg_records import Records
@@ -27,8 +27,6 @@ _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
     re.MULTILINE | re.IGNORECASE)
 _AXIOM = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
-TAKEN = ("axiom", "Axiom", "angle", "heading", "steps", "alphabet")
-"""Names that no constant of the kit may have."""
 _DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
 _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*")
 
@@ -84,7 +82,7 @@ def _check_macros(draft: Draft) -> None:
     names = [constant.name for constant in draft.constants]
     for index, constant in enumerate(draft.constants):
         value = constant.value
-        if constant.name in TAKEN:
+        if constant.name in SETTINGS:
             raise ModelNameError(f'The name "{constant.name}" is taken by a setting', draft.source, *span(constant),
                                  f'Give the macro another name, such as "{constant.name.upper()}".')
         if isinstance(value, Name) and value.name not in names[:index]:

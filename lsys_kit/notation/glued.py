@@ -8,53 +8,85 @@ whole.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
-from functools import partial
-from typing import TypeAlias
+from typing import Any
 
-from lsys_kit.notation.model import Item, LSystem, Module, Repeat
+from lsys_kit.notation.model import Item, LSystem, Module, Production, Repeat, flat
 
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
-Parting: TypeAlias = Callable[[Iterable[Item]], tuple[tuple[Item, ...], list[str]]]
-"""What parts the glued names of a word; with the word come notes on what was parted."""
 
 
-def unglued(word: Iterable[Item], system: LSystem) -> tuple[tuple[Item, ...], list[str]]:
-    """A word with its glued names parted, and a note for each name that was.
+def unglued(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
+    """A word with its glued names parted as in a system.
 
     >>> from lsys_kit.notation.read import read
-    >>> read("axiom: a\\na -> ab\\nb -> a").productions[0].successor
-    (Module(symbol='a', arguments=()), Module(symbol='b', arguments=()))
+    >>> [str(module) for module in unglued(read("axiom: ba").axiom, read("axiom: a\\na -> ab\\nb -> a"))]
+    ['b', 'a']
     """
-    return parting(system)(word)
+    word = tuple(word)
+    return _parted(word, _glued(flat(word), *_symbols(system)))
 
 
-def parting(system: LSystem) -> Parting:
-    """What parts the glued names of any word of a system."""
-    whole, parts = _symbols(system)
-    return partial(_parted, whole, parts)
+def apart(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
+    """A system with its glued names parted, and what each of them is made of.
+
+    The symbols of which one name is made may part another: names are parted until none is left.
+
+    >>> from lsys_kit.notation.read import read
+    >>> apart(replace(read("axiom: F\\nF -> F J J"), axiom=(Module("JF"),)))[1]
+    {'JF': ['J', 'F']}
+    """
+    made: dict[str, list[str]] = {}
+    while found := _glued(_modules(system), *_symbols(system)):
+        made |= found
+        system = replace(system, axiom=_parted(system.axiom, found), productions=_parted_rules(system.productions, found),
+                         decomposition=_parted_rules(system.decomposition, found),
+                         interpretation=_parted_rules(system.interpretation, found),
+                         meta=tuple(replace(rule, successor=_parted(rule.successor, found)) for rule in system.meta))
+    return system, made
 
 
-def _parted(whole: frozenset[str], parts: frozenset[str], word: Iterable[Item]) -> tuple[tuple[Item, ...], list[str]]:
-    """The word with its glued names parted, and a note for each."""
+def with_letters_apart(system: LSystem) -> LSystem:
+    """What `apart` makes of a system, with a note for each name that was parted."""
+    parted, made = apart(system)
+    notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
+    return replace(parted, notes=(*system.notes, *notes)) if made else system
+
+
+def _modules(system: LSystem) -> Iterable[Module]:
+    """The modules that may be glued: a predecessor is what it is."""
+    yield from system.axiom
+    for rule in system.rules:
+        yield from (*rule.left, *rule.right, *flat(rule.successor))
+    for meta in system.meta:
+        yield from flat(meta.successor)
+
+
+def _parted_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
+    return tuple(replace(rule, left=_parted(rule.left, made), right=_parted(rule.right, made),
+                         successor=_parted(rule.successor, made)) for rule in rules)
+
+
+def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
+    """The word with its glued names parted; what a name has in parentheses goes to its last symbol."""
     result: list[Item] = []
-    notes: list[str] = []
     for module in word:
         if isinstance(module, Repeat):
-            body, said = _parted(whole, parts, module.body)
-            result.append(replace(module, body=body))
-            notes += said
-            continue
-        pieces = [] if len(module.symbol) < 2 or module.symbol in whole else _pieces(module.symbol, whole, parts)
-        if not pieces:
+            result.append(replace(module, body=_parted(module.body, made)))
+        elif pieces := made.get(module.symbol):
+            result += [Module(symbol, at=module.at) for symbol in pieces[:-1]]
+            result.append(replace(module, symbol=pieces[-1]))
+        else:
             result.append(module)
-            continue
-        result += [Module(symbol, at=module.at) for symbol in pieces[:-1]]
-        result.append(replace(module, symbol=pieces[-1]))
-        notes.append(f'"{module.symbol}" is read as {" ".join(pieces)}.')
-    return tuple(result), notes
+    return tuple(result)
+
+
+def _glued(modules: Iterable[Module], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
+    """The glued names among some modules, and the symbols of which each is made."""
+    names = dict.fromkeys(module.symbol for module in modules if len(module.symbol) > 1 and module.symbol not in whole)
+    return {name: pieces for name in names if (pieces := _pieces(name, whole, parts))}
 
 
 def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.checks import span
+from lsys_kit.notation.checks import SETTINGS, span
 from lsys_kit.notation.draft import Draft, assembled
 from lsys_kit.notation.expressions import Expression, Name, Number, gives, names_in
 from lsys_kit.notation.grogra_chance import completed
@@ -28,8 +28,6 @@ _SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "
               **{tex: sign for tex, sign in RELATIONS.items() if tex != "="}}
 """How the slides spell what GROGRA writes otherwise."""
 _SPELT = re.compile(r"[→⟶]|\\[A-Za-z]+|\bStartwort\b")
-_SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))
-"""What is no name of a constant."""
 _ARROW = r"(?:##?|->|→|\\rightarrow)"
 _MARKS = re.compile(
     r"^[ \t]*\\(?:angle|axiom|var|const|set|length)\b(?![^,\n]{0,200}(?:->|→))"      # a line that begins with a backslash
@@ -103,7 +101,7 @@ def _check_constants(draft: Draft) -> None:
     """Constants have names of their own, and use only those before them."""
     known: set[str] = set()
     for constant in draft.constants:
-        if constant.name in _SETTINGS:
+        if constant.name in SETTINGS:
             raise ModelNameError(f'"{constant.name}" is no constant', draft.source, *span(constant),
                                  f'Type "\\{constant.name.lower()} {constant.value},".')
         for expression in (constant.value, *(constant.range or ())):

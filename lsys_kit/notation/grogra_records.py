@@ -92,9 +92,6 @@ class _Statements(_Expressions, Statements):
     def turtle(self, _: Token, tradition: Token) -> tuple[str, Any]:
         return "more", ("setting", ("turtle", str(tradition)))
 
-    def alphabet(self, _: Token, *names: Token) -> tuple[str, Any]:
-        return "more", ("setting", ("alphabet", tuple(map(str, names))))
-
     def unused(self, token: Token) -> tuple[str, Any]:
         return "more", ("note", f'"{" ".join(token.split())}" has no meaning here.')
 

@@ -80,8 +80,6 @@ def _settings(system: LSystem) -> Iterator[str]:
     """The lines that set what is not as usual."""
     if system.turtle != "grogra":
         yield f"\\set turtle {system.turtle}"
-    if system.alphabet:
-        yield f"\\set alphabet {' '.join(system.alphabet)}"
     for directive, value, usual in (("\\angle", system.angle, 90), ("\\set heading", system.heading, 90),
                                     ("\\length", system.length, None), ("\\set seed", system.seed, None),
                                     ("\\set depth", system.depth, 1)):

@@ -68,6 +68,5 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "interpretation rules": lambda s: bool(s.interpretation),
     "starting direction": lambda s: s.heading != 90,
     "ignored symbols": lambda s: bool(s.ignored or s.considered),
-    "alphabet": lambda s: bool(s.alphabet),
 }
 """What a system may need, and whether it does."""

@@ -21,7 +21,7 @@ from lsys_kit.notation.tradition import Notation
 _MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
                     re.IGNORECASE | re.MULTILINE)
 """What is found in texts of this notation, and in no others."""
-_SET = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "alphabet", "skippattern"))
+_SET = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
 """What a definition sets, so that no constant can have that name."""
 
 

@@ -206,13 +206,13 @@ class _Statements(MathematicaExpressions):
                           'Turtle commands are those of "abop", "grogra" or "plant-string".')
         return "more", ("setting", ("turtle", str(tradition[1:-1])))
 
-    def row(self, keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
+    def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
         bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
         if bracket is not None:
             raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
                           "Contexts follow the branches in any case.")
         kept = tuple(dict.fromkeys(str(symbol) for symbol in symbols if (symbol.type, symbol) != ("NAME", "Null")))
-        return "more", ("setting", ("ignore" if keyword.lower() == "skippattern" else "alphabet", kept))
+        return "more", ("setting", ("ignore", kept))
 
     def alone(self, name: Token) -> tuple[str, Any]:
         return "more", ("alone", name)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import replace
 from graphlib import CycleError, TopologicalSorter
-from typing import Any
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.arithmetic import Value
 from lsys_kit.notation.checks import check_constants, check_expression, span, suggestion, value_of
 from lsys_kit.notation.draft import Draft, assembled
 from lsys_kit.notation.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.glued import parting
+from lsys_kit.notation.glued import with_letters_apart
 from lsys_kit.notation.mathematica_definitions import Definitions, axiom_of, chosen, rules_of
 from lsys_kit.notation.mathematica_expressions import text_of
 from lsys_kit.notation.mathematica_records import Rule
@@ -57,21 +55,7 @@ def _filled(draft: Draft, definitions: Definitions) -> LSystem:
     _set(draft, definitions)
     draft.notes += _notes(draft, definitions)
     whole = assembled(draft)
-    return _parted(whole) if system.printed else whole
-
-
-def _parted(system: LSystem) -> LSystem:
-    """A printed system with its letters apart, which print together, and a note that says so."""
-    part, notes = parting(system), dict[str, None]()
-
-    def apart(word: tuple[Any, ...]) -> tuple[Any, ...]:
-        parted, said = part(word)
-        notes.update(dict.fromkeys(said))
-        return parted
-
-    rules = tuple(replace(rule, left=apart(rule.left), right=apart(rule.right), successor=apart(rule.successor))
-                  for rule in system.productions)
-    return replace(system, axiom=apart(system.axiom), productions=rules, notes=(*system.notes, *notes))
+    return with_letters_apart(whole) if system.printed else whole
 
 
 def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:

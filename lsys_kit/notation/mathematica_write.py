@@ -69,8 +69,6 @@ def _constant(constant: Constant) -> str:
 
 
 def _settings(system: LSystem) -> Iterator[str]:
-    if system.alphabet:
-        yield f"alphabet = {{{', '.join(map(symbol_text, system.alphabet))}}};"
     if system.turtle != ABOP:
         yield f'turtle = "{system.turtle}";'
     for name, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90), ("length", system.length, None),

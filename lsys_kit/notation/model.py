@@ -228,7 +228,8 @@ class LSystem:
     steps, seed
         How many steps the model asks for, and where its chance begins; or None.
     alphabet
-        Names of several letters that might be mistaken for a row of symbols.
+        Names of several letters that a reader might mistake for a row of symbols. No part of what the system is: equality
+        ignores it.
     notation
         In which notation it was read and prints itself. Not a part of what the system is: equality ignores it.
     source, notes
@@ -242,7 +243,7 @@ class LSystem:
     angle: Value = 90
     heading: Value = 90
     steps: int | None = None
-    alphabet: tuple[str, ...] = ()
+    alphabet: tuple[str, ...] = field(default=(), compare=False)
     decomposition: tuple[Production, ...] = ()
     meta: tuple[MetaRule, ...] = ()
     ignored: tuple[str, ...] = ()

@@ -66,8 +66,7 @@ def _lines(system: LSystem) -> Iterator[str]:
 def _lacking(system: LSystem) -> str | None:
     return first_lacking(
         system, "parameters", "symbols of several letters", "conditions", "contexts", "probabilities", "repetition",
-        "constants", "decomposition rules", "meta-rules", "interpretation rules", "starting direction", "ignored symbols",
-        "alphabet")
+        "constants", "decomposition rules", "meta-rules", "interpretation rules", "starting direction", "ignored symbols")
 
 
 def _likely(text: str) -> int:

@@ -130,7 +130,7 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     word = parse(notation_called(notation), "word", text, 0, len(text))
     check_word(word, (), text)
     if system is not None and notation == "abop":
-        word, _ = unglued(word, system)
+        word = unglued(word, system)
     return tuple(replace(module, arguments=tuple(value_of(a, text) for a in module.arguments if isinstance(a, Expression)))
                  for module in flat(word))
 

@@ -1,7 +1,8 @@
 """Whatever a text holds, a reader reads it or explains what is wrong: texts made by a fuzzer that sees which code they reach.
 
-    python -m tests.fuzzing.readers 12               twelve seconds for each notation
+    python -m tests.fuzzing.readers 12               twelve seconds for each notation, the same texts every time
     python -m tests.fuzzing.readers 600 grogra       ten minutes for one
+    SEED=7 python -m tests.fuzzing.readers 60        other texts
 
 The fuzzer begins with the listings of the seeds and the systems of the catalogue. What is read is written again, must read back
 as the same system, and is derived for two steps. Only the kit's own errors may come of it, within a second; anything else ends
@@ -11,6 +12,7 @@ the run with the text that did it.
 from __future__ import annotations
 
 import contextlib
+import os
 import subprocess
 import sys
 import tempfile
@@ -52,7 +54,7 @@ def fuzz(notation: str, folder: str, seconds: int) -> None:
         except LSystemError as error:
             str(error)
 
-    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-max_total_time={seconds}", f"-timeout={SLOWEST}",
+    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-seed={os.environ.get('SEED', '1')}",
                    f"-artifact_prefix={folder}/"], one)
     atheris.Fuzz()
 
@@ -65,7 +67,7 @@ def main(seconds: int, *notations: str) -> int:
         with tempfile.TemporaryDirectory() as folder:
             seeds(notation, Path(folder))
             run = subprocess.run([sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(seconds)],
-                                 capture_output=True, text=True, check=False)
+                                 capture_output=True, text=True, check=False, env={**os.environ, "PYTHONHASHSEED": "0"})
             told = [line for line in run.stderr.splitlines() if "DONE" in line or "stat::" in line]
             print(notation, *told[-1:], sep=": ", flush=True)
             if run.returncode:

@@ -50,7 +50,7 @@ def in_letters(rule: Production) -> Production:
 def in_cpfg(system: LSystem) -> LSystem:
     """A system with symbols and distributions that cpfg has."""
     return replace(system, axiom=tuple(map(lettered, system.axiom)), productions=tuple(map(in_letters, system.productions)),
-                   decomposition=tuple(map(in_letters, system.decomposition)), alphabet=())
+                   decomposition=tuple(map(in_letters, system.decomposition)))
 
 
 def with_ends(system: LSystem) -> LSystem:
@@ -157,7 +157,7 @@ def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expres
 
 @pytest.mark.parametrize(("text", "feature"), [
     ("axiom: al", "symbols of several letters"), ("axiom: A\nA -> repeat(2) <B>", "repetition"),
-    ("axiom: f f\nmeta: f f -> f", "meta-rules"), ("alphabet: al\naxiom: A", "alphabet"),
+    ("axiom: f f\nmeta: f f -> f", "meta-rules"),
     ("turtle: grogra\naxiom: F", "turtle commands of GROGRA"),
     ("turtle: plant-string\naxiom: F", "turtle commands of plant strings"),
     ("axiom: A(1)\nA(t) -> A(poisson(t))", 'function "poisson"'), ("axiom: A(1)\nA(t) -> A(min(t, 1, 2))",

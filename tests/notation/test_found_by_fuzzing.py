@@ -12,6 +12,7 @@ from lsys_kit.notation.write import write
 FOUND = {
     "a separator that is a blank to Python, and none to the grammar": " \x1c",
     "a roll before a name that LaTeX knows": "\\omega : \\overrightarrow{A}\\overrightarrow B \\over",
+    "letters that part a name only after another is parted": "axiom: F\nF -> JJJ+JJF",
     "an @ before a name": "steps: 15\naxiom: @b@ a a a a a a/a a/!a @b a a a a aa d\nb < a -> V",
 }
 

@@ -25,7 +25,6 @@ from tests.derivation.random_systems import conditions, systems, systems_with
 
 LISTINGS = Path(__file__).parents[1] / "listings"
 FULL = """\\set turtle abop,
-\\set alphabet al bl,
 \\angle 25.7,
 \\set heading 0,
 \\length 5,

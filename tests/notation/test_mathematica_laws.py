@@ -29,7 +29,6 @@ LISTINGS = [file.read_text("utf-8") for file in sorted((Path(__file__).parents[1
 
 FULL = """lifeTime = 3; (* 1 .. 6 by 1 *)
 dt = lifeTime/2;
-alphabet = {al, u_1};
 turtle = "grogra";
 angle = 25.7;
 heading = 0;
