@@ -54,8 +54,8 @@ def fuzz(notation: str, folder: str, seconds: int) -> None:
         except LSystemError as error:
             str(error)
 
-    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-seed={os.environ.get('SEED', '1')}",
-                   f"-artifact_prefix={folder}/"], one)
+    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-max_total_time={seconds}", f"-timeout={SLOWEST}",
+                   f"-seed={os.environ.get('SEED', '1')}", f"-artifact_prefix={folder}/"], one)
     atheris.Fuzz()
 
 
