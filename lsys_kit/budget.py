@@ -57,6 +57,8 @@ class Limits:
     """nested brackets of a word"""
     segments: int = 20_000
     """segments of an SVG picture; beyond, a picture of pixels"""
+    triangles: int = 10_000_000
+    """triangles of a mesh"""
 
 
 DEFAULT = Limits()

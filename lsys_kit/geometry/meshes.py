@@ -1,0 +1,285 @@
+"""Meshes: a scene's shapes as triangles in space, for files and views that know nothing else.
+
+A stroke is a prism of eight sides, closed at both ends, that runs from the width of the stroke before it to its own. A polygon
+stays flat, a sphere is made from an icosahedron, a cell is a sphere made longer. What lies in the plane is set upright.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.geometry.ears import cut
+from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
+
+Singles: TypeAlias = NDArray[np.float32]
+Numbers: TypeAlias = NDArray[np.uint32]
+
+SIDES, ROUND = 8, 24
+"""How many sides a stroke has, and how many corners a disc."""
+OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
+"""How wide strokes are by their branch order, where the turtle has set no width; deeper branches have the last."""
+PART, LEAST, MOST, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
+"""Such a stroke is this part of the usual stroke's length wide, but at least and at most these parts of the whole drawing; no
+stroke is thinner than the last."""
+MOST_CORNERS = 10_000
+"""A polygon with more corners than this takes too long to be parted."""
+_SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles in space: x grows to the right, z upwards, and y away from the viewer.
+
+    Attributes
+    ----------
+    vertices, normals
+        Shape (n, 3): each vertex, in the model's units, and where the surface faces there.
+    triangles
+        Shape (m, 3): the numbers of its vertices, counter-clockwise as seen from outside.
+    states, colours
+        Shape (n,): for each vertex the state of its module, and the number of the colour that the turtle chose, or `OWN`.
+    """
+
+    vertices: Singles
+    normals: Singles
+    triangles: Numbers
+    states: Integers
+    colours: Integers
+
+    @property
+    def corners(self) -> tuple[Singles, Singles]:
+        """The least and the greatest of each coordinate; zeros where there is nothing."""
+        some = self.vertices if len(self.vertices) else np.zeros((1, 3), np.float32)
+        return some.min(axis=0), some.max(axis=0)
+
+
+def mesh_of(scene: Scene) -> Mesh:
+    """The triangles of a scene.
+
+    Parameters
+    ----------
+    scene
+        A scene in space or in the plane.
+
+    Returns
+    -------
+    Mesh
+        First the strokes, then polygons, discs, spheres and cells, each in the order of the scene. Strokes of no length are
+        left out.
+
+    Raises
+    ------
+    ModelLimitError
+        There would be more triangles than the limit allows, or a polygon has too many corners.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.notation.read import read
+    >>> mesh = mesh_of(scene_of(derive(read("axiom: F(10)[&(90)F(5)]@O(2)"), 0)))
+    >>> mesh.vertices.shape, mesh.triangles.shape
+    ((194, 3), (376, 3))
+    """
+    _check_size(scene)
+    discs, cells = scene.discs, scene.cells
+    balls = discs.kinds == SPHERE
+    centres, radii = _in_space(discs.centres), discs.radii
+    lengths, breadths = cells.sizes.T / 2
+    return _together([
+        _tubes(scene.segments, _reach(scene)),
+        _faces(scene.polygons),
+        _copies(_disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
+        _copies(_ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
+        _copies(_ball(), _in_space(cells.centres), np.stack([lengths, breadths, breadths], axis=1), cells.states,
+                np.full(len(cells), OWN))])
+
+
+def _check_size(scene: Scene) -> None:
+    needed = (len(scene.segments) * (_SIDE + _CAPS) + len(scene.polygons.points)
+              + len(_ball().triangles) * (len(scene.discs) + len(scene.cells)))
+    if needed > current().triangles:
+        raise ModelLimitError(f"The drawing would have {needed:,} triangles; the limit is {current().triangles:,}",
+                              limit=current().triangles, needed=needed,
+                              hint="Take fewer steps, or set limits(triangles=...).")
+    most = int(np.diff(scene.polygons.starts).max(initial=0))
+    if most > MOST_CORNERS:
+        raise ModelLimitError(f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be made into triangles",
+                              limit=MOST_CORNERS, needed=most, hint="Take fewer steps.")
+
+
+def _in_space(points: Floats) -> Floats:
+    """Points of the plane, set upright; those in space as they are."""
+    return points if points.shape[1] == 3 else np.stack([points[:, 0], np.zeros(len(points)), points[:, 1]], axis=1)
+
+
+def _reach(scene: Scene) -> float:
+    """How far a scene reaches, in its widest direction."""
+    least, greatest = scene.corners
+    return float((greatest - least).max())
+
+
+def _together(meshes: Sequence[Mesh]) -> Mesh:
+    firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    triangles = [mesh.triangles + np.uint32(first) for mesh, first in zip(meshes, firsts, strict=False)]
+    joined = {name: np.concatenate([getattr(mesh, name) for mesh in meshes])
+              for name in ("vertices", "normals", "states", "colours")}
+    return Mesh(triangles=np.concatenate(triangles), **joined)
+
+
+# Strokes
+
+
+def _tubes(segments: Segments, reach: float) -> Mesh:
+    """Strokes as closed prisms with round shading."""
+    points = _in_space(segments.points).reshape(-1, 2, 3)
+    lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
+    there = lengths > 0
+    widths = _widths(segments, lengths, reach)
+    radii = np.stack([_before(segments, widths, reach), widths], axis=1)[there] / 2
+    ways = (points[:, 1] - points[:, 0])[there] / lengths[there, None]
+    rings = _rings(ways)
+    vertices = points[there][:, :, None] + radii[:, :, None, None] * rings[:, None]
+    normals = np.broadcast_to(rings[:, None], vertices.shape)
+    firsts = np.arange(len(ways), dtype=np.uint32) * np.uint32(_SIDE)
+    colours = np.broadcast_to(segments.colours, len(segments))[there]
+    return Mesh(vertices.reshape(-1, 3).astype(np.float32), normals.reshape(-1, 3).astype(np.float32),
+                (firsts[:, None, None] + _prism()).reshape(-1, 3),
+                np.repeat(segments.states[there], _SIDE), np.repeat(colours, _SIDE))
+
+
+def _widths(segments: Segments, lengths: Floats, reach: float) -> Floats:
+    """How wide each stroke is: as the turtle says, else as its branch order does."""
+    usual = float(np.median(lengths)) if len(lengths) else 0.0
+    own = min(max(PART * usual, LEAST * reach), MOST * reach) * np.array(OWN_WIDTHS)
+    by_order = own[np.minimum(segments.orders, len(OWN_WIDTHS) - 1)]
+    return np.maximum(np.where(segments.widths == OWN, by_order, segments.widths), THINNEST * reach)
+
+
+def _before(segments: Segments, widths: Floats, reach: float) -> Floats:
+    """How wide each stroke is where it starts: as the last stroke of its branch that ends there, else as it is itself."""
+    if len(segments) < 2 or (widths == widths[0]).all():
+        return widths
+    grid = np.rint(segments.points / (reach * 1e-9)).astype(np.int64).reshape(len(segments), 2, -1)
+    places = np.concatenate([np.column_stack([grid[:, end], segments.orders]) for end in (0, 1)])
+    numbers = np.unique(places, axis=0, return_inverse=True)[1].reshape(2, -1)
+    width_at = np.full(len(places), np.nan)
+    width_at[numbers[1]] = widths
+    found = width_at[numbers[0]]
+    return np.where(np.isnan(found), widths, found)
+
+
+def _rings(ways: Floats) -> Floats:
+    """For each direction the directions of its prism's edges from the axis, shape (n, SIDES, 3)."""
+    aside = np.zeros_like(ways)
+    np.put_along_axis(aside, np.abs(ways).argmin(axis=1)[:, None], 1.0, axis=1)
+    first = np.cross(ways, aside)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(ways, first)
+    around = 2 * np.pi * np.arange(SIDES) / SIDES
+    ring: Floats = first[:, None] * np.cos(around)[:, None] + second[:, None] * np.sin(around)[:, None]
+    return ring
+
+
+@cache
+def _prism() -> Numbers:
+    """The triangles of a prism whose first ring of vertices is its start: sides, then both ends."""
+    here = np.arange(SIDES)
+    there = (here + 1) % SIDES
+    sides = np.concatenate([np.stack([here, there, there + SIDES], axis=1),
+                            np.stack([here, there + SIDES, here + SIDES], axis=1)])
+    start = np.array([(0, k + 1, k) for k in range(1, SIDES - 1)])
+    return np.concatenate([sides, start, start[:, [0, 2, 1]] + SIDES]).astype(np.uint32)
+
+
+# Polygons
+
+
+def _faces(polygons: Polygons) -> Mesh:
+    """Polygons as they are, flat."""
+    points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
+    facing = _facing(points, polygons.starts)
+    triangles = [np.array(cut(points[first:last], way), np.int64).reshape(-1, 3) + first
+                 for (first, last), way in zip(pairwise(polygons.starts.tolist()), facing, strict=True)]
+    return Mesh(points.astype(np.float32), np.repeat(facing, sizes, axis=0).astype(np.float32),
+                np.concatenate([np.empty((0, 3), np.int64), *triangles]).astype(np.uint32),
+                np.repeat(polygons.states, sizes), np.repeat(polygons.colours, sizes))
+
+
+def _facing(points: Floats, starts: Integers) -> Floats:
+    """Where each polygon faces: Newell's sum over its edges, made one long."""
+    if len(starts) < 2:
+        return np.empty((0, 3))
+    following = np.arange(1, len(points) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    around = points - np.repeat(points[starts[:-1]], np.diff(starts), axis=0)
+    sums = np.add.reduceat(np.cross(around, around[following]), starts[:-1])
+    lengths = np.linalg.norm(sums, axis=1)[:, None]
+    return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1.0), (0.0, -1.0, 0.0))
+
+
+# Round shapes
+
+
+def _copies(shape: Mesh, centres: Floats, sizes: Floats, states: Integers, colours: Integers) -> Mesh:
+    """A shape about the origin at many places, stretched along the axes; sizes have the shape (n, 1) or (n, 3)."""
+    count = len(shape.vertices)
+    normals = shape.normals / np.where(sizes > 0, sizes, 1.0)[:, None]
+    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
+    firsts = np.arange(len(centres), dtype=np.uint32) * np.uint32(count)
+    return Mesh((centres[:, None] + sizes[:, None] * shape.vertices).reshape(-1, 3).astype(np.float32),
+                normals.reshape(-1, 3).astype(np.float32), (firsts[:, None, None] + shape.triangles).reshape(-1, 3),
+                np.repeat(states, count), np.repeat(colours, count))
+
+
+@cache
+def _disc() -> Mesh:
+    """A disc of radius 1 that faces the viewer."""
+    angles = 2 * np.pi * np.arange(ROUND) / ROUND
+    rim = np.stack([np.cos(angles), np.zeros(ROUND), np.sin(angles)], axis=1)
+    fan = [(ROUND, k, (k + 1) % ROUND) for k in range(ROUND)]
+    return _shape(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
+
+
+@cache
+def _ball() -> Mesh:
+    """A sphere of radius 1: an icosahedron, each of whose faces was parted into four twice."""
+    golden = (1 + 5 ** 0.5) / 2
+    corners = [np.roll(np.array([0.0, a, b * golden]), k) for k in range(3) for a in (1, -1) for b in (1, -1)]
+    points = [corner / np.linalg.norm(corner) for corner in corners]
+    edge = 1.1 * min(float(np.linalg.norm(points[0] - other)) for other in points[1:])
+    faces = [(a, b, c) if np.linalg.det([points[a], points[b], points[c]]) > 0 else (a, c, b)
+             for a in range(12) for b in range(a) for c in range(b)
+             if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge]
+    for _ in range(2):
+        faces = _parted(faces, points)
+    vertices = np.array(points)
+    return _shape(vertices, vertices, faces)
+
+
+def _parted(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list[tuple[int, int, int]]:
+    """Each face of a sphere as four; the middles of the edges become new points."""
+    middles: dict[frozenset[int], int] = {}
+
+    def middle(i: int, j: int) -> int:
+        if frozenset((i, j)) not in middles:
+            middles[frozenset((i, j))] = len(points)
+            points.append((points[i] + points[j]) / np.linalg.norm(points[i] + points[j]))
+        return middles[frozenset((i, j))]
+
+    return [part for a, b, c in faces for ab, bc, ca in [(middle(a, b), middle(b, c), middle(c, a))]
+            for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+
+
+def _shape(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Mesh:
+    none = np.empty(0, np.int64)
+    return Mesh(vertices.astype(np.float32), normals.astype(np.float32), np.array(triangles, np.uint32), none, none)
