@@ -7,7 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from itertools import pairwise
 from typing import TypeAlias
+
+from lsys_kit.geometry.commands import COMMANDS
+from lsys_kit.notation.model import LSystem, flat
 
 Corner: TypeAlias = tuple[float, float, float]
 """A point in the turtle's own axes: ahead, to the left, up."""
@@ -55,3 +59,23 @@ def surface_called(symbol: str) -> Surface | None:
     'flower'
     """
     return next((surface for surface in surfaces().values() if symbol in surface.symbols), None)
+
+
+def surfaces_of(system: LSystem) -> Mapping[str, str]:
+    """The symbols of a system that are drawn as a surface, by themselves or by their interpretation, and its name.
+
+    >>> from lsys_kit.notation.read import read
+    >>> surfaces_of(read("axiom: A\\nA -> F [+ ~ L] B\\ninterpretation:\\nB -> ~flower(2)"))
+    {'L': 'leaf', 'flower': 'flower', 'B': 'flower'}
+    """
+    words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
+    called = [(behind.symbol, surface.name) for word in words for before, behind in pairwise(word)
+              if before.symbol == "~" and (surface := surface_called(behind.symbol))]
+    told = [(module.symbol, command.surface) for word in words for module in word
+            for command in COMMANDS[system.turtle].get(module.symbol, ()) if command.surface]
+    found = dict((*called, *told))
+    for rule in system.interpretation:
+        shown = next((found[module.symbol] for module in flat(rule.successor) if module.symbol in found), None)
+        if shown:
+            found.setdefault(rule.predecessor.symbol, shown)
+    return found

@@ -9,11 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
+from lsys_kit.geometry.surfaces import surfaces_of
 from lsys_kit.notation.model import LSystem, symbols
 from lsys_kit.pictures.labels import twins
 
 GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#D55E00", "#56B4E9"
 SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
+NATURAL = {"leaf": GREEN, "petal": PURPLE, "flower": PURPLE, "rosette": PURPLE}
+"""What has its natural colour, as far as there is one."""
 CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A5A2B", "#B9C0C6", "#6B7680", "#56B4E9",
           "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8")
 """What a turtle chooses by number: the sixteen colours of GROGRA (seed 003), in shades that can be told apart and be seen on
@@ -30,19 +33,20 @@ MARK_EDGE = "#B8860B"
 
 @lru_cache(maxsize=64)
 def colours(system: LSystem) -> Mapping[str, str]:
-    """A colour for each symbol that is a letter or a name; both polarities of a cell share theirs.
+    """A colour for each symbol that is a letter or a name; both polarities of a cell share theirs, and leaves are green.
 
     >>> from lsys_kit.notation.read import read
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
     {'ar': '#009E73', 'al': '#009E73', 'br': '#E69F00', 'bl': '#E69F00'}
     """
     pairs = twins(system)
-    found: dict[str, str] = {}
+    found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
+    free = [colour for colour in SERIES if colour not in found.values()]
     bases: dict[str, str] = {}
     for symbol in symbols(system):
-        if symbol[0].isalpha():
+        if symbol[0].isalpha() and symbol not in found:
             base = pairs[symbol][0] if symbol in pairs else symbol
-            found[symbol] = bases.setdefault(base, SERIES[len(bases) % len(SERIES)])
+            found[symbol] = bases.setdefault(base, free[len(bases) % len(free)])
     return found
 
 
