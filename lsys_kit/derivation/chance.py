@@ -10,10 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+
+from lsys_kit.notation.arithmetic import Value, tidy
 
 _GOLDEN, _FIRST, _SECOND, _MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
 _UNIT = 2.0**-53
@@ -114,21 +117,37 @@ class Chance:
         return chosen(weights, self.unit())
 
 
-def chosen(weights: Sequence[float], unit: float) -> int:
+def chosen(weights: Sequence[Value], unit: float) -> int:
     """Which of some weighted things a random number from 0 up to 1 chooses; the weights need not sum to one.
 
     >>> chosen((1, 1, 2), 0.49), chosen((1, 1, 2), 0.5)
     (1, 2)
     """
-    total = sum(weights)
-    if min(weights) < 0 or not total > 0:
-        raise ValueError("probabilities are not negative, and one of them is greater than 0")
+    total = _total(weights)
     mark, below = unit * float(total), 0.0
     for number, weight in enumerate(weights):
         below += float(weight)
         if mark < below:
             return number
     return max(number for number, weight in enumerate(weights) if weight)
+
+
+def shares(weights: Sequence[Value]) -> list[Value]:
+    """How likely each of some weighted things is; exact where the weights are.
+
+    >>> shares((1, 1, 2))
+    [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]
+    """
+    total = _total(weights)
+    exact = all(isinstance(weight, int | Fraction) for weight in weights)
+    return [tidy(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
+
+
+def _total(weights: Sequence[Value]) -> Value:
+    total = sum(weights)
+    if min(weights) < 0 or not total > 0:
+        raise ValueError("probabilities are not negative, and one of them is greater than 0")
+    return total
 
 
 def _check_probability(probability: float) -> None:

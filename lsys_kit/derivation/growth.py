@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from lsys_kit.budget import current
 from lsys_kit.derivation.chance import mixed
 from lsys_kit.derivation.courses import counted
+from lsys_kit.derivation.fates import check_settled, closure
 from lsys_kit.derivation.lumping import lumped
 from lsys_kit.derivation.sequences import (
     closed_form,
@@ -29,7 +30,7 @@ from lsys_kit.derivation.sequences import (
     shortest_recurrence,
     shortest_rule,
 )
-from lsys_kit.derivation.states import States, check_settled, closure
+from lsys_kit.derivation.states import States
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model import LSystem, Module
 

@@ -35,7 +35,7 @@ def lumped(system: LSystem) -> LSystem:
     """
     kept = deciding(system)
     return replace(
-        system, axiom=tuple(_module(module, kept) for module in system.axiom),
+        system, axiom=tuple(shorn(module, kept) for module in system.axiom),
         productions=tuple(_production(rule, kept) for rule in system.productions),
         decomposition=tuple(_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
 
@@ -105,16 +105,21 @@ def _clashes(system: LSystem, found: Set[Position]) -> set[Position]:
 
 
 def _production(rule: Production, kept: Set[Position]) -> Production:
-    return replace(rule, predecessor=_module(rule.predecessor, kept), successor=_items(rule.successor, kept),
-                   left=tuple(_module(module, kept) for module in rule.left),
-                   right=tuple(_module(module, kept) for module in rule.right))
+    return replace(rule, predecessor=shorn(rule.predecessor, kept), successor=_items(rule.successor, kept),
+                   left=tuple(shorn(module, kept) for module in rule.left),
+                   right=tuple(shorn(module, kept) for module in rule.right))
 
 
 def _items(items: Iterable[Item], kept: Set[Position]) -> tuple[Item, ...]:
-    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else _module(item, kept)
+    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else shorn(item, kept)
                  for item in items)
 
 
-def _module(module: Module, kept: Set[Position]) -> Module:
+def shorn(module: Module, kept: Set[Position]) -> Module:
+    """A module without those of its parameters that decide nothing.
+
+    >>> print(shorn(Module("A", (1, 2)), {("A", 2, 0)}))
+    A(1)
+    """
     size = len(module.arguments)
     return replace(module, arguments=tuple(a for i, a in enumerate(module.arguments) if (module.symbol, size, i) in kept))

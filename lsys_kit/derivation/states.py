@@ -14,7 +14,7 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.chance import Chance, chosen
 from lsys_kit.derivation.faults import AXIOM, fault_in, undecided
 from lsys_kit.derivation.rules import Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError
 from lsys_kit.notation.arithmetic import SMALL, Value, is_symbolic, same, settled_value, sound
 from lsys_kit.notation.model import LSystem, Module, Production
 
@@ -133,14 +133,18 @@ class States:
 
     def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
         """The rule that rewrites a module, of rules that need no context."""
+        return self.drawn(self.matched(module, rules), chance)
+
+    def matched(self, module: Module, rules: Rules) -> list[tuple[Rule, tuple[Value, ...]]]:
+        """The rules that match a module, up to a first that leaves nothing to chance, each with the module's values."""
         values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
-        matched: list[tuple[Rule, tuple[Value, ...]]] = []
+        found: list[tuple[Rule, tuple[Value, ...]]] = []
         for rule in rules.get(kind_of(module), ()):
             if self.holds(rule, values, module):
-                if rule.probability is None and not matched:
-                    return rule
-                matched.append((rule, values))
-        return self.drawn(matched, chance)
+                found.append((rule, values))
+                if found[0][0].probability is None:
+                    break
+        return found
 
     def holds(self, rule: Rule, values: tuple[Value, ...], module: Module) -> bool:
         """Whether a rule's values are what it asks for and its condition is true."""
@@ -157,12 +161,16 @@ class States:
         """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
         if not matched or matched[0][0].probability is None:
             return matched[0][0] if matched else None
-        lots = [(rule, rule.probability(values + self.constants)) for rule, values in matched if rule.probability]
+        lots = self.lots(matched)
         unit = chance.unit() if chance else 0.0
         try:
             return lots[chosen([weight for _, weight in lots], unit)][0]
         except ValueError as fault:
             raise fault_in(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
+
+    def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]]) -> list[tuple[Rule, Value]]:
+        """Of the rules that match those that are chosen by lot, each with its weight."""
+        return [(rule, rule.probability(values + self.constants)) for rule, values in matched if rule.probability]
 
     def made(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
              chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:
@@ -277,28 +285,3 @@ def _times(count: Value) -> int:
     if count > most:
         raise ValueError(f"it is repeated {int(count):,} times; the limit is {most:,}")
     return int(count)
-
-
-def check_settled(states: States, what: str) -> None:
-    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
-    if not states.settled:
-        raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
-                              hint="Derive this system, and look at its words.")
-
-
-def closure(states: States, limit: int) -> Sequence[int] | None:
-    """All states that are met from the axiom on, in the order of their numbers; None where they are more than `limit`.
-
-    >>> from lsys_kit.notation.read import read
-    >>> closure(States(read("axiom: A\\nA -> A B")), 100)
-    range(0, 2)
-    >>> closure(States(read("axiom: A(0)\\nA(t) -> A(t+1)")), 100) is None
-    True
-    """
-    done = 0
-    while done < len(states):
-        if len(states) > limit:
-            return None
-        states.successor(done)
-        done += 1
-    return range(done)

@@ -18,9 +18,10 @@ from itertools import repeat
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.fates import check_settled
 from lsys_kit.derivation.faults import fault_in
 from lsys_kit.derivation.rules import kind_of, number_from
-from lsys_kit.derivation.states import States, check_settled
+from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, is_symbolic, number_text

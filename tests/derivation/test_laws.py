@@ -19,9 +19,10 @@ import lsys_kit.derivation.expand as expansion
 from lsys_kit.budget import limits
 from lsys_kit.derivation.chance import Chance
 from lsys_kit.derivation.derive import Derivation, derive, lengths
+from lsys_kit.derivation.fates import closure
 from lsys_kit.derivation.growth import growth
 from lsys_kit.derivation.stages import stages
-from lsys_kit.derivation.states import States, closure
+from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.expressions import Number, is_random

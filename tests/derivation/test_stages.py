@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
 from itertools import pairwise
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from lsys_kit.classroom.catalogue import system as catalogued
+from lsys_kit.classroom.catalogue import systems as catalogue
+from lsys_kit.derivation.chance import Chance
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.stages import stages
-from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model import Module
+from lsys_kit.derivation.stages import Stages, stages
+from lsys_kit.derivation.timed import timed
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.expressions import Number
+from lsys_kit.notation.model import LSystem, Module, Production
 from lsys_kit.notation.read import read
 
 FILAMENT = """
@@ -85,9 +96,33 @@ def test_a_diagram_that_nobody_could_read_is_grouped() -> None:
 
 
 def test_states_without_a_successor_are_grouped_too() -> None:
-    net = stages(read("axiom: A(3)\nA(t) -> A(t - 1) B(1/t)"))
+    net = stages(read("axiom: A(3)\nA(t) : 1/t > 0 -> A(t - 1) B"))
     assert net.grouped
-    assert repr(net) == "A -> A + B"
+    assert repr(net) == "A -> A + B if 1/t > 0"
+
+
+def test_a_parameter_that_decides_nothing_does_not_keep_states_from_ending() -> None:
+    system = read("axiom: A(0,1) L(0,1)\nA(t,x) : t < 2 -> A(t+1,2*x)\nA(t,x) -> A(0,1) L(0,x)\nL(t,x) -> L(t+1,x)")
+    net = stages(system)
+    assert repr(net) == "A(0) -> A(1)\nL -> L\nA(1) -> A(2)\nA(2) -> A(0) + L"
+    assert net.place_of(Module("L", (17, 4))) == 1
+    follows(net, system, 12)
+
+
+@pytest.mark.parametrize("name", ["J6", "K13", "K14", "K19", "P9w", "K9"])
+def test_the_tokens_of_a_lumped_net_are_the_words_counts(name: str) -> None:
+    net = stages(catalogued(name))
+    assert not net.grouped
+    follows(net, catalogued(name), 9)
+
+
+def follows(net: Stages, system: LSystem, steps: int) -> None:
+    """The net's tokens, fired, are those of the words, and none is lost."""
+    words = list(derive(system, steps))
+    assert net.tokens(words[0]) == net.start
+    for before, after in pairwise(words):
+        assert net.fired(net.tokens(before)) == net.tokens(after)
+        assert sum(net.tokens(after)) == len(after)
 
 
 def test_places_are_parted_as_far_as_their_futures_differ() -> None:
@@ -104,7 +139,223 @@ def test_a_module_that_is_not_met_has_no_place() -> None:
 
 
 def test_an_empty_net() -> None:
-    from lsys_kit.notation.model import LSystem
-
     net = stages(LSystem((), ()))
-    assert (net.places, net.tokens([]), net.fired(()), repr(net)) == ((), (), (), "")
+    assert (net.places, net.tokens([]), net.fired(()), net.expected(3), repr(net)) == ((), (), (), (), "")
+
+
+@pytest.mark.parametrize("name", catalogue())
+def test_every_net_of_the_catalogue_has_the_words_counts(name: str) -> None:
+    system = catalogued(name)
+    net = stages(system)
+    word = derive(system, min(3, system.steps or 3))[-1]
+    by_symbol = Counter(net.places[net.place_of(module)].symbol for module in word)  # type: ignore[index]
+    assert sum(net.tokens(word)) == len(word)
+    if not any(len({module.symbol for module in place.modules}) > 1 for place in net.places):
+        assert by_symbol == word.counts()
+
+
+@pytest.mark.parametrize("name", catalogue())
+def test_every_transition_of_the_catalogue_makes_what_its_production_makes(name: str) -> None:
+    system = catalogued(name)
+    net = stages(system)
+    if not net.grouped:
+        met = {net.place_of(module): module for word in derive(system, 4) for module in word}
+        for place, module in met.items():
+            alone = replace(system, axiom=(replace(module, arguments=tuple(map(Number, module.arguments))),))  # type: ignore[arg-type]
+            for seed in range(3):
+                assert net.tokens(derive(alone, 1, seed=seed)[1]) in outcomes(net, place)  # type: ignore[arg-type]
+
+
+def outcomes(net: Stages, place: int) -> list[tuple[int, ...]]:
+    """What may become of one token."""
+    numbers = [number for number, transition in enumerate(net.transitions) if transition.place == place]
+    made = [Counter({arc.place: arc.copies for arc in net.arcs if arc.transition == number}) for number in numbers]
+    return [tuple(counts[i] for i in range(len(net.places))) for counts in made or [Counter({place: 1})]]
+
+
+def chances(net: Stages, place: int) -> list[object]:
+    """The probabilities with which a token leaves a place."""
+    return [transition.chance for transition in net.transitions if transition.place == place]
+
+
+@pytest.mark.parametrize("name", catalogue())
+def test_the_probabilities_at_a_place_sum_to_one(name: str) -> None:
+    net = stages(catalogued(name))
+    for place in range(len(net.places)):
+        likely = [chance for chance in chances(net, place) if chance is not None]
+        assert sum(likely) in (0, 1)  # type: ignore[call-overload]
+        assert not likely or len(likely) > 1
+
+
+BUDS = ("A", "B", "C")
+words = st.lists(st.sampled_from((*BUDS, "F", "[", "]")).map(Module), max_size=3).map(tuple)
+weights = st.sampled_from((0, 1, 2, Fraction(1, 3), Fraction(33, 100))).map(Number)
+
+
+@st.composite
+def systems_of_chance(draw: st.DrawFn) -> LSystem:
+    """Systems whose modules take one of several ways; the first of a symbol's weights is not 0."""
+    rules = []
+    for bud in BUDS:
+        ways = draw(st.lists(st.tuples(words, weights), max_size=3))
+        rules += [Production(Module(bud), made, probability=weight if number else Number(Fraction(13, 20)))
+                  for number, (made, weight) in enumerate(ways)]
+    return LSystem(tuple(map(Module, BUDS)), tuple(rules))
+
+
+def mean(system: LSystem, counts: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """The expected counts after one more step, read off the productions."""
+    found: Counter[str] = Counter()
+    for symbol, count in counts.items():
+        rules = [rule for rule in system.productions if rule.predecessor.symbol == symbol]
+        total = sum(Fraction(rule.probability.value) for rule in rules)  # type: ignore[union-attr]
+        for rule in rules or [Production(Module(symbol), (Module(symbol),))]:
+            share = Fraction(rule.probability.value) / total if rules else 1  # type: ignore[union-attr]
+            for module in rule.successor:
+                found[module.symbol] += count * share  # type: ignore[union-attr, assignment]
+    return dict(found)  # type: ignore[arg-type]
+
+
+@given(systems_of_chance(), st.integers(0, 4))
+def test_expected_tokens_are_the_mean_of_what_chance_may_do(system: LSystem, steps: int) -> None:
+    net = stages(system)
+    counts: Mapping[str, Fraction] = dict.fromkeys(BUDS, Fraction(1))
+    for _ in range(steps):
+        counts = mean(system, counts)
+    assert {place.symbol: n for place, n in zip(net.places, net.expected(steps), strict=True) if n} == \
+        {symbol: n for symbol, n in counts.items() if n}
+
+
+@given(systems_of_chance(), st.integers(0, 99))
+def test_a_token_goes_one_way(system: LSystem, seed: int) -> None:
+    net = stages(system)
+    for place in range(len(net.places)):
+        one = tuple(int(place == other) for other in range(len(net.places)))
+        assert net.fired(one, Chance(seed, 0, 0)) in outcomes(net, place)
+        alone = replace(system, axiom=net.places[place].modules)
+        assert net.tokens(derive(alone, 1, seed=seed)[1]) in outcomes(net, place)
+
+
+def test_many_tokens_go_about_as_is_expected() -> None:
+    net = stages(catalogued("K8"))
+    after = net.fired(tuple(10_000 if place.symbol == "*" else 0 for place in net.places), Chance(5, 0, 0))
+    assert after[0] % 2 == 0
+    assert abs(after[0] - 13_000) < 300
+
+
+@pytest.mark.parametrize(("name", "symbol", "factor"), [("K8", "*", Fraction(13, 10)), ("K7", "F", Fraction(11, 3))])
+def test_the_expected_growth_of_the_slides(name: str, symbol: str, factor: Fraction) -> None:
+    net = stages(catalogued(name))
+    place = [place.symbol for place in net.places].index(symbol)
+    assert [net.expected(n)[place] for n in range(12)] == [factor**n for n in range(12)]
+
+
+def test_without_chance_what_is_expected_is_what_happens() -> None:
+    net = stages(catalogued("J4"))
+    for steps, word in enumerate(derive(catalogued("J4"), 12)):
+        assert net.expected(steps) == net.tokens(word)
+        assert net.expected(12 - steps, net.tokens(word)) == net.expected(12)
+
+
+def test_lots_are_drawn_by_whoever_fires() -> None:
+    with pytest.raises(ModelValueError, match="left to chance") as caught:
+        stages(catalogued("K8")).fired((1,) * 9)
+    assert "expected(steps)" in str(caught.value.hint)
+
+
+def test_weights_that_are_none_leave_the_net_grouped() -> None:
+    assert stages(read("axiom: A\nA -> B : 0\nA -> C : 0")).grouped
+    assert repr(stages(read("axiom: A(1)\nA(t) -> A(t+1) : t\nA(t) -> B : 2"))) == \
+        "A -> A if with weight t\nA -> B if with weight 2"
+
+
+def test_chance_that_hangs_on_a_value_is_that_of_each_state() -> None:
+    net = stages(read("axiom: A(1)\nA(t) : t < 3 -> A(t+1) : t\nA(t) : t < 3 -> B : 2\nA(t) -> A(1)"))
+    assert repr(net) == ("A(1) -> A(2) with probability 1/3\nA(1) -> B with probability 2/3\n"
+                         "A(2) -> A(3) with probability 0.5\nA(2) -> B with probability 0.5\nA(3) -> A(1)")
+
+
+def test_context_and_condition_stand_apart() -> None:
+    assert [transition.condition for transition in stages(catalogued("J3")).transitions] == [
+        "a(i) > c : i > 1", "a(i) < b : i < w", "a(w) < b", "c < b", "a(i) < c : i > 1", "a(1) < c"]
+
+
+def test_decomposition_takes_no_time() -> None:
+    assert repr(stages(catalogued("P8"))) == ("M -> M\nM -> 2 M at once if x >= x_div && p == LEFT\n"
+                                              "M -> 2 M at once if x >= x_div && p == RIGHT")
+
+
+def test_repetitions_are_counted_or_named() -> None:
+    text = "n = 3\naxiom: A(0)\nA(t) : t < 0 -> repeat(n) <F> repeat(t, i) <G(i) repeat(2) <H>> A(t+1)\nA(t) -> A(t+1)"
+    assert repr(stages(read(text))) == "A -> 3 F + t G + 2 t H + A if t < 0\nA -> A"
+
+
+def test_what_no_transition_shows_is_said() -> None:
+    assert stages(catalogued("K26")).besides == ("meta: f(x,y)f(u,v) -> f(x + u,y + v)",)
+    assert repr(stages(read("axiom: A\nA -> [ % A ]"))).endswith("besides: % cuts off the rest of its branch")
+
+
+def test_a_rule_behind_one_that_always_matches_has_no_transition() -> None:
+    assert repr(stages(read("axiom: A B\nA > B -> C\nA -> B\nA -> C"))) == "A -> C if A > B\nA -> B"
+
+
+CELLS_OF_TWO_AGES = "short = 1/5\naxiom: M(0)\nM(1) -> M(short) M(0)"
+
+
+def moved_in_time(net: Stages, until: Fraction) -> tuple[int, ...]:
+    """The tokens at a time, each of which moves when its time is up."""
+    spans = {transition.place: (number, transition.span) for number, transition in enumerate(net.transitions)}
+    todo = [(place, until) for place, count in enumerate(net.start) for _ in range(count)]
+    found = [0] * len(net.places)
+    while todo:
+        place, left = todo.pop()
+        number, span = spans.get(place, (None, None))
+        if span is None or left <= span:
+            found[place] += 1
+        else:
+            todo += [(arc.place, left - span) for arc in net.arcs if arc.transition == number for _ in range(arc.copies)]
+    return tuple(found)
+
+
+@pytest.mark.parametrize("text", [
+    CELLS_OF_TWO_AGES, "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)",
+    "axiom: a(0) X\na(2) -> a(0) b(1/3) X W(0)\nb(1) -> a(1/2) [b(0)] W(2)"])
+@given(st.integers(0, 40))
+def test_tokens_of_a_timed_net_move_when_their_time_is_up(text: str, twelfths: int) -> None:
+    growing = timed(read(text))
+    at = Fraction(twelfths, 12) + Fraction(1, 1000)  # at no time at which a cell divides
+    net = stages(growing)
+    assert moved_in_time(net, at) == net.tokens(growing.word(at))
+
+
+def test_a_life_is_parted_where_others_begin() -> None:
+    assert repr(stages(timed(read(CELLS_OF_TWO_AGES)))) == "M(0) -> M(0.2) after 0.2\nM(0.2) -> M(0.2) + M(0) after 0.8"
+    assert repr(stages(timed(read(CELLS_OF_TWO_AGES), short=0))) == "M(0) -> 2 M(0) after 1"
+
+
+def test_a_module_that_lives_for_ever_has_one_stretch() -> None:
+    net = stages(timed(read("axiom: a(0)\na(1) -> a(0) W(0) W(2)")))
+    assert repr(net) == "a(0) -> a(0) + 2 W(0) after 1"
+    assert net.place_of(Module("W", (17,))) == net.place_of(Module("W", (1,))) == 1
+    assert net.place_of(Module("V", (1,))) is None
+
+
+def test_cells_of_both_polarities_share_a_stretch() -> None:
+    rules = "axiom: r(0)\nr(1) -> l(0) s(0)\nl(1) -> s(0) r(0)\ns(1) -> r(0)"
+    drawn = "\ninterpretation:\nr(t) -> R(2,1)\nl(t) -> L(2,1)\ns(t) -> R(1,1)"
+    assert len(stages(timed(read(rules))).places) == 3
+    assert repr(stages(timed(read(rules + drawn)))) == "r(0) -> r(0) + s(0) after 1\ns(0) -> r(0) after 1"
+    assert len(stages(timed(read(rules + drawn)), polarity=True).places) == 3
+
+
+def test_timed_nets_that_cannot_be() -> None:
+    with pytest.raises(ModelValueError, match="its own time"):
+        stages(timed(read(CELLS_OF_TWO_AGES))).expected(3)
+    with pytest.raises(ModelValueError, match="when it is made"):
+        stages(timed(read(CELLS_OF_TWO_AGES)), short=0)
+    with pytest.raises(ModelValueError, match=r"begins older than it divides, at the age 1"):
+        stages(timed(read("axiom: A(2)\nA(1) -> A(0)")))
+    with pytest.raises(ModelValueError, match="depends on a constant that is not known"):
+        stages(timed(read(CELLS_OF_TWO_AGES), short="short"))
+    with pytest.raises(ModelLimitError, match="more than 40 different ages"):
+        stages(timed(read("axiom: A(0,0)\nA(1,x) -> A(x/2,x/2+1)")))

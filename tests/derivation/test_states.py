@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from lsys_kit.derivation.fates import closure
 from lsys_kit.derivation.interpret import images, is_filament
-from lsys_kit.derivation.states import States, closure
+from lsys_kit.derivation.states import States
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model import LSystem, Module, Production
 from lsys_kit.notation.read import read
