@@ -33,7 +33,7 @@ ELSEWHERE = frozenset(("level", "droop", "tropism", "jump", "back", "outline", "
 """Actions that depend on more than what a turtle carries."""
 OFTEN = 30
 """Pieces pay where a word has so many times more modules than there are pieces to make."""
-BLOCK = 2**15
+BLOCK = 2**13
 """So many points are placed at a time: what lies between two operations stays in the processor's cache."""
 
 
@@ -44,8 +44,7 @@ class Piece:
     Attributes
     ----------
     strokes, corners, centres
-        Coordinates, a row for each: of the starts and then of the ends of strokes, of the corners of polygons, of the centres
-        of discs.
+        Points, a row for each: the starts and ends of strokes in turn, the corners of polygons, the centres of discs.
     of_strokes, of_polygons, of_discs
         What else there is to say of each: order, state, width, colour; number of corners, state, colour; radius, kind, state,
         colour. One width or colour stands for all, where they are alike.
@@ -176,10 +175,11 @@ class Pieces:
             if order.action in ACTS:
                 ACTS[order.action](turtle, ready(order, self.angle))
         strokes = np.array(turtle.strokes).reshape(-1, 10).T
+        points = strokes[:6].T.reshape(-1, 3)
         corners = [corner for outline in turtle.outlines for corner in outline.corners]
         opened = len(turtle.stack)  # of a bracket, which counts where it stands
         return Piece(
-            strokes[[*self._axes, *(axis + 3 for axis in self._axes)]],
+            np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
             self._points(corners),
             (np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
@@ -191,13 +191,13 @@ class Pieces:
             _carried(turtle))
 
     def _points(self, places: Sequence[Any]) -> Floats:
-        return np.array(places, np.float64).reshape(-1, 3).T[self._axes]
+        return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
 
 
 def _joined(parts: Sequence[Placed], end: Floats, turned: Floats, carried: tuple[Any, ...]) -> Piece:
     """Placed pieces as one."""
-    drawn = [part for part in parts if part.piece.strokes.shape[1]]
-    strokes = _moved([(part, part.piece.strokes) for part in drawn], 2 * len(end))
+    drawn = [part for part in parts if len(part.piece.strokes)]
+    strokes = _moved([(part, part.piece.strokes) for part in drawn], len(end))
     orders, states, widths, colours = zip(*(part.piece.of_strokes for part in drawn), strict=True) if drawn else [()] * 4
     sizes = [len(order) for order in orders]
     raised = [order + np.int16(part.order) if part.order else order for order, part in zip(orders, drawn, strict=True)]
@@ -222,29 +222,23 @@ def _alike(columns: Sequence[np.ndarray[Any, Any]], sizes: Sequence[int], kind: 
     return _together([np.broadcast_to(column, size) for column, size in zip(columns, sizes, strict=True)], kind)
 
 
-def _moved(parts: Sequence[tuple[Placed, Floats]], rows: int) -> Floats:
-    """Points, each where its part is placed: for each coordinate a sum of products, block by block."""
-    whole = np.empty((rows, sum(points.shape[1] for _, points in parts)))
-    last, product = 0, np.empty(BLOCK)
+def _moved(parts: Sequence[tuple[Placed, Floats]], size: int) -> Floats:
+    """Points, each where its part is placed, block by block."""
+    whole, last = np.empty((sum(len(points) for _, points in parts), size)), 0
     for part, points in parts:
-        size = len(part.at)
-        for first in range(0, points.shape[1], BLOCK):
-            block = points[:, first:first + BLOCK]
-            for row in range(rows):
-                there, of_point = whole[row, last:last + block.shape[1]], block[row // size * size:]
-                weights = part.turned[row % size]
-                np.multiply(of_point[0], weights[0], out=there)
-                for other in range(1, size):
-                    if weights[other]:
-                        there += np.multiply(of_point[other], weights[other], out=product[:len(there)])
-                there += part.at[row % size]
-            last += block.shape[1]
+        turned, at = np.ascontiguousarray(part.turned.T), np.tile(part.at, min(BLOCK, len(points)))
+        for first in range(0, len(points), BLOCK):
+            block = points[first:first + BLOCK]
+            np.matmul(block, turned, out=whole[last:last + len(block)])
+            there = whole[last:last + len(block)].reshape(-1)
+            there += at[:len(there)]
+            last += len(block)
     return whole
 
 
 def _scene(piece: Piece, strange: tuple[str, ...]) -> Scene:
     """The shapes of a piece as a scene."""
-    polygons = Polygons(piece.corners.T, np.cumsum([0, *piece.of_polygons[0]]), *piece.of_polygons[1:])
+    polygons = Polygons(piece.corners, np.cumsum([0, *piece.of_polygons[0]]), *piece.of_polygons[1:])
     radii, kinds, states, colours = piece.of_discs
-    discs = Discs(piece.centres.T, radii, kinds, states, colours)
-    return Scene(Segments(piece.strokes.T, *piece.of_strokes), polygons=polygons, discs=discs, unknown=strange)
+    discs = Discs(piece.centres, radii, kinds, states, colours)
+    return Scene(Segments(piece.strokes.reshape(-1, 2 * piece.strokes.shape[1]), *piece.of_strokes), polygons=polygons, discs=discs, unknown=strange)

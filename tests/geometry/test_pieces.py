@@ -49,7 +49,7 @@ def at_once(system: LSystem, steps: int) -> Scene | None:
 @given(words(PLANE), words(PLANE), words(PLANE), words(PLANE), st.sampled_from((90, 60, 25.7)), st.integers(0, 4))
 def test_in_the_plane(axiom: str, a: str, b: str, f: str, angle: float, steps: int) -> None:
     system = read(f"angle: {angle}\n" + SYSTEM.format(axiom, a, b, f))
-    with limits(modules=5_000):
+    with limits(modules=1_000_000):
         assume(max(derive(system, 4).lengths) < 3_000)
     assert in_plane(system)
     found = at_once(system, steps)
@@ -61,7 +61,7 @@ def test_in_the_plane(axiom: str, a: str, b: str, f: str, angle: float, steps: i
 @given(words(SPACE), words(SPACE), words(SPACE), words(SPACE), st.integers(0, 4))
 def test_in_space(axiom: str, a: str, b: str, f: str, steps: int) -> None:
     system = read("angle: 22.5\n" + SYSTEM.format(axiom + " &", a, b, f))
-    with limits(modules=5_000):
+    with limits(modules=1_000_000):
         assume(max(derive(system, 4).lengths) < 3_000)
     found = at_once(system, steps)
     assert found is not None
