@@ -10,40 +10,47 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.courses import Counting, Origins, Stepping, check_size, check_time, counted, course_of
 from lsys_kit.derivation.fates import check_settled
+from lsys_kit.derivation.maps import Development, developed
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.maps import MapSystem
 from lsys_kit.notation.model import LSystem
 
 
+@overload
 def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
-           **constants: object) -> Derivation:
+           **constants: object) -> Derivation: ...
+@overload
+def derive(system: MapSystem, steps: int) -> Development: ...
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     """Derive a system: the words of steps 0 to `steps`.
 
     Parameters
     ----------
     system
-        Any L-system.
+        Any L-system; or a map system, whose maps are derived, and which has none of the choices below.
     steps
         How many steps.
     seed
         Where chance begins: the same seed gives the same words, on every machine. By default the system's own, else 0.
     arithmetic
         "exact", or "float" to compute in doubles as cpfg and L-Py do.
-    **constants
+    **choices
         New values for declared constants: numbers, or texts such as "14/10".
 
     Returns
     -------
     Derivation
-        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those between.
+        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those between. For a map
+        system a `Development`, a sequence of `steps + 1` maps.
 
     Raises
     ------
@@ -61,6 +68,16 @@ def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: 
     >>> derive(fibonacci, 30).lengths[-1]
     2178309
     """
+    if not isinstance(system, MapSystem):
+        return _derived(system, steps, **choices)
+    if choices:
+        raise ModelValueError(f'A map system has no "{next(iter(choices))}"',
+                              hint="Nothing in it is left to chance, or declared.")
+    return developed(system, steps)
+
+
+def _derived(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
+             **constants: object) -> Derivation:
     seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise ModelValueError(f"The seed must be a whole number, not {seed!r}")

@@ -12,13 +12,10 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.records import Misread
 from lsys_kit.notation.slips import explained
-from lsys_kit.notation.tradition import Notation
-
-STARTS = ("statement", "word", "expression")
-"""What can be parsed."""
+from lsys_kit.notation.tradition import Grammar
 
 
-def parse(notation: Notation, rule: str, text: str, start: int, end: int) -> Any:
+def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
     """The record of a stretch of a text."""
     if end - start > current().line:
         raise ModelLimitError(f"This line has {end - start:,} characters; the limit is {current().line:,}",
@@ -32,7 +29,6 @@ def parse(notation: Notation, rule: str, text: str, start: int, end: int) -> Any
 
 
 @cache
-def _parser(notation: Notation) -> Lark:
-    rules = [rule for rule in STARTS if rule != "expression" or notation.name != "plant-string"]
-    return Lark.open(notation.grammar, rel_to=__file__, parser="lalr", start=rules, maybe_placeholders=False,
+def _parser(notation: Grammar) -> Lark:
+    return Lark.open(notation.file, rel_to=__file__, parser="lalr", start=[*notation.starts], maybe_placeholders=False,
                      transformer=notation.records())

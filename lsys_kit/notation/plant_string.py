@@ -93,4 +93,5 @@ def _branches(words: Iterable[str]) -> int:
 
 PLANT_STRING = Notation(
     name=NAME, statements=statements, records=Statements, finish=_finish, questions=(_of_others, *QUESTIONS), module=str,
-    joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME)
+    joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
+    starts=("statement", "word"))

@@ -6,6 +6,7 @@ beside this file, one for each notation, and `expressions.lark`, which they shar
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
@@ -22,10 +23,13 @@ from lsys_kit.notation.glued import unglued
 from lsys_kit.notation.model import LSystem, Module, flat
 from lsys_kit.notation.parsing import parse
 from lsys_kit.notation.registry import NOTATIONS, notation_called, recognised
+from lsys_kit.notation.statements import ARROW
 from lsys_kit.notation.tradition import Notation
 
 PER_RULE = 64
 """How many characters there may be for each production that a model may have, blanks and comments not counted."""
+_MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
+"""How a map system begins (see `read_map`)."""
 
 
 def read(text: str, notation: str | None = None) -> LSystem:
@@ -59,11 +63,10 @@ def read(text: str, notation: str | None = None) -> LSystem:
     >>> read("Axiom: I\\nI -> I[A]A(I)A").notes
     ('Read as plant-string.',)
     """
-    if not isinstance(text, str):
-        raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
-    if len(text) > current().text:
-        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
-                              limit=current().text, needed=len(text))
+    check_text(text)
+    if _MAP.match(text):
+        raise ModelValueError("Here a map system begins, and no L-system", text, len(text) - len(text.lstrip()), None,
+                              "Maps are read by read_map(text).")
     if notation:
         return _read_in(notation_called(notation), text)
     chosen = recognised(text)
@@ -75,6 +78,15 @@ def read(text: str, notation: str | None = None) -> LSystem:
             error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
         raise
     return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
+
+
+def check_text(text: str) -> None:
+    """Refuse what is no text, or too long a one."""
+    if not isinstance(text, str):
+        raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
+    if len(text) > current().text:
+        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
+                              limit=current().text, needed=len(text))
 
 
 def _others(chosen: Notation, text: str) -> Iterator[Notation]:
@@ -95,7 +107,7 @@ def _reads(notation: Notation, text: str) -> bool:
 def _read_in(notation: Notation, text: str) -> LSystem:
     """Read a system in a notation."""
     draft = Draft(text, notation.name, notation.turtle)
-    for start, end in _bounded(notation.statements(text), text):
+    for start, end in bounded(notation.statements(text), text):
         kind, record = parse(notation, "statement", text, start, end)
         draft.add(kind, record, (start, end))
     system = notation.finish(draft)
@@ -103,7 +115,7 @@ def _read_in(notation: Notation, text: str) -> LSystem:
     return replace(system, notes=(*system.notes, *idle(system)))
 
 
-def _bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int, int]]:
+def bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int, int]]:
     """The statements, if they are neither too many nor together too long."""
     lines, most = 2 * current().rules, max(current().line, PER_RULE * current().rules)
     found = [*islice(statements, lines + 1)]

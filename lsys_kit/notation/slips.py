@@ -17,7 +17,7 @@ from lsys_kit.errors import ModelSyntaxError, named
 from lsys_kit.notation.before_arrow import PRODUCTION, before_arrow
 from lsys_kit.notation.statements import ARROW
 from lsys_kit.notation.stumble import Stumble, outside, possible, printed, quoted, stumbled, unclosed
-from lsys_kit.notation.tradition import Notation, Question
+from lsys_kit.notation.tradition import Grammar, Question
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
             "meta", "productions", "decomposition", "decomposition depth", "interpretation")
@@ -53,7 +53,7 @@ SPELT: Sequence[tuple[str, str, str]] = (
 """What is spelt as elsewhere: a pattern, what to say of it, what to type here."""
 
 
-def explained(slip: UnexpectedInput, source: str, start: int, end: int, notation: Notation) -> ModelSyntaxError:
+def explained(slip: UnexpectedInput, source: str, start: int, end: int, notation: Grammar) -> ModelSyntaxError:
     """The slip in the statement between two offsets, as an error with its place and a hint."""
     stumble = stumbled(slip, source, start, end)
     answers = (question(stumble) for question in (*notation.questions, _anything_else))

@@ -80,7 +80,7 @@ def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[in
 def unclosed(text: str, pair: str = "()") -> int | None:
     """The offset of the last opening bracket of a pair that is not closed."""
     opened: list[int] = []
-    for match in re.finditer(f"[{pair}]", text):
+    for match in re.finditer(f"[{re.escape(pair)}]", text):
         if match.group() == pair[0]:
             opened.append(match.start())
         else:

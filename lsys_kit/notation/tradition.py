@@ -22,22 +22,43 @@ Question: TypeAlias = "Callable[[Stumble], ModelSyntaxError | None]"
 """Something to ask about the place where a parser stumbled; an answer is what the person is told."""
 
 
-@dataclass(frozen=True)
-class Notation:
-    """One notation.
+@dataclass(frozen=True, kw_only=True)
+class Grammar:
+    """How a statement is read.
 
     Attributes
     ----------
     name
-        What it is called in `read` and `write`.
-    statements
-        The offsets of a text's statements.
+        What the notation is called.
     records
         What its grammar names, as records.
-    finish
-        What the statements mean together, as a system without its notes.
     questions
         What is asked about a slip, the most telling first.
+    starts
+        What can be parsed: a statement, and perhaps a word or an expression alone.
+    """
+
+    name: str
+    records: Callable[[], Transformer[Any, Any]]
+    questions: Sequence[Question]
+    starts: Sequence[str] = ("statement", "word", "expression")
+
+    @property
+    def file(self) -> str:
+        """The file of the grammar."""
+        return f"{self.name.replace('-', '_')}.lark"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Notation(Grammar):
+    """One notation of L-systems, by the name that it has in `read` and `write`.
+
+    Attributes
+    ----------
+    statements
+        The offsets of a text's statements.
+    finish
+        What the statements mean together, as a system without its notes.
     module
         The text of a module.
     joined
@@ -52,22 +73,14 @@ class Notation:
         How likely a text is in this notation: the number of its marks that are found there.
     """
 
-    name: str
     statements: Callable[[str], Iterator[tuple[int, int]]]
-    records: Callable[[], Transformer[Any, Any]]
     finish: Callable[[Draft], LSystem]
-    questions: Sequence[Question]
     module: Callable[[Module], str]
     joined: Callable[[Iterable[str]], str]
     write: Callable[[LSystem], str]
     lacking: Callable[[LSystem], str | None]
     likely: Callable[[str], int]
     turtle: str = "abop"
-
-    @property
-    def grammar(self) -> str:
-        """The file of its grammar."""
-        return f"{self.name.replace('-', '_')}.lark"
 
     def word(self, modules: Iterable[Module]) -> str:
         """The text of a word."""
