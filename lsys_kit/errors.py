@@ -125,6 +125,15 @@ def printable(character: str) -> str:
     return character if character.isprintable() else "?"
 
 
+def quotable(name: str) -> str:
+    """A name as a message quotes it: no longer than a line, and all of it printable.
+
+    >>> quotable("plant.svg"), quotable("a\\nb")
+    ('plant.svg', 'a?b')
+    """
+    return "".join(map(printable, name if len(name) <= 80 else f"{name[:80]}..."))
+
+
 def named(character: str) -> str:
     """A character as a message quotes it: itself where it shows, and its Unicode name where it may mislead.
 

@@ -185,9 +185,17 @@ def _rings(ways: Floats) -> Floats:
     first = np.cross(ways, aside)
     first /= np.linalg.norm(first, axis=1)[:, None]
     second = np.cross(ways, first)
-    around = 2 * np.pi * np.arange(SIDES) / SIDES
-    ring: Floats = first[:, None] * np.cos(around)[:, None] + second[:, None] * np.sin(around)[:, None]
+    cos, sin = _circle(SIDES)
+    ring: Floats = first[:, None] * cos[:, None] + second[:, None] * sin[:, None]
     return ring
+
+
+def _circle(count: int) -> tuple[Floats, Floats]:
+    """Cosines and sines of angles all around, the same to the last bit on every machine."""
+    angles = 2 * np.pi * np.arange(count) / count
+    cos: Floats = np.round(np.cos(angles), 12)
+    sin: Floats = np.round(np.sin(angles), 12)
+    return cos, sin
 
 
 @cache
@@ -244,8 +252,8 @@ def _copies(shape: Mesh, centres: Floats, sizes: Floats, states: Integers, colou
 @cache
 def _disc() -> Mesh:
     """A disc of radius 1 that faces the viewer."""
-    angles = 2 * np.pi * np.arange(ROUND) / ROUND
-    rim = np.stack([np.cos(angles), np.zeros(ROUND), np.sin(angles)], axis=1)
+    cos, sin = _circle(ROUND)
+    rim = np.stack([cos, np.zeros(ROUND), sin], axis=1)
     fan = [(ROUND, k, (k + 1) % ROUND) for k in range(ROUND)]
     return _shape(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
 

@@ -1,0 +1,156 @@
+"""Meshes as files that other programs open: glTF in one file (.glb), and Wavefront's .obj with its colours in an .mtl.
+
+In both y grows upwards and z towards the viewer. Nothing that a person has typed stands in them: materials have the names of
+their colours.
+
+Sources: Khronos Group, glTF 2.0 specification, sections 3.7, 3.9 and 4.4; for .obj and .mtl the appendices B of Wavefront's
+Advanced Visualizer manual.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lsys_kit.geometry.meshes import Mesh, Numbers, Singles
+from lsys_kit.pictures.svg import numbered_colours
+
+_FLOAT, _UNSIGNED = 5126, 5125
+_VERTICES, _INDICES = 34962, 34963
+"""How glTF calls kinds of numbers, and what a part of its bytes is for."""
+LINES = 65_536
+"""So many lines of text are written at a time."""
+
+
+class Part(NamedTuple):
+    """The triangles of one colour, with their own vertices."""
+
+    colour: str
+    vertices: Singles
+    normals: Singles
+    triangles: Numbers
+
+
+def parts(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[Part]:
+    """A mesh by its colours, set upright for other programs.
+
+    Parameters
+    ----------
+    mesh
+        Any mesh; all vertices of a triangle have the same colour.
+    colour_of
+        For each state its colour.
+    """
+    names, colours = numbered_colours(mesh.states, mesh.colours, colour_of)
+    first = colours[mesh.triangles[:, 0]]
+    for number in np.unique(first).tolist():
+        ours, triangles = np.flatnonzero(colours == number), mesh.triangles[first == number]
+        renumbered = np.searchsorted(ours, triangles).astype(np.uint32)
+        yield Part(names[number], _upright(mesh.vertices[ours]), _upright(mesh.normals[ours]), renumbered)
+
+
+def _upright(points: Singles) -> Singles:
+    """What grew upwards along z grows upwards along y; `+ 0` leaves no negative zero."""
+    turned: Singles = np.stack([points[:, 0], points[:, 2], -points[:, 1]], axis=1) + np.float32(0)
+    return turned
+
+
+def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
+    """A mesh as one file of glTF 2.0."""
+    tree: dict[str, Any] = {"asset": {"version": "2.0", "generator": "lsys-kit"}}
+    lists: dict[str, list[Any]] = {"materials": [], "accessors": [], "bufferViews": []}
+    primitives, data = [], bytearray()
+    for number, part in enumerate(parts(mesh, colour_of)):
+        attributes = {"POSITION": _accessor(lists, data, part.vertices), "NORMAL": _accessor(lists, data, part.normals)}
+        primitives.append({"attributes": attributes, "indices": _accessor(lists, data, part.triangles), "material": number})
+        lists["materials"].append(_material(part.colour))
+    if primitives:  # in glTF no list is empty
+        tree |= {"scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": primitives}],
+                 **lists, "buffers": [{"byteLength": len(data)}]}
+    return _packed(json.dumps(tree, separators=(",", ":")).encode(), bytes(data))
+
+
+def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | Numbers) -> int:
+    """Put numbers behind the others, and say the number under which glTF finds them."""
+    vectors = rows.dtype == np.float32
+    added = rows.astype(rows.dtype.newbyteorder("<")).tobytes()
+    lists["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(added),
+                                 "target": _VERTICES if vectors else _INDICES})
+    accessor = {"bufferView": len(lists["bufferViews"]) - 1, "componentType": _FLOAT if vectors else _UNSIGNED,
+                "count": len(rows) if vectors else rows.size, "type": "VEC3" if vectors else "SCALAR"}
+    if vectors:
+        accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
+    data += added
+    lists["accessors"].append(accessor)
+    return len(lists["accessors"]) - 1
+
+
+def _material(colour: str) -> dict[str, Any]:
+    """A dull surface of a colour, seen from both sides."""
+    factor = [round(_linear(channel), 6) for channel in channels(colour)]
+    return {"name": colour, "doubleSided": True,
+            "pbrMetallicRoughness": {"baseColorFactor": [*factor, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}}
+
+
+def channels(colour: str) -> tuple[float, float, float]:
+    """Red, green and blue from 0 to 1.
+
+    >>> channels("#ff0033")
+    (1.0, 0.0, 0.2)
+    """
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red / 255, green / 255, blue / 255
+
+
+def _linear(channel: float) -> float:
+    """How much light a channel of sRGB stands for, from 0 to 1 (IEC 61966-2-1)."""
+    return channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4
+
+
+def _packed(tree: bytes, data: bytes) -> bytes:
+    """The head of a .glb file, its tree and its numbers, each filled up to whole words."""
+    chunks = [(b"JSON", tree + b" " * (-len(tree) % 4)), *([(b"BIN\0", data + bytes(-len(data) % 4))] if data else [])]
+    body = b"".join(struct.pack("<I", len(chunk)) + kind + chunk for kind, chunk in chunks)
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+
+def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
+    """A mesh as text of an .obj file.
+
+    Parameters
+    ----------
+    mesh, colour_of
+        As for `parts`.
+    library
+        The name of the .mtl file, which stands beside it.
+    """
+    found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n"], 1
+    for part in parts(mesh, colour_of):
+        corners = np.repeat(part.triangles.astype(np.int64) + first, 2, axis=1)
+        found += [*_lines("v %.7g %.7g %.7g\n", part.vertices), *_lines("vn %.7g %.7g %.7g\n", part.normals),
+                  f"usemtl {_called(part.colour)}\n", *_lines("f %d//%d %d//%d %d//%d\n", corners)]
+        first += len(part.vertices)
+    return "".join(found).encode()
+
+
+def _lines(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
+    for first in range(0, len(rows), LINES):
+        some = rows[first:first + LINES]
+        yield pattern * len(some) % tuple(some.ravel().tolist())
+
+
+def mtl(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
+    """The colours of a mesh as text of an .mtl file."""
+    materials = (f"newmtl {_called(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
+                 for colour in dict.fromkeys(part.colour for part in parts(mesh, colour_of))
+                 for red, green, blue in [channels(colour)])
+    return "".join(["# Colours of a drawing of lsys-kit\n", *materials]).encode()
+
+
+def _called(colour: str) -> str:
+    """The name of a colour, as .mtl files may have it: without a sharp, which begins a comment."""
+    return f"colour_{colour[1:]}"
