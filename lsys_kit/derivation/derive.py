@@ -16,8 +16,8 @@ import numpy as np
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.courses import Counting, Origins, Stepping, check_size, check_time, counted, course_of
+from lsys_kit.derivation.development import Development, developed
 from lsys_kit.derivation.fates import check_settled
-from lsys_kit.derivation.maps import Development, developed
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError

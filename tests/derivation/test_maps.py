@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.maps import Development, Map, cell_words, developed, least_rotation
+from lsys_kit.derivation.development import Development, developed
+from lsys_kit.derivation.divisions import stepped
+from lsys_kit.derivation.maps import Map, cell_words, least_rotation
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.maps import Edge, EdgeProduction, MapSystem
 from lsys_kit.notation.read_map import read_map
@@ -106,8 +108,6 @@ def _flipped(cell, found):  # type: ignore[no-untyped-def]
 
 
 def next_words(found: Map, system: MapSystem) -> str:
-    from lsys_kit.derivation.maps import stepped
-
     with limits(modules=1_000_000):
         return str(stepped(found, {production.predecessor: production for production in system.productions}, 1, float("inf")))
 
