@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from lsys_kit.derivation.chance import Chance
 from lsys_kit.derivation.rules import rules_of
 from lsys_kit.derivation.states import States
-from lsys_kit.notation.model import CELLS, LSystem, Module, flat
+from lsys_kit.notation.model import CELLS, WALL, LSystem, Module, flat
 
 
 def images(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
@@ -18,7 +18,12 @@ def images(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ..
     >>> {str(states.modules[s]): " ".join(map(str, image)) for s, image in images(states, states.axiom).items()}
     {'A(2)': 'F(2) F(1)', '[': '[', 'B': 'B', ']': ']'}
     """
-    return {state: tuple(_image(states, states.modules[state], states.system.depth)) for state in dict.fromkeys(numbers)}
+    return {state: image(states, states.modules[state]) for state in dict.fromkeys(numbers)}
+
+
+def image(states: States, module: Module) -> tuple[Module, ...]:
+    """The modules that a module is drawn as."""
+    return tuple(_image(states, module, states.system.depth))
 
 
 def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
@@ -33,12 +38,21 @@ def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
         yield from _image(states, Module(*made), depth - 1)
 
 
+def is_cell(made: Module) -> bool:
+    """Whether what a module is drawn as is a cell: with a length and a width.
+
+    >>> is_cell(Module("L", (2, 1))), is_cell(Module("L"))
+    (True, False)
+    """
+    return made.symbol in CELLS and len(made.arguments) >= 2
+
+
 def is_filament(system: LSystem) -> bool:
-    """Whether a system is drawn as cells in a row: every interpretation rule makes cells with a length and a width.
+    """Whether a system is drawn as cells in a row: its interpretation makes cells with a length and a width, perhaps walls.
 
     >>> from lsys_kit.notation.read import read
     >>> is_filament(read("axiom: a\\ninterpretation:\\na -> R(2,1)"))
     True
     """
-    made = [module for rule in system.interpretation for module in flat(rule.successor)]
-    return bool(made) and all(module.symbol in CELLS and len(module.arguments) >= 2 for module in made)
+    made = [module for rule in system.interpretation for module in flat(rule.successor) if module.symbol != WALL]
+    return bool(made) and all(map(is_cell, made))

@@ -211,7 +211,7 @@ def orders(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, l
 
 def _order(command: Command, module: Module) -> Order:
     """A command with a module's argument."""
-    values = _values(module) if command.argument else ()
+    values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, float(command.factor), command.addend
     if not values:
         action = command.bare or action
@@ -224,8 +224,14 @@ def _order(command: Command, module: Module) -> Order:
     return Order(action, factor, addend, values, module.symbol, command.surface)
 
 
-def _values(module: Module) -> tuple[float, ...]:
-    """A module's arguments as doubles."""
+def values_of(module: Module) -> tuple[float, ...]:
+    """A module's arguments as doubles.
+
+    Raises
+    ------
+    ModelValueError
+        An argument is no number that can be drawn.
+    """
     try:
         values = tuple(map(float, module.arguments))  # type: ignore[arg-type]
     except (TypeError, OverflowError):

@@ -1,27 +1,32 @@
-"""Filaments: cells in a row, as in seed 000's figures 1 to 3 and seed 002's figures 1 and 3.
+"""Filaments: cells in a row, as in seed 000's figures 1 to 3 and seed 002's figures 1, 3, 4 and 8.
 
 A cell is what the interpretation rules make of a module: `L(length, width, shade)` points left, `R(length, width, shade)`
-right, `O(length, width, shade)` nowhere; the shade, from 0 to 1, shows its age and may be left out.
+right, `O(length, width, shade)` nowhere. `W(age, shade)` is a wall between two cells, which takes no room. The shade, from 0
+to 1, shows an age and may be left out.
 """
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
-from lsys_kit.derivation.interpret import images
+import numpy as np
+from numpy.typing import NDArray
+
+from lsys_kit.derivation.interpret import images, is_cell
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.scene import Cells, Scene
-from lsys_kit.notation.model import CELLS, Module
+from lsys_kit.geometry.commands import values_of
+from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
+from lsys_kit.notation.model import CELLS, WALL, Module
 
 
 def filament(word: Word) -> Scene:
-    """The cells of a word, side by side from x = 0.
+    """The cells of a word, side by side from x = 0, and the walls between them.
 
     Raises
     ------
     ModelValueError
-        A cell has a length or width that is not positive.
+        A cell has a length or width that is not positive, or a value is no number that can be drawn.
 
     Examples
     --------
@@ -32,19 +37,37 @@ def filament(word: Word) -> Scene:
     3 cells, width 5, height 1
     """
     numbers = word.numbers()
-    cells_of = {state: [_cell(made, word.states.modules[state]) for made in image if made.symbol in CELLS]
-                for state, image in images(word.states, numbers).items()}
-    rows = [(*cell, state) for state in numbers for cell in cells_of[state]]
-    table = np.array(rows, dtype=np.float64).reshape(-1, 5)
-    right_ends = np.cumsum(table[:, 0])
-    centres = np.column_stack([right_ends - table[:, 0] / 2, np.zeros(len(table))])
-    return Scene(cells=Cells(centres, table[:, :2], table[:, 2].astype(np.int64), table[:, 3],
-                             table[:, 4].astype(np.int64)))
+    shapes = {state: [_shape(made, word.states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
+              for state, image in images(word.states, numbers).items()}
+    rows = [(*shape, state) for state in numbers for shape in shapes[state]]
+    table = np.array(rows, dtype=np.float64).reshape(-1, 6)
+    ends = np.cumsum(table[:, 1])
+    is_wall = table[:, 0] == 1
+    cells, walls = table[~is_wall], table[is_wall]
+    centres = np.column_stack([(ends - table[:, 1] / 2)[~is_wall], np.zeros(len(cells))])
+    return Scene(cells=Cells(centres, cells[:, 1:3], cells[:, 3].astype(np.int64), cells[:, 4], cells[:, 5].astype(np.int64)),
+                 walls=Walls(ends[is_wall], _heights(is_wall, cells[:, 2]), walls[:, 3], walls[:, 4],
+                             walls[:, 5].astype(np.int64)))
 
 
-def _cell(made: Module, module: Module) -> tuple[float, float, int, float]:
-    """Length, width, polarity and shade of a cell."""
-    length, width, *rest = (float(value) for value in made.arguments)  # type: ignore[arg-type]
+def _heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:
+    """For each wall the width of the broader of the cells beside it."""
+    beside = np.concatenate([[0.0], widths, [0.0]])
+    before = np.cumsum(~is_wall)[is_wall]  # how many cells stand before each wall
+    heights: Floats = np.maximum(beside[before], beside[before + 1])
+    return heights
+
+
+def _shape(made: Module, module: Module) -> tuple[float, float, float, float, float]:
+    """Whether it is a wall, its length and width, its polarity or age, and its shade."""
+    if made.symbol == WALL:
+        values = values_of(made)
+        return 1, 0, 0, values[0] if values else math.nan, _within(values[1] if len(values) > 1 else 0.0)
+    length, width, *rest = values_of(made)
     if length <= 0 or width <= 0:
         raise ModelValueError(f"{module} cannot be drawn as {made}: a cell's length and width are greater than 0")
-    return length, width, CELLS[made.symbol], min(1.0, max(0.0, rest[0])) if rest else 0.0
+    return 0, length, width, CELLS[made.symbol], _within(rest[0] if rest else 0.0)
+
+
+def _within(shade: float) -> float:
+    return min(1.0, max(0.0, shade))

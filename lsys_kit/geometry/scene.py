@@ -87,6 +87,37 @@ class Cells:
 
 
 @dataclass(frozen=True)
+class Walls:
+    """Walls between the cells of a filament.
+
+    Attributes
+    ----------
+    places
+        Shape (n,): how far along the filament each stands.
+    heights
+        Shape (n,): the width of the broader of the cells beside it.
+    ages
+        Shape (n,): not a number where a wall has no age.
+    shades, states
+        Shape (n,), as of `Cells`.
+    """
+
+    places: Floats
+    heights: Floats
+    ages: Floats
+    shades: Floats
+    states: Integers
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    @property
+    def points(self) -> Floats:
+        """Their ends."""
+        return np.concatenate([np.column_stack([self.places, side * self.heights / 2]) for side in (-1, 1)])
+
+
+@dataclass(frozen=True)
 class Polygons:
     """Filled outlines: leaves, petals, and what stands in `{ }`.
 
@@ -158,6 +189,11 @@ def no_cells() -> Cells:
     return Cells(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
 
 
+def no_walls() -> Walls:
+    """No walls."""
+    return Walls(np.empty(0), np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64))
+
+
 def no_polygons(dimension: int = 2) -> Polygons:
     """No polygons."""
     return Polygons(np.empty((0, dimension)), np.zeros(1, np.int64), np.empty(0, np.int64), np.empty(0, np.int64))
@@ -174,7 +210,7 @@ class Scene:
 
     Attributes
     ----------
-    segments, cells, polygons, discs
+    segments, cells, walls, polygons, discs
         The shapes.
     unknown
         The symbols that have no meaning to the turtle, in the order in which they were met.
@@ -182,6 +218,7 @@ class Scene:
 
     segments: Segments = field(default_factory=no_segments)
     cells: Cells = field(default_factory=no_cells)
+    walls: Walls = field(default_factory=no_walls)
     polygons: Polygons = field(default_factory=no_polygons)
     discs: Discs = field(default_factory=no_discs)
     unknown: tuple[str, ...] = ()
@@ -194,7 +231,7 @@ class Scene:
     @property
     def corners(self) -> tuple[Floats, Floats]:
         """The least and the greatest of each coordinate; zeros where there is nothing."""
-        shapes = (self.segments.points, self.cells.points, self.polygons.points, self.discs.points)
+        shapes = (self.segments.points, self.cells.points, self.walls.points, self.polygons.points, self.discs.points)
         found = [points for points in shapes if len(points)] or [np.zeros((1, self.dimension))]
         axes = range(self.dimension)  # column by column, which numpy does ten times as fast
         return (np.array([min(points[:, axis].min() for points in found) for axis in axes]),
@@ -221,7 +258,8 @@ class Scene:
 
     def __str__(self) -> str:
         """What there is, in words: the line that stands for a picture where there is none."""
-        kinds = ((self.segments, "segment"), (self.cells, "cell"), (self.polygons, "polygon"), (self.discs, "disc"))
+        kinds = ((self.segments, "segment"), (self.cells, "cell"), (self.walls, "wall"), (self.polygons, "polygon"),
+                 (self.discs, "disc"))
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
         least, greatest = self.corners
         depth = f", depth {_short(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""

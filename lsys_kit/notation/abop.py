@@ -140,7 +140,8 @@ def _finish(draft: Draft) -> LSystem:
 def _write(system: LSystem) -> str:
     while mistaken := apart(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
-    return "\n".join([*map(str, system.constants), *settings(system), f"axiom: {joined(map(str, system.axiom))}",
+    look = [] if system.cells == LSystem.cells else [f"cells: {system.cells}"]
+    return "\n".join([*map(str, system.constants), *settings(system), *look, f"axiom: {joined(map(str, system.axiom))}",
                       *sections(system, str)])
 
 

@@ -13,7 +13,7 @@ from lsys_kit.notation.model import Constant, LSystem, MetaRule, Module, Product
 
 _ROWS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are rows of symbols, and where a system has them."""
-_PLAIN = frozenset(("turtle",))
+_PLAIN = frozenset(("turtle", "cells"))
 """The settings that are texts."""
 _COUNTED = {"steps": "steps", "depth": "rounds", "decomposition_depth": "rounds"}
 """The settings that are whole numbers from 0 on, and what they count."""

@@ -233,6 +233,8 @@ class LSystem:
     notation
         In which notation it was read and prints itself. Not a part of what the system is: equality ignores it.
     source, notes
+    cells
+        How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses". Equality ignores it.
         The text it was read from, and what the reader found worth telling. Equality ignores them too.
     """
 
@@ -256,6 +258,7 @@ class LSystem:
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
+    cells: str = field(default="rectangles", compare=False)
 
     def __hash__(self) -> int:
         return self._hash
@@ -304,3 +307,5 @@ CELLS = {"L": -1, "R": 1, "O": 0}
 """The cells of a filament, and where they point: `L(length, width, shade)` left and `R(length, width, shade)` right, the
 modules that seed 002 (L-system 7, section 7) assumes to be predefined, and `O(length, width, shade)` nowhere; the shade of age,
 0 to 1, is that of seed 000's figures."""
+WALL = "W"
+"""A wall between two cells, `W(age, shade)`, as in seed 002's figure 8; the shade, 0 to 1, may be left out."""

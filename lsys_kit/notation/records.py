@@ -198,6 +198,9 @@ class Statements(Transformer[Any, Any]):
     def turtle(self, _: Token, tradition: Token) -> tuple[str, str]:
         return "turtle", str(tradition)
 
+    def cells(self, _: Token, look: Token) -> tuple[str, str]:
+        return "cells", str(look)
+
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))
 

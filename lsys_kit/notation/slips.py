@@ -20,14 +20,16 @@ from lsys_kit.notation.stumble import Stumble, outside, possible, printed, quote
 from lsys_kit.notation.tradition import Grammar, Question
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
-            "meta", "productions", "decomposition", "decomposition depth", "interpretation")
+            "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells")
 _ALSO = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books say for a keyword."""
 _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
 """The characters beyond ASCII that the grammars know."""
 _A_VALUE = frozenset(("NUMBER", "LPAR"))
 _AN_ARROW = "This is no arrow"
-_TURTLES = 'Turtles are "abop", "grogra" and "plant-string".'
+_CHOICES = {"TRADITION": ("turtle", 'Turtles are "abop", "grogra" and "plant-string".'),
+            "LOOK": ("cells", 'Cells are "rectangles" or "ellipses".')}
+"""The keywords behind which one of some words stands, by the kind of that word, and which words these are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
 _REPEAT = 'What is repeated reads "repeat(3) <F>", or, with a name that counts from 0, "repeat(3, i) <F(i)>".'
 _BEFORE_ARROW, _NO_ARROW = rf"(?=.*(?:{ARROW.pattern}))", rf"(?!.*(?:{ARROW.pattern}))"
@@ -136,14 +138,16 @@ def _keyword(stumble: Stumble) -> ModelSyntaxError | None:
     return stumble.error(*said, stumble.start, len(word[1])) if said else None
 
 
-def _turtle(stumble: Stumble) -> ModelSyntaxError | None:
-    """Whose turtle it is: nobody's that is known."""
-    if "TRADITION" not in stumble.accepted:
+def _chosen(stumble: Stumble) -> ModelSyntaxError | None:
+    """Whose turtle it is, or how cells look: nothing that is known."""
+    kind = next(iter(_CHOICES.keys() & stumble.accepted), None)
+    if kind is None:
         return None
+    keyword, choices = _CHOICES[kind]
     if not stumble.found:
-        return stumble.error('Nothing stands behind "turtle:"', _TURTLES, stumble.start, 6)
+        return stumble.error(f'Nothing stands behind "{keyword}:"', choices, stumble.start, len(keyword))
     found = re.match(r"[\w-]+|.", stumble.after)
-    return stumble.error(f"I do not know the turtle {quoted(found[0] if found else stumble.found)}", _TURTLES)
+    return stumble.error(f"I do not know the {keyword} {quoted(found[0] if found else stumble.found)}", choices)
 
 
 def _braces(stumble: Stumble) -> ModelSyntaxError | None:
@@ -247,6 +251,6 @@ def _anything_else(stumble: Stumble) -> ModelSyntaxError:
 
 
 QUESTIONS: Sequence[Question] = (
-    _comment, _repetition, _turtle, _keyword, _braces, _parentheses, _arrows, _spelt_otherwise, _unreadable, before_arrow,
+    _comment, _repetition, _chosen, _keyword, _braces, _parentheses, _arrows, _spelt_otherwise, _unreadable, before_arrow,
     _comparison, _in_a_word, _equals, _value, _constant)
 """What is asked about a slip in the kit's own notation and in plant strings, the most telling first."""
