@@ -7,7 +7,7 @@ stochastic Petri nets (Ajmone Marsan, Conte and Balbo 1984).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import product
@@ -24,14 +24,13 @@ from lsys_kit.notation.model import Item, Module, Repeat, flat, joined, symbols
 def by_symbol(states: States) -> Stages:
     """The net whose places are kinds of modules: a symbol with a number of parameters."""
     system = states.system
-    kinds = dict.fromkeys(map(kind_of, system.axiom))
-    for production in (*system.productions, *system.decomposition):
-        kinds.update(dict.fromkeys(map(kind_of, (production.predecessor, *flat(production.successor)))))
+    tables = [{kind: _possible(rules) for kind, rules in table.items()} for table in (states.rules, states.decomposition)]
+    kinds = _met(states, tables)
     where = {kind: number for number, kind in enumerate(kinds)}
     transitions: list[Transition] = []
     arcs: list[Arc] = []
     for at_once, kind in product((False, True), kinds):
-        rules = _possible((states.decomposition if at_once else states.rules).get(kind, ()))
+        rules = tables[at_once].get(kind, ())
         for rule, chance in zip(rules, _chances(rules, states), strict=True):
             arcs += [Arc(len(transitions), where[target], copies, spots, factor)
                      for target, copies, spots, factor in _made(rule.production.successor, states)]
@@ -46,10 +45,24 @@ def _place(where: dict[Kind, int], module: Module) -> int | None:
     return where.get(kind_of(module))
 
 
+def _met(states: States, tables: Sequence[Mapping[Kind, Sequence[Rule]]]) -> list[Kind]:
+    """The kinds of modules that may be met from the axiom on."""
+    found = dict.fromkeys(map(kind_of, states.system.axiom))
+    found.update(dict.fromkeys(kind_of(module) for meta in states.system.meta for module in flat(meta.successor)))
+    todo = list(found)
+    while todo:
+        kind = todo.pop(0)
+        for rule in (rule for table in tables for rule in table.get(kind, ())):
+            new = [other for other in dict.fromkeys(map(kind_of, flat(rule.production.successor))) if other not in found]
+            found.update(dict.fromkeys(new))
+            todo += new
+    return list(found)
+
+
 def _possible(rules: Sequence[Rule]) -> Sequence[Rule]:
     """The rules of one kind up to the first that always matches: no later one is ever applied."""
-    last = next((number for number, rule in enumerate(rules, 1) if rule.settled and not rule.equalities
-                 and rule.condition is None), len(rules))
+    last = next((number for number, rule in enumerate(rules, 1) if not (rule.left or rule.right or rule.equalities)
+                 and rule.condition is None and rule.probability is None), len(rules))
     return rules[:last]
 
 

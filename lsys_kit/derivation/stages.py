@@ -33,16 +33,19 @@ from lsys_kit.notation.model import CELLS, LSystem, Module
 
 MOST_PLACES = 40
 """A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""
+MOST_LUMPED = 16
+"""So is one that leaves out parameters, and has more transitions than this all the same: its few symbols tell more."""
 
 
 @dataclass(frozen=True)
 class _Table:
-    """Modules, what may become of each, and in which row a module of a word stands."""
+    """Modules, what may become of each, in which row a module of a word stands, and how many transitions can be read."""
 
     states: States
     modules: Sequence[Module]
     fates: Sequence[tuple[Fate, ...]]
     row: Callable[[Module], int | None]
+    most: int = 10 * MOST_PLACES
 
 
 def stages(system: LSystem | Timed, polarity: bool = False, **constants: object) -> Stages:
@@ -86,8 +89,9 @@ def stages(system: LSystem | Timed, polarity: bool = False, **constants: object)
         found = lives(system, MOST_PLACES)
         return _net(_Table(system.states, found.modules, found.fates, found.stretch), system.states, polarity)
     states = States(system, constants)
-    nets = (_net(table, states, polarity) for table in _tables(states, constants))
-    return next((net for net in nets if len(net.places) <= MOST_PLACES), None) or by_symbol(states)
+    nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
+    return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
+                None) or by_symbol(states)
 
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
@@ -99,7 +103,8 @@ def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
             fates = all_fates(model, 4 * MOST_PLACES) if has_fates(model) else None
             if fates is not None:
                 rows = {module: row for row, module in enumerate(model.modules)}
-                yield _Table(model, model.modules, fates, lru_cache(4096)(partial(_row, rows, kept)) if dropped else rows.get)
+                yield (_Table(model, model.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED) if dropped
+                       else _Table(model, model.modules, fates, rows.get))
 
 
 def _row(rows: Mapping[Module, int], kept: Set[Position], module: Module) -> int | None:

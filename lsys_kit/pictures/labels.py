@@ -12,7 +12,7 @@ from functools import lru_cache
 from html import escape
 from typing import cast
 
-from lsys_kit.derivation.stages import Place
+from lsys_kit.derivation.net import Place
 from lsys_kit.notation.arithmetic import Value, number_text
 from lsys_kit.notation.model import LSystem, Module, symbols
 
@@ -59,7 +59,11 @@ def svg_label(symbol: str, system: LSystem, values: str = "") -> str:
     >>> svg_label("a_r", read("axiom: a_r"), "(2)")
     '<tspan font-style="italic">a</tspan><tspan dy="3" font-size="70%">r</tspan><tspan dy="-3">(2)</tspan>'
     """
-    letter, subscript = parts(symbol, system)
+    return letter_svg(*parts(symbol, system), values)
+
+
+def letter_svg(letter: str, subscript: str, values: str = "") -> str:
+    """The same, given its parts."""
     text = f'<tspan font-style="italic">{escape(letter)}</tspan>' if letter[:1].isalpha() else escape(letter)
     if subscript:
         text += f'<tspan dy="3" font-size="70%">{escape(subscript)}</tspan>'

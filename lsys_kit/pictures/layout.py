@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
-from lsys_kit.derivation.stages import Stages
+from lsys_kit.derivation.net import Stages
 from lsys_kit.pictures.routes import Plan, Route
 
 RADIUS = 17.0
@@ -35,22 +35,22 @@ Point: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True)
 class Texts:
-    """How wide the texts of a diagram are: labels by place, conditions by transition, notes by arc."""
+    """How wide the texts of a diagram are: labels by place, terms by transition, notes by arc."""
 
     labels: Mapping[int, float]
-    conditions: Mapping[int, float]
+    terms: Mapping[int, float]
     notes: Mapping[int, float]
 
 
 @dataclass(frozen=True)
 class BarSpot:
-    """Where a bar stands: its middle, half its height, the line to it, and the left end of its condition's base line."""
+    """Where a bar stands: its middle, half its height, the line to it, and the left end of the base line of its terms."""
 
     x: float
     y: float
     half: float
     line: tuple[Point, ...]
-    condition: Point
+    terms: Point
 
 
 @dataclass(frozen=True)
@@ -143,9 +143,9 @@ def _before_bar(plan: Plan, place: int, label: float) -> float:
 
 
 def _turning(plan: Plan, place: int, bar: float, texts: Texts) -> float:
-    """Where lines first turn off in a channel: right of conditions and labels, and so that a loop has room for its note."""
+    """Where lines first turn off in a channel: right of terms and labels, and so that a loop has room for its note."""
     loops = (arc for arc in plan.entries.get(place, ()) if any(arc in plan.exits[t] for t in plan.bars[place]))
-    return max(bar + 10 + _widest(texts.conditions, plan.bars[place]), texts.labels[place] / 2 + 6,
+    return max(bar + 10 + _widest(texts.terms, plan.bars[place]), texts.labels[place] / 2 + 6,
                _widest(texts.notes, loops) + 2 * ROUND)
 
 

@@ -13,23 +13,25 @@ from functools import lru_cache
 from html import escape
 from string import punctuation
 
-from lsys_kit.derivation.stages import Place, Stages
+from lsys_kit.derivation.net import Place, Stages
 from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.commands import COMMANDS
+from lsys_kit.notation.model import LSystem
+from lsys_kit.pictures.captions import notes_of, readable, short, shortened, terms_of, width_of
 from lsys_kit.pictures.labels import place_parts, place_text, svg_label
-from lsys_kit.pictures.layout import RADIUS, ROUND, Layout, Point, Texts, laid_out
+from lsys_kit.pictures.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, laid_out
 from lsys_kit.pictures.palette import INK, MARK, MARK_EDGE, PAPER, QUIET, colours, tinted
 from lsys_kit.pictures.routes import planned, rows_of, shown_places
 
-STEERING = frozenset(punctuation) | {"RU"}
-"""Symbols that only steer the turtle: they are no stages of anything."""
+SEEN = frozenset(("draw", "draw past", "move", "move past", "surface", "circle", "disc", "sphere"))
+"""What a turtle does that leaves something behind, if only a gap; whatever else it is told only steers it."""
 LABEL_SIZE, SMALL = 14, 11
 """Of letters, in pixels."""
-LONGEST = 44
-"""A condition with more characters is shortened; its title has it all."""
+LINE = 16.0
+"""The height of a line below the diagram."""
 
 _DOTS: Mapping[int, tuple[Point, ...]] = {
     0: (), 1: ((0, 0),), 2: ((-5, 0), (5, 0)), 3: ((0, -5.5), (-5, 3.5), (5, 3.5)), 4: ((-5, -5), (5, -5), (-5, 5), (5, 5))}
-_UNITS = ((10 ** 12, "T"), (10 ** 9, "G"), (10 ** 6, "M"), (10 ** 3, "k"))
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ class Diagram:
 
 
 def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: int | None = None, positions: bool = False,
-                 steering: Collection[str] = STEERING) -> str:
+                 steering: Collection[str] | None = None) -> str:
     """A stage diagram as SVG text.
 
     Parameters
@@ -75,7 +77,7 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     positions
         Whether arcs say where in the successor their modules stand, rather than how many there are.
     steering
-        Symbols whose places are left out if they are never rewritten.
+        Symbols whose places are left out if they are never rewritten; by default those that only steer the turtle.
 
     Raises
     ------
@@ -91,7 +93,7 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     """
     if tokens is not None and len(tokens) != len(net.places):
         raise ModelValueError(f"The diagram has {len(net.places)} places; {len(tokens)} numbers of tokens do not fit it")
-    diagram = _diagram(net, positions, frozenset(steering))
+    diagram = _diagram(net, positions, steering_of(net.system) if steering is None else frozenset(steering))
     body = []
     for place, stage in zip(diagram.order, diagram.stages, strict=True):
         x, y = diagram.layout.circles[place]
@@ -103,20 +105,16 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     return f'{diagram.start}{escape(told)}">{paper}{"".join(body)}{diagram.lines}</svg>'
 
 
-def short(count: int) -> str:
-    """A number of tokens in at most five characters, its last digits cut off.
+def steering_of(system: LSystem) -> frozenset[str]:
+    """The symbols that only steer the turtle: they are no stages of anything.
 
-    >>> [short(n) for n in (7, 999, 1000, 1250, 31_999, 3_400_000, 10 ** 40)]
-    ['7', '999', '1k', '1.2k', '31k', '3.4M', '10^40']
+    >>> from lsys_kit.notation.read import read
+    >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
+    ['&', '+', '[', ']']
     """
-    if count >= 10 ** 15:
-        return f"10^{int(math.log10(count))}"
-    for size, unit in _UNITS:
-        if count >= 10 * size:
-            return f"{count // size}{unit}"
-        if count >= size:
-            return f"{count // size}.{count * 10 // size % 10}{unit}".replace(".0", "")
-    return str(count)
+    drawn = {rule.predecessor.symbol for rule in system.interpretation}
+    return frozenset(punctuation) | {symbol for symbol, commands in COMMANDS[system.turtle].items()
+                                     if symbol not in drawn and not any(command.action in SEEN for command in commands)}
 
 
 @lru_cache(maxsize=64)
@@ -126,61 +124,29 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
     plan = planned(net, rows)
     order = tuple(place for row in rows for place in row)
     names = tuple(place_text(net.places[place], net.system) for place in order)
-    notes = _notes(net, positions)
-    conditions = {number: _shortened(readable(transition.condition)) for number, transition in enumerate(net.transitions)
-                  if transition.condition}
+    notes = notes_of(net, positions)
+    besides = tuple(f"besides: {readable(text)}" for text in net.besides)
+    terms = {number: shortened(text) for number, transition in enumerate(net.transitions) if (text := terms_of(transition))}
     layout = laid_out(net, plan, Texts({place: width_of(name, LABEL_SIZE) for place, name in zip(order, names, strict=True)},
-                                       {number: width_of(text, SMALL) for number, text in conditions.items()},
+                                       {number: width_of(text, SMALL) for number, text in terms.items()},
                                        {arc: width_of(text, SMALL) for arc, text in notes.items()}))
     fills = _fills(net, order)
     stages = tuple(_stage(net, place, layout.circles[place], fills[place]) for place in order)
     lines = "".join([*(_arc_svg(arc, corners) for arc, corners in layout.arcs.items()),
-                     *(_bar_svg(net, layout, number, conditions.get(number, "")) for number in layout.bars),
-                     *(_note_svg(layout.notes[arc], text) for arc, text in notes.items() if arc in layout.notes)])
-    return Diagram(order, names, layout, _start(layout, names), lines, stages)
+                     *(_bar_svg(net, layout, number, terms.get(number, "")) for number in layout.bars),
+                     *(_note_svg(layout.notes[arc], text) for arc, text in notes.items() if arc in layout.notes),
+                     *(_besides_svg(layout, line, text) for line, text in enumerate(besides))])
+    return Diagram(order, names, layout, _start(layout, names, besides), lines, stages)
 
 
-def _start(layout: Layout, names: Sequence[str]) -> str:
-    width, height = math.ceil(layout.width), math.ceil(layout.height)
+def _start(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
+    width = math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in besides)]))
+    height = math.ceil(layout.height + LINE * len(besides))
     told = f"Stage diagram: {len(names)} stage{'' if len(names) == 1 else 's'} {', '.join(names)}".rstrip()
+    told = "; ".join((told, *besides))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
             f'style="max-width:100%;height:auto" font-family="sans-serif" fill="{INK}" role="img" '
             f'aria-label="{escape(told)}')
-
-
-def _notes(net: Stages, positions: bool) -> dict[int, str]:
-    """What stands at each arc: its number of copies unless it is 1, or the positions in a successor of several modules."""
-    made = [0] * len(net.transitions)
-    for arc in net.arcs:
-        made[arc.transition] += arc.copies
-    found = {}
-    for number, arc in enumerate(net.arcs):
-        if positions and arc.positions and made[arc.transition] > 1:
-            found[number] = ", ".join(map(str, arc.positions)) if arc.copies > 1 else _ordinal(arc.positions[0])
-        elif arc.copies > 1:
-            found[number] = str(arc.copies)
-    return found
-
-
-def _ordinal(number: int) -> str:
-    return f"{number}{'th' if number % 100 in (11, 12, 13) else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
-
-
-def readable(condition: str) -> str:
-    """A condition as it is set beside a bar.
-
-    >>> readable("t >= 1 && p != -1")
-    't ≥ 1 and p ≠ -1'
-    """
-    for code, text in ((">=", "≥"), ("<=", "≤"), ("!=", "≠"), ("==", "="), ("&&", "and"), ("||", "or")):
-        condition = condition.replace(code, text)
-    return condition
-
-
-def width_of(text: str, size: float) -> float:
-    """About how wide a text is, rather more than less: no font is asked, so that it is the same everywhere."""
-    return size * sum(0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else 0.8 if letter.isupper() else 0.64
-                      for letter in text)
 
 
 def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, str]]:
@@ -226,14 +192,14 @@ def _tokens(x: float, y: float, count: int) -> str:
             f'text-anchor="middle">{text}</text>')
 
 
-def _bar_svg(net: Stages, layout: Layout, number: int, condition: str) -> str:
-    """A bar with the line to it and its condition."""
+def _bar_svg(net: Stages, layout: Layout, number: int, terms: str) -> str:
+    """A bar with the line to it and its terms."""
     bar = layout.bars[number]
     text = ""
-    if condition:
-        x, y = bar.condition
-        text = (f'<text class="condition" x="{x:.1f}" y="{y:.1f}" font-size="{SMALL}">'
-                f'<title>{escape(readable(net.transitions[number].condition))}</title>{escape(condition)}</text>')
+    if terms:
+        x, y = bar.terms
+        text = (f'<text class="terms" x="{x:.1f}" y="{y:.1f}" font-size="{SMALL}">'
+                f'<title>{escape(terms_of(net.transitions[number]))}</title>{escape(terms)}</text>')
     return (f'<g class="transition"><path class="feed" d="{rounded(bar.line)}" {_STROKE}/><rect x="{bar.x - 1.8:.1f}" '
             f'y="{bar.y - bar.half:.1f}" width="3.6" height="{2 * bar.half:.1f}" rx="0.8"/>{text}</g>')
 
@@ -276,5 +242,6 @@ def _note_svg(centre: Point, text: str) -> str:
             f'x="{x:.1f}" y="{y + 0.36 * SMALL:.1f}" font-size="{SMALL}" text-anchor="middle">{escape(text)}</text>')
 
 
-def _shortened(text: str) -> str:
-    return text if len(text) <= LONGEST else text[:LONGEST - 1].rstrip() + "…"
+def _besides_svg(layout: Layout, line: int, text: str) -> str:
+    return (f'<text class="besides" x="{EDGE:.1f}" y="{layout.height + LINE * line:.1f}" font-size="{SMALL}">'
+            f'{escape(text)}</text>')

@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
 
-from lsys_kit.derivation.stages import Stages
+from lsys_kit.derivation.net import Stages
 from lsys_kit.pictures.labels import twins
 from lsys_kit.pictures.lanes import Stretch, levels, ordered
 

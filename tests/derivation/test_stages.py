@@ -109,11 +109,23 @@ def test_a_parameter_that_decides_nothing_does_not_keep_states_from_ending() -> 
     follows(net, system, 12)
 
 
-@pytest.mark.parametrize("name", ["J6", "K13", "K14", "K19", "P9w", "K9"])
+@pytest.mark.parametrize("name", ["J6", "K13", "P9w", "K9"])
 def test_the_tokens_of_a_lumped_net_are_the_words_counts(name: str) -> None:
     net = stages(catalogued(name))
     assert not net.grouped
     follows(net, catalogued(name), 9)
+
+
+def test_a_lumped_net_of_too_many_transitions_is_grouped() -> None:
+    assert repr(stages(catalogued("K19"))).splitlines() == [
+        "A -> 2 F + 2 I + 4 [ + 4 & + 3 ~ + 2 L + 4 ] + 3 / + 2 A + K if A(7)", "A -> A if t < 7", "I -> 2 F + I if t > 0",
+        "L -> L", "K -> K"]
+
+
+def test_symbols_that_are_never_met_have_no_place() -> None:
+    net = stages(catalogued("K12"))
+    assert net.grouped
+    assert {"u2", "u2'"}.isdisjoint(place.symbol for place in net.places)
 
 
 def follows(net: Stages, system: LSystem, steps: int) -> None:

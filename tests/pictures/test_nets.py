@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from itertools import product
+from itertools import combinations, product
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import ModelValueError, derive, read, stages, system
+from lsys_kit import ModelValueError, derive, read, stages, system, systems, timed
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.pictures import nets
-from lsys_kit.pictures.nets import STEERING, drawn_stages
+from lsys_kit.pictures.captions import short, width_of
+from lsys_kit.pictures.nets import drawn_stages, steering_of
 from lsys_kit.pictures.palette import MARK
 from lsys_kit.pictures.routes import rows_of, shown_places
 
 NAMED = ("J1", "J4", "J5", "P1", "P2", "P3", "P4", "P5", "T2", "K2", "K5", "L1")
-CASES = [(name, {}) for name in NAMED] + [("P5", {"dt": "1.4"}), ("P5", {"dt": "0.35"}), ("P5", {"dt": "0.1"})]
+CASES = [(name, {}) for name in systems()] + [("P5", {"dt": "1.4"}), ("P5", {"dt": "0.35"}), ("P5", {"dt": "0.1"})]
 GROWN = """axiom: A(1,2)
 A(x,y) : x > 3*y && y < 17 || x + y == 12345 -> A(x+1,y) B(y) [ A(1,2) ] B(2)
 A(x,y) -> B(x) A(x*2,y)
@@ -54,7 +55,7 @@ def sampled(path: str) -> list[tuple[float, float]]:
 def text_box(text: ET.Element) -> tuple[float, float, float, float]:
     """About the space that a text takes: left, top, right, bottom."""
     x, y, size = (float(text.attrib[key]) for key in ("x", "y", "font-size"))
-    width = nets.width_of("".join(t for t in text.itertext() if t != (text.findtext(f"{SVG}title"))), size)
+    width = width_of("".join(t for t in text.itertext() if t != (text.findtext(f"{SVG}title"))), size)
     left = x - width / 2 if text.get("text-anchor") == "middle" else x
     return left, y - 0.72 * size, left + width, y + 0.2 * size
 
@@ -112,7 +113,7 @@ def test_conditions_stand_beside_the_bars_of_a_grouped_net() -> None:
     net = stages(read(GROWN))
     assert net.grouped
     assert collisions(net) == []
-    texts = ["".join(t.itertext()) for t in svg_of(net).iter(f"{SVG}text") if t.get("class") == "condition"]
+    texts = ["".join(t.itertext()) for t in svg_of(net).iter(f"{SVG}text") if t.get("class") == "terms"]
     assert len(texts) == 2
     assert texts[1].endswith("z < 4")
 
@@ -152,14 +153,15 @@ def test_the_row_of_l_system_2_reads_as_in_the_paper() -> None:
     ("K2", ["a b F"]), ("L1", ["I A B"]), ("T2", ["F"])])
 def test_rows_of_stages(name: str, wanted: list[str]) -> None:
     net = stages(system(name))
-    rows = rows_of(net, shown_places(net, STEERING))
-    names = dict(zip(nets._diagram(net, False, STEERING).order, nets._diagram(net, False, STEERING).names, strict=True))
+    steering = steering_of(net.system)
+    rows = rows_of(net, shown_places(net, steering))
+    names = dict(zip(nets._diagram(net, False, steering).order, nets._diagram(net, False, steering).names, strict=True))
     assert [" ".join(names[place] for place in row) for row in rows] == wanted
 
 
 def test_long_rows_are_wrapped_evenly() -> None:
     net = stages(system("P5"))
-    assert [len(row) for row in rows_of(net, shown_places(net, STEERING))] == [5, 5]
+    assert [len(row) for row in rows_of(net, shown_places(net, steering_of(net.system)))] == [5, 5]
 
 
 @pytest.mark.parametrize("name", NAMED)
@@ -172,7 +174,7 @@ def test_tokens_are_the_counts_of_the_word(name: str) -> None:
                 dots = [c for c in stage.iter(f"{SVG}circle") if c.get("class") == "token"]
                 numbers = [t.text for t in stage.iter(f"{SVG}text") if t.get("class") == "token"]
                 count = tokens[int(stage.attrib["data-place"])]
-                assert (len(dots), numbers) == ((count, []) if count < 5 else (0, [nets.short(count)]))
+                assert (len(dots), numbers) == ((count, []) if count < 5 else (0, [short(count)]))
 
 
 @pytest.mark.parametrize(("name", "notes"), [("T2", ["4"]), ("K5", ["5"]), ("L1", ["3"]), ("P2", [])])
@@ -256,3 +258,38 @@ def test_tokens_that_do_not_fit_the_net() -> None:
 
 def test_a_system_without_stages_is_an_empty_picture() -> None:
     assert "Stage diagram: 0 stages" in drawn_stages(stages(read("axiom: +")), (1,))
+
+
+@pytest.mark.parametrize("positions", [False, True])
+@pytest.mark.parametrize("name", systems())
+def test_no_text_covers_another(name: str, positions: bool) -> None:
+    boxes = [text_box(t) for t in svg_of(stages(system(name)), positions=positions).iter(f"{SVG}text")]
+    assert [(a, b) for a, b in combinations(boxes, 2) if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]] == []
+
+
+@pytest.mark.parametrize(("name", "wanted"), [
+    ("K7", ["p = 1/3"] * 3), ("K8", ["p = 0.65", "p = 0.35"]), ("K19", ["A(7)", "t < 7", "t > 0"]),
+    ("P8", ["at once, x ≥ x_div and p = LEFT", "at once, x ≥ x_div and p = RIGHT"])])
+def test_a_bar_tells_on_which_terms_it_fires(name: str, wanted: list[str]) -> None:
+    texts = [t for t in svg_of(stages(system(name))).iter(f"{SVG}text") if t.get("class") == "terms"]
+    assert [t.findtext(f"{SVG}title") for t in texts] == wanted
+
+
+def test_durations_stand_at_the_bars_of_a_timed_net() -> None:
+    net = stages(timed(read("axiom: M(0)\nM(1) -> M(0) M(1/5)")))
+    assert collisions(net) == []
+    assert [t.findtext(f"{SVG}title") for t in svg_of(net).iter(f"{SVG}text") if t.get("class") == "terms"] == [
+        "after 0.2", "after 0.8"]
+
+
+def test_what_no_bar_shows_is_written_below() -> None:
+    root = svg_of(stages(system("K26")))
+    below = [t for t in root.iter(f"{SVG}text") if t.get("class") == "besides"]
+    assert ["".join(t.itertext()) for t in below] == ["besides: meta: f(x,y)f(u,v) -> f(x + u,y + v)"]
+    assert "; besides: meta: f(x,y)f(u,v) -> f(x + u,y + v); tokens" in root.attrib["aria-label"]
+    assert text_box(below[0])[2] < float(root.attrib["width"])
+
+
+def test_a_number_that_depends_on_a_value_stands_at_its_arc() -> None:
+    net = stages(read("axiom: A(0)\nA(t) -> repeat(t) <F F> repeat(t-1) <G> A(t+1)"))
+    assert [t.text for t in svg_of(net).iter(f"{SVG}text") if t.get("class") == "note"] == ["2 t", "(t - 1)"]
