@@ -39,10 +39,11 @@ if TYPE_CHECKING:
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
     from lsys_kit.pictures.draw import draw, figure
+    from lsys_kit.pictures.films import animate
 
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
-    "ModelSyntaxError": "errors", "ModelValueError": "errors", "check": "classroom.exercises",
+    "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films", "check": "classroom.exercises",
     "continuity": "derivation.continuity", "derive": "derivation.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth", "limits": "budget", "read": "notation.read", "stages": "derivation.stages",
@@ -56,6 +57,7 @@ __all__ = [
     "ModelNameError",
     "ModelSyntaxError",
     "ModelValueError",
+    "animate",
     "check",
     "continuity",
     "derive",

@@ -74,10 +74,14 @@ def _parser() -> argparse.ArgumentParser:
     _add_system(derive, steps_needed=True)
     derive.add_argument("--counts", action="store_true", help="print the number of modules instead, however large")
     derive.add_argument("--json", action="store_true", help="print one JSON document")
-    draw = command("draw", commands.draw_word, "Draw the word of step N; a filament with the steps before it.")
+    draw = command("draw", commands.draw_word, "Draw the word of step N; a filament with the steps before it.",
+                   "Example: lsys-kit draw K5 -n 4 -o plant.gif")
     _add_system(draw, steps_needed=False)
     draw.add_argument("--angle", metavar="DEGREES", help="by how much + and - turn")
-    draw.add_argument("-o", "--output", required=True, metavar="FILE", help="ends in .svg, .png or .pdf")
+    draw.add_argument("-o", "--output", required=True, metavar="FILE",
+                      help="ends in .svg, .png or .pdf; in .glb or .obj for programs that show things in space; in .gif or "
+                           ".apng for a film of the steps")
+    draw.add_argument("--seconds", default="0.6", help="how long a film shows each step")
     stages = command("stages", commands.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
     stages.add_argument("-o", "--output", required=True, metavar="FILE", help="ends in .svg")

@@ -13,14 +13,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, printable
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, quotable
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
     from lsys_kit.notation.model import LSystem
+    from lsys_kit.pictures.draw import Picture
+    from lsys_kit.pictures.films import Film
 
 STEPS = 5
 """How many steps are drawn where neither the command nor the system says."""
+FILMS = (".gif", ".apng")
+"""How the names of files end that have several pictures."""
 MOST_NEIGHBOURS = 1_000
 """How many files beside a missing one are looked at for a likely name."""
 
@@ -78,12 +82,17 @@ def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
 
 
 def draw_word(options: argparse.Namespace) -> None:
-    """Write a picture of a step's word, and say what it shows."""
+    """Write a picture of a step's word, or a film of the steps up to it, and say what it shows."""
     from lsys_kit.pictures.draw import draw
+    from lsys_kit.pictures.films import animate
 
-    picture = draw(_words(_system(options), options), angle=options.angle)
-    picture.save(options.output)
-    print(picture)
+    words = _words(_system(options), options)
+    if Path(options.output).suffix.lower() in FILMS:
+        shown: Picture | Film = animate(words, angle=options.angle, seconds=options.seconds)
+    else:
+        shown = draw(words, angle=options.angle)
+    shown.save(options.output)
+    print(shown)
 
 
 def draw_stages(options: argparse.Namespace) -> None:
@@ -108,7 +117,7 @@ def convert(options: argparse.Namespace) -> None:
         _keep(f"{text}\n", options.output)
     for note in system.notes:
         print(f"lsys-kit: note: {note}", file=sys.stderr)
-    print(text if options.output is None else f"{_shown(options.output)} has it in the notation {options.to}.")
+    print(text if options.output is None else f"{quotable(options.output)} has it in the notation {options.to}.")
 
 
 def open_lab(options: argparse.Namespace) -> None:
@@ -161,12 +170,12 @@ def _file(name: str) -> str:
     """The text of a model file."""
     try:
         with Path(name).open("rb") as file:
-            return _text(file, f'"{_shown(name)}"')
+            return _text(file, f'"{quotable(name)}"')
     except FileNotFoundError:
-        raise ModelFileError(f'There is no file "{_shown(name)}", and no system of the catalogue is called so',
+        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of the catalogue is called so',
                              hint=_likely(name)) from None
     except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{_shown(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
+        raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
 
 
 def _keep(text: str, name: str) -> None:
@@ -175,10 +184,10 @@ def _keep(text: str, name: str) -> None:
         with Path(name).open("x", encoding="utf-8", newline="\n") as file:
             file.write(text)
     except FileExistsError:
-        raise ModelFileError(f'"{_shown(str(Path(name)))}" is there already',
+        raise ModelFileError(f'"{quotable(str(Path(name)))}" is there already',
                              hint="Nothing is ever overwritten: take another name.") from None
     except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{_shown(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
+        raise ModelFileError(f'"{quotable(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
 
 
 def _text(file: BinaryIO, name: str) -> str:
@@ -198,8 +207,3 @@ def _likely(name: str) -> str:
     folder = Path(name).parent
     beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []
     return suggestion(name, [*beside, *systems()]) or f"Catalogue ids are {', '.join(systems())}."
-
-
-def _shown(name: str) -> str:
-    """A name as a message quotes it."""
-    return "".join(map(printable, name if len(name) <= 80 else f"{name[:80]}..."))

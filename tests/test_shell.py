@@ -297,7 +297,7 @@ def test_stages_writes_the_diagram_with_the_tokens_of_a_step(shell, tmp_path):
 
 
 def test_a_picture_goes_nowhere_else(shell, tmp_path):
-    refused(shell("draw", "K5", "-n", "2", "-o", "out.bmp"), ".svg, .png or .pdf")
+    refused(shell("draw", "K5", "-n", "2", "-o", "out.bmp"), ".svg, .png, .pdf, .glb or .obj", ".gif")
     refused(shell("stages", "P4", "-o", "out.png"), ".svg")
     refused(shell("stages", "P4", "-o", str(tmp_path / "no" / "out.svg")), "cannot be written", "No such file")
 

@@ -192,9 +192,9 @@ def _rings(ways: Floats) -> Floats:
 
 def _circle(count: int) -> tuple[Floats, Floats]:
     """Cosines and sines of angles all around, the same to the last bit on every machine."""
-    angles = 2 * np.pi * np.arange(count) / count
-    cos: Floats = np.round(np.cos(angles), 12)
-    sin: Floats = np.round(np.sin(angles), 12)
+    angles: Floats = np.arange(count, dtype=np.float64) * (2 * np.pi / count)
+    cos: Floats = np.cos(angles).round(12)
+    sin: Floats = np.sin(angles).round(12)
     return cos, sin
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import TypeAlias
+from importlib import import_module
+from typing import Any, TypeAlias
 
 from lsys_kit.notation.arithmetic import Value, number_text
 from lsys_kit.notation.expressions import Expression, Place
@@ -272,6 +273,14 @@ class LSystem:
         from lsys_kit.notation.write import write  # how a whole system is laid out is the next file's one idea
 
         return write(self)
+
+    def picture(self, n: int | None = None, **choices: Any) -> Any:
+        """The picture that `draw(system, n)` makes.
+
+        >>> LSystem((Module("F"),), (Production(Module("F"), (Module("F"), Module("F"))),)).picture(3)
+        8 segments, width 0, height 8
+        """
+        return import_module("lsys_kit").draw(self, n, **choices)  # asked for by name: this room knows no pictures
 
     @property
     def rules(self) -> tuple[Production, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import unescape
@@ -17,15 +17,18 @@ from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.derivation.words import Word
-from lsys_kit.errors import ModelFileError, ModelValueError
+from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures import raster
+from lsys_kit.pictures.files import keep, keep_beside
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import GREEN, colours
 from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
+from lsys_kit.pictures.solids import glb, mtl, obj
 from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, turtle_svg
 from lsys_kit.pictures.view import seen
 
@@ -50,16 +53,19 @@ class Picture:
         The step whose row is marked, or None.
     marked
         The states whose modules are marked.
+    solid
+        The scene of the last step as it is in space; None where it lies in the plane.
     """
 
     rows: tuple[Row, ...]
     colour_of: Mapping[int, str] = field(repr=False)
     current: int | None = None
     marked: Collection[int] = ()
+    solid: Scene | None = None
 
     @property
     def scene(self) -> Scene:
-        """The scene of the last step shown."""
+        """The scene of the last step shown, as it is seen."""
         return self.rows[-1].scene
 
     @cached_property
@@ -90,8 +96,16 @@ class Picture:
             return raster.rows_png([row.scene for row in self.rows], self.colour_of)
         return raster.turtle_png(self.scene, self.colour_of)
 
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The last step shown as triangles in space."""
+        return mesh_of(self.scene if self.solid is None else self.solid)
+
     def save(self, path: str | Path) -> None:
-        """Write the picture to a file, in the format that its name ends in: .svg, .png or .pdf.
+        """Write the picture to a file, in the format that its name ends in: .svg, .png, .pdf, .glb or .obj.
+
+        The last two are for programs that show things in space: they have the last step alone. The colours of an .obj file
+        stand in an .mtl file beside it.
 
         Raises
         ------
@@ -99,9 +113,13 @@ class Picture:
             The name ends in something else, or the file cannot be written.
         """
         path = Path(path)
-        forms: dict[str, Callable[[], bytes]] = {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png,
-                                                 ".pdf": lambda: _pdf(self)}
-        _write(path, forms)
+        library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
+        if path.suffix.lower() == ".obj":
+            keep_beside(library, mtl(self.mesh, self.colour_of))
+        keep(path, {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png, ".pdf": lambda: _pdf(self),
+                    ".glb": lambda: glb(self.mesh, self.colour_of),
+                    ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
+             "Films end in .gif or .apng, and are made by animate(...).")
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": self.text}
@@ -141,7 +159,7 @@ class NetPicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        _write(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}
@@ -194,18 +212,23 @@ def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -
 
 def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int | None = None,
              arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture:
-    if isinstance(what, LSystem):
-        steps = n if n is not None else what.steps if what.steps is not None else 5
-        what = derive(what, steps, seed=seed, arithmetic=arithmetic, **constants)
-    elif not isinstance(what, Derivation | Word):
+    if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError(f"Only systems, derivations, words and stage diagrams can be drawn, not {type(what).__name__}")
-    elif n is not None or constants:
-        raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
+    what = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
     if is_filament(what.states.system):
         return _sequence(what, marked)
     turn = float(number_from(angle, "angle") if angle is not None else what.states.system.angle)
-    step = what.steps if isinstance(what, Derivation) else 0
-    return Picture((Row(step, seen(scene_of(what, turn))),), state_colours(what), None, marked)
+    step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)
+    return Picture((Row(step, seen(scene)),), state_colours(what), None, marked, scene if scene.dimension == 3 else None)
+
+
+def derived(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
+    """The derivation of a system; anything else as it is, for its steps are chosen already."""
+    if isinstance(what, LSystem):
+        return derive(what, n if n is not None else what.steps if what.steps is not None else 5, **choices)
+    if n is not None or choices.keys() - {"seed", "arithmetic"}:
+        raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
+    return what
 
 
 def _sequence(what: Derivation | Word, marked: Collection[int]) -> Picture:
@@ -231,7 +254,7 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     what
         A picture, or what `draw` takes.
     ax
-        The axes to draw into; by default those of a new figure.
+        The axes to draw into, in the plane: what is in space is seen from the front. By default those of a new figure.
     **choices
         As for `draw`.
 
@@ -239,7 +262,25 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     -------
     matplotlib.axes.Axes
         The axes, without frame, with equal scales.
+
+    Raises
+    ------
+    ModelValueError
+        The axes are in space.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from lsys_kit.notation.read import read
+    >>> left, right = Figure().subplots(1, 2)
+    >>> plant = read("angle: 25\\naxiom: F\\nF -> F[+F]F[-F]F")
+    >>> _ = left.plot([len(word) for word in derive(plant, 4)])
+    >>> figure(plant, right, n=4) is right
+    True
     """
+    if ax is not None and ax.name == "3d":
+        raise ModelValueError("A drawing needs axes in the plane, and these are in space",
+                              hint="A plant in space can be kept as .glb, which other programs turn.")
     picture = what if isinstance(what, Picture) else draw(what, **choices)
     ax = new_axes() if ax is None else ax
     if len(picture.scene.cells):
@@ -252,25 +293,12 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     return ax
 
 
-def _write(path: Path, forms: Mapping[str, Callable[[], bytes]]) -> None:
-    """Write a file in the form that its name ends in."""
-    if path.suffix.lower() not in forms:
-        raise ModelFileError(f'This picture cannot be written to "{path.name}"', hint=f"Let the name end in {_listed(forms)}.")
-    try:
-        path.write_bytes(forms[path.suffix.lower()]())
-    except OSError as fault:
-        raise ModelFileError(f'"{path}" cannot be written: {fault.strerror}') from None
-
-
-def _listed(endings: Iterable[str]) -> str:
-    """The endings in words: ".svg, .png or .pdf"."""
-    *most, last = endings
-    return f"{', '.join(most)} or {last}" if most else last
-
-
 def _pdf(picture: Picture) -> bytes:
+    from matplotlib import rc_context
+
     buffer = io.BytesIO()
     sheet = figure(picture).get_figure(root=True)
     assert sheet is not None
-    sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata={"CreationDate": None})
+    with rc_context({"pdf.fonttype": 42}):  # letters that other programs can change and search
+        sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata={"CreationDate": None, "Title": picture.text})
     return buffer.getvalue()

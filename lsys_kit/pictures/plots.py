@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.geometry.scene import CIRCLE, Scene
 from lsys_kit.pictures.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import Row, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import MARGIN, Row, frame_of, groups, shape_colours
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,14 +29,22 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
         edges = shape_colours(scene.polygons, colour_of)
         ax.add_collection(PolyCollection(list(scene.polygons), edgecolors=edges, linewidths=0.5,
                                          facecolors=[tinted(colour, 0.7) for colour in edges]))
-    for colour, width, chosen in groups(scene.segments, frame_of(scene.box).scale, colour_of):
+    for colour, width, chosen in groups(scene.segments, _scale(ax, scene), colour_of):
         strokes = scene.segments.ends[chosen].reshape(-1, 2, 2).tolist()
-        ax.add_collection(LineCollection(strokes, capstyle="round", colors=colour, linewidths=0.08 * width))
+        ax.add_collection(LineCollection(strokes, capstyle="round", colors=colour, linewidths=width / 10))
     discs = scene.discs
     for centre, radius, kind, colour in zip(discs.centres.tolist(), discs.radii.tolist(), discs.kinds.tolist(),
                                             shape_colours(discs, colour_of), strict=True):
         ax.add_patch(Circle(centre, radius, edgecolor=colour, linewidth=0.8,
                             facecolor=PAPER if kind == CIRCLE else tinted(colour, 0.7)))
+
+
+def _scale(ax: Axes, scene: Scene) -> float:
+    """How many points a unit of the model is long, where the drawing fills the axes."""
+    sheet = ax.get_figure(root=True)
+    assert sheet is not None
+    width, height = 72 * sheet.get_size_inches() * ax.get_position().size
+    return frame_of(scene.box, max(width, 4 * MARGIN), max(height, 4 * MARGIN)).scale
 
 
 def plot_rows(ax: Axes, rows: Sequence[Row], colour_of: Mapping[int, str]) -> None:

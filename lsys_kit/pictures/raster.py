@@ -7,14 +7,17 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import CIRCLE, Cells, Scene
 from lsys_kit.pictures.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, Frame, frame_of, groups, shape_colours
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 Coordinates: TypeAlias = NDArray[np.float32]
 FINE = 3
@@ -24,14 +27,18 @@ BLOCK = 2**16
 
 
 def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
-    """What a turtle has drawn as a PNG picture.
+    """What a turtle has drawn as a PNG picture."""
+    return _png(turtle_image(scene, colour_of, frame_of(scene.box)))
+
+
+def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: Frame) -> Image:
+    """What a turtle has drawn, in a frame that holds all of it.
 
     Strokes of one colour and width are points on a fine grid, spread to their width all at once; so a million of them take
     no longer than their points do.
     """
     from PIL import Image, ImageDraw
 
-    frame = frame_of(scene.box)
     sheet = Image.new("RGB", (frame.width * FINE, frame.height * FINE), PAPER)
     pen = ImageDraw.Draw(sheet)
     for corners, colour in zip(scene.polygons, shape_colours(scene.polygons, colour_of), strict=True):
@@ -52,7 +59,7 @@ def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
         reach = max(2.0, radius * fine)
         pen.ellipse((x - reach, y - reach, x + reach, y + reach), fill=PAPER if kind == CIRCLE else tinted(colour, 0.7),
                     outline=colour, width=FINE)
-    return _png(sheet.resize((frame.width, frame.height), Image.Resampling.BOX))
+    return sheet.resize((frame.width, frame.height), Image.Resampling.BOX)
 
 
 def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> NDArray[np.bool_]:

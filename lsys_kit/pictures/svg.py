@@ -48,7 +48,7 @@ class Frame:
         return tenths
 
 
-def frame_of(box: tuple[float, float, float, float], width: int = WIDTH, height: int = HEIGHT) -> Frame:
+def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> Frame:
     """The frame that fits a box into a picture, no larger than needed."""
     left, bottom, right, top = box
     across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)

@@ -83,7 +83,7 @@ def test_a_picture_can_be_kept(tmp_path, id, ending, head):
 
 
 def test_a_picture_cannot_be_kept_in_another_format(tmp_path):
-    with pytest.raises(ModelFileError, match=r"end in .svg, .png or .pdf"):
+    with pytest.raises(ModelFileError, match=r"end in .svg, .png, .pdf, .glb or .obj\. Films"):
         draw(system("J1"), 1).save(tmp_path / "out.gif")
 
 

@@ -1,0 +1,158 @@
+"""Films: a development step after step, as an animated GIF or PNG.
+
+All steps have the same frame, so that what grows is seen to grow. Of a filament's developmental sequence one row after another
+appears.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.interpret import is_filament
+from lsys_kit.derivation.rules import number_from
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.notation.model import LSystem
+from lsys_kit.pictures.draw import derived, draw, state_colours
+from lsys_kit.pictures.files import keep
+from lsys_kit.pictures.palette import PAPER
+from lsys_kit.pictures.raster import turtle_image
+from lsys_kit.pictures.svg import MARGIN, Frame, frame_of
+from lsys_kit.pictures.view import seen
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+SECONDS, HELD = 0.6, 4
+"""How long each step is shown, and how many times as long the last."""
+MOST_FRAMES = 300
+"""A film has at most so many steps."""
+
+
+@dataclass(frozen=True)
+class Film:
+    """The steps of a development, one picture after another.
+
+    Attributes
+    ----------
+    text
+        What the film shows, in words.
+    images
+        The pictures, all of the same size.
+    seconds
+        How long each is shown; the last stays `HELD` times as long.
+    """
+
+    text: str
+    images: tuple[Image, ...] = field(repr=False)
+    seconds: float = SECONDS
+
+    @cached_property
+    def gif(self) -> bytes:
+        """The film as a GIF that begins again and again."""
+        return self._film("GIF")
+
+    @cached_property
+    def apng(self) -> bytes:
+        """The film as an animated PNG, whose colours are exact."""
+        return self._film("PNG")
+
+    def save(self, path: str | Path) -> None:
+        """Write the film to a file, in the format that its name ends in: .gif, .apng or .png.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        keep(Path(path), {".gif": lambda: self.gif, ".apng": lambda: self.apng, ".png": lambda: self.apng})
+
+    def _film(self, form: str) -> bytes:
+        buffer, step = io.BytesIO(), round(1000 * self.seconds)
+        first, *rest = self.images
+        first.save(buffer, form, save_all=True, append_images=rest, loop=0, duration=[*[step] * len(rest), HELD * step])
+        return buffer.getvalue()
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/gif": base64.b64encode(self.gif).decode(), "text/plain": self.text}
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object = SECONDS, angle: object = None,
+            seed: int | None = None, arithmetic: str = "exact", **constants: object) -> Film:
+    """Draw the steps of a development one after another, in a common frame.
+
+    Parameters
+    ----------
+    what
+        A system, which is derived first, or a derivation.
+    n
+        For a system how many steps; by default those that the system asks for.
+    seconds
+        How long each step is shown; the last is held longer.
+    angle, seed, arithmetic, **constants
+        As for `draw`.
+
+    Raises
+    ------
+    ModelValueError
+        It does not develop, or a choice is out of range.
+    ModelLimitError
+        There are too many steps.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> plant = animate(read("angle: 25\\naxiom: F\\nF -> F[+F]F[-F]F"), 3, seconds="0.5")
+    >>> plant, len(plant.images)
+    (steps 0 to 3; the last: 125 segments, width 8.84, height 27, 4)
+    """
+    if not isinstance(what, LSystem | Derivation):
+        raise ModelValueError(f"Only systems and derivations can be animated, not {type(what).__name__}")
+    pace = float(number_from(seconds, "seconds"))
+    if not 0.02 <= pace <= 60:
+        raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
+    derivation = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
+    assert isinstance(derivation, Derivation)
+    if derivation.steps >= MOST_FRAMES:
+        raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
+                              limit=MOST_FRAMES, needed=derivation.steps + 1)
+    if is_filament(derivation.states.system):
+        return _rows(derivation, pace)
+    turn = float(number_from(angle, "angle") if angle is not None else derivation.states.system.angle)
+    scenes = [seen(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
+    frame, colour_of = _common(scenes), state_colours(derivation)
+    return Film(_said(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
+
+
+def _said(derivation: Derivation, last: Scene) -> str:
+    return f"steps 0 to {derivation.steps}; the last: {last}"
+
+
+def _common(scenes: list[Scene]) -> Frame:
+    """A frame that holds all scenes."""
+    left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
+    return frame_of((min(left), min(bottom), max(right), max(top)))
+
+
+def _rows(derivation: Derivation, pace: float) -> Film:
+    """A developmental sequence, whose rows appear one after another."""
+    from PIL import Image
+
+    picture = draw(derivation)
+    whole = Image.open(io.BytesIO(picture.png)).convert("RGB")
+    images, pitch = [], (whole.height - 2 * MARGIN) / len(picture.rows)
+    for shown in range(1, len(picture.rows) + 1):
+        image, until = Image.new("RGB", whole.size, PAPER), round(MARGIN + shown * pitch)
+        image.paste(whole.crop((0, 0, whole.width, until)))
+        images.append(image)
+    return Film(picture.text, tuple(images), pace)
