@@ -1,33 +1,31 @@
 """The explorer: a system's word, stage diagram and drawing side by side, with sliders made from the model.
 
 Nothing is computed twice: words, scenes and the texts of panels are kept for every step and every setting of the constants.
-The angle never comes back to the kernel: the browser turns the drawing by itself.
+In the plane the angle, in space the side from which a plant is seen never come back to the kernel: the browser turns the
+drawing by itself.
 """
 
 from __future__ import annotations
 
 import asyncio
 import base64
-from collections.abc import Collection
 from contextlib import AbstractContextManager
 from html import escape
 from typing import Any
 
 import ipywidgets as widgets
-import numpy as np
 
 from lsys_kit.budget import current, limits
+from lsys_kit.classroom.canvas import HOW_TO_TURN, packed, widget_classes
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.controls import Control, Span, control, spans
-from lsys_kit.classroom.study import Study
-from lsys_kit.classroom.views import packed, widget_classes, word_html
+from lsys_kit.classroom.study import Sight, Study
+from lsys_kit.classroom.views import word_html
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.errors import LSystemError, ModelValueError
-from lsys_kit.geometry.turtle import Path
 from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.model import LSystem
-from lsys_kit.pictures.draw import Picture
 from lsys_kit.pictures.labels import place_text
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import INK, QUIET, VERMILION
@@ -49,7 +47,7 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     step
         The step that is shown first; by default the one that the system asks for.
     angle
-        Degrees by which `+` and `-` turn at first.
+        Degrees by which the turtle turns at first.
     seed
         Where chance begins.
     **constants
@@ -81,6 +79,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
     ----------
     step, angle
         The sliders of the step and, for a turtle, of the angle.
+    around, above
+        For a plant in space the sliders of the side from which it is seen, in degrees: 0 around is the front, 90 the right;
+        0 above is the side, 90 the top.
     constants
         For each constant its control.
     sight
@@ -118,18 +119,23 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
         self._angle = control("angle", Span(number_from(turn), 0, 180, number_from("0.1")))
         self.angle = self._angle.slider
+        self._around, self._above = control("around", Span(0, -180, 180, 1)), control("above", Span(0, -90, 90, 1))
+        self.around, self.above = self._around.slider, self._above.slider
         self._play = widgets.Button(description="play", tooltip="show one step after another", layout=_button())
         self._reset = widgets.Button(description="reset", tooltip="back to the first settings", layout=_button())
         self._mark = widgets.Dropdown(options=[("no stage", -1)], value=-1, description="mark",
                                       style={"description_width": "initial"}, layout=widgets.Layout(width="170px"))
 
     def _make_views(self) -> None:
-        self.turns_itself = widget_classes() is not None and not self._study.is_filament
         self._word, self._message, self._status = widgets.HTML(), widgets.HTML(), widgets.HTML()
         kinds = widget_classes()
-        self._diagram = kinds[1]() if kinds else widgets.HTML()
-        self._drawing = kinds[0](heading=float(self.system.heading), angle=self.angle.value) \
-            if kinds and self.turns_itself else widgets.HTML()
+        self._diagram = kinds.diagram() if kinds else widgets.HTML()
+        self._drawing, self._by_itself = widgets.HTML(), dict[str, Control]()
+        if kinds and self._study.in_space:
+            self._drawing, self._by_itself = kinds.space(), {"around": self._around, "above": self._above}
+        elif kinds and not self._study.is_filament:
+            self._drawing = kinds.flat(heading=float(self.system.heading), angle=self.angle.value)
+            self._by_itself = {"angle": self._angle}
 
     def _top(self) -> widgets.Widget:
         return widgets.HBox([self._step.row(), self._play, self._reset, self._status], layout=_wrapping("center"))
@@ -145,30 +151,28 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         return widgets.VBox([heading, view], layout=widgets.Layout(flex=f"{share} 1 240px", min_width="0", margin="4px 8px"))
 
     def _bottom(self) -> widgets.Widget:
-        rows = [each.row() for each in self.constants.values()]
-        if not self._study.is_filament:
-            rows.insert(0, self._angle.row())
-        return widgets.HBox([*rows, self._mark], layout=_wrapping())
+        return widgets.HBox([*(each.row() for each in self._controls()[1:]), self._mark], layout=_wrapping())
 
     # -- what happens -------------------------------------------------------------------------------------------------
 
     def _listen(self) -> None:
-        for each in (self._step, *self.constants.values()):
-            each.slider.observe(self._show, "value")
-            each.linked(in_browser=False)
+        for each in self._controls():
+            if each not in self._by_itself.values():
+                each.slider.observe(self._show, "value")
+                each.linked(in_browser=False)
+        for trait, each in self._by_itself.items():
+            widgets.jslink((each.slider, "value"), (self._drawing, trait))
+            each.linked(in_browser=True)
         self._mark.observe(self._show, "value")
-        self._angle.linked(in_browser=True)
-        if self.turns_itself:
-            widgets.jslink((self.angle, "value"), (self._drawing, "angle"))
-        else:
-            self.angle.observe(self._show, "value")
         if widget_classes():
             widgets.link((self._diagram, "chosen"), (self._mark, "value"))
         self._play.on_click(self._toggle_play)
         self._reset.on_click(self._back)
 
     def _controls(self) -> list[Control]:
-        return [self._step, self._angle, *self.constants.values()]
+        turtle = [] if self._study.is_filament else [self._angle]
+        viewer = [self._around, self._above] if self._study.in_space else []
+        return [self._step, *turtle, *viewer, *self.constants.values()]
 
     def _readings(self) -> list[float]:
         return [each.slider.value for each in self._controls()]
@@ -178,6 +182,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._mark.value = -1
         for each, reading in zip(self._controls(), self._start, strict=True):
             each.slider.value = reading
+        if self._study.in_space and self._by_itself:
+            self._drawing.returns += 1  # the browser knows of turns that the kernel was not told yet
 
     def _toggle_play(self, _: object = None) -> None:
         if self._playing:
@@ -218,11 +224,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
     def _show_step(self, step: int) -> None:
         constants = {**self._fixed, **{name: each.value for name, each in self.constants.items()}}
         self._offer_stages(self._study.known(constants)[1])
-        sight = self._study.sight(step, constants, self.angle.value, self._mark.value)
-        if sight.path is not None and self.turns_itself:
-            self._send_path(sight.path, sight.picture, sight.marked)
-        else:
-            self._drawing.value = sight.picture.svg
+        sight = self._sight(step, constants)
+        self._show_drawing(sight)
         self._word.value = word_html(sight.word, sight.marked)
         diagram = drawn_stages(sight.net, sight.tokens, marked=self._mark.value if self._mark.value >= 0 else None)
         if widget_classes():
@@ -230,9 +233,12 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         else:
             self._diagram.value = diagram
         states = sum(count > 0 for count in sight.tokens)
-        said = f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.picture.scene}"
+        said = f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.scene}"
         self._status.value = f'<span role="status" style="font:14px sans-serif;color:{INK}">{said}</span>'
-        self.sight = sight
+        self.sight, self._chosen = sight, constants
+
+    def _sight(self, step: int, constants: dict[str, Any]) -> Sight:
+        return self._study.sight(step, constants, self.angle.value, self._mark.value, self.around.value, self.above.value)
 
     def _offer_stages(self, net: Stages) -> None:
         """The stages that can be chosen are the net's, which change with the constants."""
@@ -243,14 +249,16 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
                 self._mark.options = options
                 self._mark.value = chosen
 
-    def _send_path(self, path: Path, picture: Picture, marked: Collection[int]) -> None:
-        """Send a path to the browser, once."""
-        data, used = packed(path, picture.colour_of, marked)
+    def _show_drawing(self, sight: Sight) -> None:
+        """Send shapes to a canvas, once; or a picture to a page that has none."""
+        if not self._by_itself:
+            self._drawing.value = sight.picture.svg
+            return
+        there = f"{sight.scene}. {HOW_TO_TURN}" if self._study.in_space else f"{len(sight.scene.segments):,} segments"
         with self._drawing.hold_sync():
-            self._drawing.colours = used
-            self._drawing.typical = float(np.median(path.lengths)) if len(path) else 1.0
-            self._drawing.description = f"Drawing of step {picture.rows[-1].step}: {len(picture.scene.segments):,} segments"
-            self._drawing.path = data
+            self._drawing.description = f"Drawing of step {sight.step}: {there}"
+            for trait, value in packed(sight.scene, sight.path, sight.picture.colour_of, sight.marked).items():
+                setattr(self._drawing, trait, value)
 
     # -- what is kept -------------------------------------------------------------------------------------------------
 
@@ -264,7 +272,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         bundle = super()._repr_mimebundle_(**options)
         data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
         data["text/plain"] = self.text
-        data["image/png"] = base64.b64encode(self.sight.picture.png).decode()
+        data["image/png"] = base64.b64encode(self._sight(self.sight.step, self._chosen).picture.png).decode()
         return data
 
     def __repr__(self) -> str:

@@ -9,17 +9,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.stages import Stages, stages
 from lsys_kit.derivation.words import Word, shortened
+from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.space import in_plane
 from lsys_kit.geometry.turtle import Path, placed, traced
 from lsys_kit.notation.arithmetic import Value
 from lsys_kit.notation.model import LSystem
-from lsys_kit.pictures.draw import MOST_ROWS, Picture, state_colours
+from lsys_kit.pictures.draw import MOST_ROWS, Picture, filament_picture, state_colours
 from lsys_kit.pictures.labels import place_text
 from lsys_kit.pictures.svg import Row
+from lsys_kit.pictures.view import seen
+from lsys_kit.worlds.derive import derive
 
 
 @dataclass(frozen=True)
@@ -34,10 +39,12 @@ class Sight:
         The stage diagram, and how many modules lie in each place.
     marked
         The states that are marked in the word and in the drawing.
+    scene
+        What is drawn, in the plane or in space.
     picture
-        The drawing.
+        The drawing; of a scene in space as it is seen from one side.
     path
-        The turtle's path; None for a filament.
+        The turtle's path in the plane; None for a filament, and in space.
     """
 
     step: int
@@ -45,6 +52,7 @@ class Sight:
     net: Stages
     tokens: tuple[int, ...]
     marked: frozenset[int]
+    scene: Scene
     picture: Picture
     path: Path | None
 
@@ -58,7 +66,7 @@ class Sight:
         places = [f"{place_text(place, self.net.system)}: {count:,}"
                   for place, count in zip(self.net.places, self.tokens, strict=True) if place.symbol[0].isalpha()]
         return (f"Step {self.step}: {self.modules}. {shortened(self.word, 160)}. Stages {', '.join(places)}. "
-                f"{self.picture.scene}.")
+                f"{self.scene}.")
 
 
 class Study:
@@ -81,9 +89,11 @@ class Study:
 
     def __init__(self, system: LSystem, seed: int | None = None) -> None:
         self.system, self.seed, self.is_filament = system, seed, is_filament(system)
+        self.in_space = not self.is_filament and not in_plane(system)
         self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
         self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}
         self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
+        self._scenes: dict[tuple[tuple[Value, ...], int], tuple[float, Scene]] = {}
 
     def known(self, constants: Mapping[str, object]) -> tuple[Derivation, Stages]:
         """The derivation and the net for given constants."""
@@ -93,7 +103,8 @@ class Study:
             self._known[key] = derive(self.system, 0, seed=self.seed, **given), stages(self.system, **given)
         return self._known[key]
 
-    def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1) -> Sight:
+    def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1,
+              around: float = 0.0, above: float = 0.0) -> Sight:
         """What there is to see at a step.
 
         Parameters
@@ -103,9 +114,11 @@ class Study:
         constants
             New values for declared constants.
         angle
-            Degrees by which `+` and `-` turn; by default the system's.
+            Degrees by which the turtle turns; by default the system's.
         place
             The stage that is marked; -1 for none.
+        around, above
+            From where a scene in space is seen, as `seen` counts.
 
         Raises
         ------
@@ -116,13 +129,16 @@ class Study:
         derivation = derivation.to(step)
         word = derivation[step]
         marked = frozenset(s for s, module in enumerate(word.states.modules) if net.place_of(module) == place)
+        turn = float(self.system.angle) if angle is None else angle
+        path = None if self.is_filament or self.in_space else self._path(derivation, step)
         if self.is_filament:
-            picture, path = Picture(self._sequence(derivation, step), state_colours(derivation), step, marked), None
+            rows = self._sequence(derivation, step)
+            scene = rows[-1].scene
+            picture = filament_picture(derivation, rows, step, marked)
         else:
-            path = self._path(derivation, step)
-            scene = placed(path, float(self.system.angle) if angle is None else angle, float(self.system.heading))
-            picture = Picture((Row(step, scene),), state_colours(derivation), None, marked)
-        return Sight(step, word, net, net.tokens(word), marked, picture, path)
+            scene = placed(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
+            picture = Picture((Row(step, seen(scene, around, above)),), state_colours(derivation), None, marked)
+        return Sight(step, word, net, net.tokens(word), marked, scene, picture, path)
 
     def _sequence(self, derivation: Derivation, last: int) -> tuple[Row, ...]:
         """The rows of a filament's steps, each made once."""
@@ -138,3 +154,10 @@ class Study:
         if key not in self._paths:
             self._paths[key] = traced(derivation[step])
         return self._paths[key]
+
+    def _scene(self, derivation: Derivation, angle: float) -> Scene:
+        """The scene in space of a derivation's last word, kept for the angle that was asked last."""
+        key = derivation.states.constants, derivation.steps
+        if key not in self._scenes or self._scenes[key][0] != angle:
+            self._scenes[key] = angle, scene_of(derivation, angle)
+        return self._scenes[key][1]

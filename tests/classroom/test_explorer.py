@@ -2,14 +2,16 @@
 
 import base64
 import io
+import math
 import sys
 
 import pytest
 from PIL import Image
 
-from lsys_kit import LSystemError, ModelValueError, derive, explore, limits, read, system
+from lsys_kit import LSystemError, ModelValueError, derive, draw, explore, limits, read, system
 from lsys_kit.classroom import study
-from lsys_kit.classroom.views import SHOWN, widget_classes, word_html
+from lsys_kit.classroom.canvas import widget_classes
+from lsys_kit.classroom.views import SHOWN, word_html
 from lsys_kit.derivation.states import States
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
@@ -53,12 +55,48 @@ def test_the_browsers_angle_never_comes_back(monkeypatch):
     panel.angle.value = 40
 
 
+def test_a_plant_in_space_is_drawn_in_space():
+    panel = explore("K19", 12)
+    assert panel.sight.scene.dimension == 3
+    assert "depth" in panel.text
+    assert str(panel.sight.picture) == str(draw(system("K19"), 12))
+    assert "Turn it with the arrow keys" in panel._drawing.description
+
+
+def test_the_side_that_is_seen_never_comes_back(monkeypatch):
+    panel = explore("K19", 5)
+    monkeypatch.setattr(panel, "_show_step", lambda _: pytest.fail("the kernel was asked"))
+    panel.around.value, panel.above.value = 40, -20
+    assert panel._study.in_space
+
+
+def test_the_angle_of_a_plant_in_space_is_the_kernels():
+    panel = explore(read("axiom: F[&F]"), 0)
+    before, panel.angle.value = panel._drawing.shapes, 30
+    assert panel._drawing.shapes != before
+    assert panel.sight.scene.height == pytest.approx(1 + math.cos(math.radians(30)))
+
+
+@pytest.mark.parametrize(("id", "names"), [
+    ("J1", ["step"]), ("K5", ["step", "angle"]), ("K19", ["step", "angle", "around", "above"])])
+def test_only_what_can_be_turned_has_sliders_for_it(id, names):
+    panel = explore(id, 1)
+    assert [each.box.description for each in panel._controls()] == [*names, *panel.constants]
+
+
+def test_reset_shows_the_whole_plant_from_the_front_again():
+    panel = explore("K19", 5)
+    panel.around.value, panel.above.value = 40, -20
+    panel._reset.click()
+    assert (panel.around.value, panel.above.value, panel._drawing.returns) == (0, 0, 1)
+
+
 def test_a_step_past_the_limit_says_so_and_keeps_the_pictures():
     panel = explore("K5", 4)
-    before = panel._word.value, panel._drawing.path, panel.text
+    before = panel._word.value, panel._drawing.shapes, panel.text
     panel.step.value = 9
     assert "Step 7 would have 195,311 modules; the limit is 100,000" in panel._message.value
-    assert (panel._word.value, panel._drawing.path, panel.text) == before
+    assert (panel._word.value, panel._drawing.shapes, panel.text) == before
     panel.step.value = 3
     assert panel._message.value == ""
 
@@ -124,20 +162,43 @@ def test_a_stored_notebook_shows_a_picture_and_words():
     assert "application/vnd.jupyter.widget-view+json" in bundle
 
 
-def test_without_anywidget_the_drawing_is_svg(monkeypatch):
+def test_a_stored_notebook_shows_the_plant_as_it_is_turned():
+    panel = explore("K19", 12)
+    front = panel._repr_mimebundle_()["image/png"]
+    panel.around.value = 90
+    side = panel._repr_mimebundle_()["image/png"]
+    panel.around.value = 0
+    assert side != front == panel._repr_mimebundle_()["image/png"]
+
+
+@pytest.fixture
+def without_anywidget(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     widget_classes.cache_clear()
-    try:
-        panel = explore("K5", 2)
-        assert panel._drawing.value.startswith("<svg")
-        before = panel._drawing.value
-        panel.angle.value = 60
-        assert panel._drawing.value != before
-        panel._mark.value = 0
-        assert 'class="marked"' in panel._drawing.value
-        assert "is marked" in panel._diagram.value
-    finally:
-        widget_classes.cache_clear()
+    yield
+    widget_classes.cache_clear()
+
+
+def test_without_anywidget_the_drawing_is_svg(without_anywidget):
+    panel = explore("K5", 2)
+    assert panel._drawing.value.startswith("<svg")
+    before = panel._drawing.value
+    panel.angle.value = 60
+    assert panel._drawing.value != before
+    panel._mark.value = 0
+    assert 'class="marked"' in panel._drawing.value
+    assert "is marked" in panel._diagram.value
+
+
+@pytest.mark.parametrize("slider", ["around", "above"])
+def test_without_anywidget_a_plant_is_turned_by_sliders(without_anywidget, slider):
+    panel = explore("K19", 12)
+    front = panel._drawing.value
+    getattr(panel, slider).value = 45
+    assert panel._drawing.value.startswith("<svg")
+    assert panel._drawing.value != front
+    panel._reset.click()
+    assert panel._drawing.value == front
 
 
 def test_a_long_word_is_shortened_in_the_middle_with_its_length():
