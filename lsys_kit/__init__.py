@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.exercises import check
     from lsys_kit.classroom.explorer import explore
     from lsys_kit.derivation.continuity import continuity
-    from lsys_kit.derivation.derive import derive
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth import growth
     from lsys_kit.derivation.stages import stages
@@ -40,11 +39,12 @@ if TYPE_CHECKING:
     from lsys_kit.notation.write import write
     from lsys_kit.pictures.draw import draw, figure
     from lsys_kit.pictures.films import animate
+    from lsys_kit.worlds.derive import derive
 
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films", "check": "classroom.exercises",
-    "continuity": "derivation.continuity", "derive": "derivation.derive", "draw": "pictures.draw",
+    "continuity": "derivation.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth", "limits": "budget", "read": "notation.read", "stages": "derivation.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",

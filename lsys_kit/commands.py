@@ -68,7 +68,8 @@ def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
 
 def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
     """The derivation; where a step would be too large, the error says what can be typed instead."""
-    from lsys_kit.derivation.derive import Derivation, derive
+    from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.worlds.derive import derive
 
     try:
         steps = next(steps for steps in (options.steps, system.steps, STEPS) if steps is not None)

@@ -15,7 +15,7 @@ from typing import Any
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.differences import Values, differing_system, differing_values, differing_word
 from lsys_kit.classroom.verdict import Verdict
-from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.states import States
 from lsys_kit.derivation.words import Word
@@ -25,6 +25,7 @@ from lsys_kit.notation.checks import check_expression, span, suggestion
 from lsys_kit.notation.expressions import Expression, gives
 from lsys_kit.notation.model import LSystem, Module, symbols
 from lsys_kit.notation.read import read, read_expression, read_word
+from lsys_kit.worlds.derive import derive
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from html import escape
 from itertools import islice
 
 from lsys_kit.budget import current, limits
+from lsys_kit.classroom.verdict import PLAIN
 from lsys_kit.classroom.views import word_html
-from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.words import Word, shortened
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.notation.arithmetic import number_text
@@ -23,6 +23,7 @@ from lsys_kit.notation.operators import OPERATORS
 from lsys_kit.notation.registry import notation_called
 from lsys_kit.pictures.labels import html_label
 from lsys_kit.pictures.palette import BLUE, INK, PAPER, QUIET
+from lsys_kit.worlds.derive import derive
 
 FIRST_STEPS, FIRST_MODULES = 4, 80
 """How many words are shown after the axiom, and how many modules they may have."""
@@ -127,7 +128,7 @@ def boxed(name: str, role: str, colour: str, content: str) -> str:
     >>> "mathjax_ignore" in boxed("lsys-system", "group", BLUE, "$A$")
     True
     """
-    return (f'<div class="{name} mathjax_ignore" role="{role}" style="border-left:6px solid {colour};background:{PAPER};'
+    return (f'<div class="{name} {PLAIN}" role="{role}" style="border-left:6px solid {colour};background:{PAPER};'
             f'color:{INK};padding:6px 12px;font:14px/1.5 sans-serif;overflow-x:auto">{content}</div>')
 
 

@@ -35,7 +35,7 @@ def possible(stepper: Stepper) -> bool:
                for rule in rules)
     symbols = {module.symbol for rule in stepper.states.system.rules for module in rule.modules}
     cuts = CUT in symbols or any(module.symbol == CUT for module in stepper.states.system.axiom)
-    return near and stepper.states.parts_settled and not cuts and not any(rule.random for rule in rules)
+    return near and stepper.states.parts_settled and not cuts and not any(rule.random or rule.looks for rule in rules)
 
 
 class Fates:
@@ -195,7 +195,7 @@ class Bulk:
         if not matched:
             return [self.fates.number(Replacement(states.parts(states.modules[code]), None))], [1.0]
         states.drawn(matched, None)  # refuses weights that are none
-        weights = [float(rule.probability(values + states.constants)) for rule, values in matched if rule.probability]
+        weights = [float(states.weight(rule, values)) for rule, values in matched if rule.probability]
         made = [Replacement(states.replaced(rule, states.modules[code], values), rule.number)
                 for rule, values in (matched if weights else matched[:1])]
         return [self.fates.number(replacement) for replacement in made], weights or [1.0]

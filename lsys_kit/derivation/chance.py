@@ -8,7 +8,7 @@ splitmix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generator
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from statistics import NormalDist
@@ -66,6 +66,8 @@ class Chance:
         Any whole number.
     step, position
         Which module: its place in the word of which step.
+    sees
+        What answers the module's questions to the turtle, given a function's number and values; None where nobody looks.
 
     Examples
     --------
@@ -77,6 +79,7 @@ class Chance:
     seed: int
     step: int
     position: int
+    sees: Callable[..., Value] | None = None
     drawn: int = 0
 
     def unit(self) -> float:

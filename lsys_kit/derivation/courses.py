@@ -1,7 +1,8 @@
 """The two ways in which a derivation runs its course, behind one door.
 
 Where every module's fate depends on itself alone, the course counts: the size of every step is known before a word is built,
-and the word of any step is built without those between. Where neighbours or chance have a say, it goes step by step.
+and the word of any step is built without those between. Where neighbours or chance have a say, it goes step by step. Where
+rules ask for what the turtle sees, somebody looks at the word before each step: who that is, is not known here.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
-from typing import Any
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -23,9 +24,10 @@ from lsys_kit.derivation.columns import possible as columns_possible
 from lsys_kit.derivation.expand import Letters, code_type, expanded
 from lsys_kit.derivation.meta import shortened_by_rules
 from lsys_kit.derivation.states import States
-from lsys_kit.derivation.stepping import Stepper
+from lsys_kit.derivation.stepping import Sees, Stepper
 from lsys_kit.derivation.words import Word, state_counts
 from lsys_kit.errors import ModelLimitError
+from lsys_kit.notation.arithmetic import Value
 
 PLAIN = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
@@ -37,6 +39,26 @@ STATE_BYTES = 600
 """About what one state takes in the table."""
 OFTEN = 1_024
 """After how many states or modules somebody looks at the clock."""
+
+
+class Sight(Protocol):
+    """What is seen of a word.
+
+    Attributes
+    ----------
+    word
+        The word, with the values of its query modules filled in.
+    """
+
+    @property
+    def word(self) -> Word: ...
+
+    def sees(self, position: int, function: Value, *values: Value) -> Value:
+        """What a sensitive function answers to the module at a position."""
+
+
+World: TypeAlias = Callable[[Word, Callable[[], None]], Sight]
+"""What looks at a word before a step; it is also given what looks at the clock now and then, and may raise an error."""
 
 
 @dataclass(frozen=True)
@@ -133,12 +155,15 @@ class Counting:
             productions += [self.states.production(state)] * made
         return Origins(parents, productions)
 
+    def sight(self, _: int) -> None:
+        """Nobody looks at words whose modules ask for nothing."""
+
 
 class Stepping:
     """The course of a system in which neighbours or chance have a say."""
 
-    def __init__(self, states: States, seed: int) -> None:
-        self.states = states
+    def __init__(self, states: States, seed: int, world: World | None = None) -> None:
+        self.states, self._world = states, world
         self._stepper = Stepper(states, seed)
         self._bulk = Bulk(self._stepper) if possible(self._stepper) else None
         self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
@@ -158,11 +183,14 @@ class Stepping:
 
     def advance(self, until: float) -> None:
         """Make one step more known: nothing is kept of it before it is finished."""
-        step, before = self.known + 1, self._steps[-1][0]
+        step, before, sees = self.known + 1, self._steps[-1][0], None
+        if self._world:
+            sight = self._world(before, partial(check_time, self.states, step, until))
+            before, sees = sight.word, sight.sees
         if self._bulk and len(before) > BULK:
             made = self._in_bulk(self._bulk, before, step)
         else:
-            made = self._one_by_one(before.numbers(), step, until)
+            made = self._one_by_one(before.numbers(), step, until, sees)
         check_time(self.states, step, until)
         self._steps.append(made)
 
@@ -181,11 +209,12 @@ class Stepping:
 
         return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
 
-    def _one_by_one(self, codes: Sequence[int], step: int, until: float) -> tuple[Word, Callable[[], Origins]]:
+    def _one_by_one(self, codes: Sequence[int], step: int, until: float,
+                    sees: Sees | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
         made = []
         size = 0
-        for number, replacement in enumerate(self._stepper.replacements(codes, step - 1)):
+        for number, replacement in enumerate(self._stepper.replacements(codes, step - 1, sees)):
             made.append(replacement)
             size += len(replacement.states)
             if number % OFTEN == 0 or len(replacement.states) > OFTEN:
@@ -221,10 +250,14 @@ class Stepping:
         """Where the modules of a step's word come from."""
         return self._steps[step][1]()
 
+    def sight(self, step: int) -> Sight | None:
+        """What the next step sees of a known step's word; None where nobody looks."""
+        return self._world(self.word(step), lambda: None) if self._world else None
 
-def course_of(states: States, seed: int) -> Counting | Stepping:
-    """The course that a system's derivation takes."""
-    return Counting(states) if states.settled else Stepping(states, seed)
+
+def course_of(states: States, seed: int, world: World | None = None) -> Counting | Stepping:
+    """The course that a system's derivation takes; where it asks for what the turtle sees, in a world that answers."""
+    return Counting(states) if states.settled else Stepping(states, seed, world if states.asks else None)
 
 
 def counted(states: States, counts: Mapping[int, int], watch: Callable[[], None] = lambda: None) -> dict[int, int]:

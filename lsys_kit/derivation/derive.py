@@ -15,7 +15,7 @@ from typing import Any, overload
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.courses import Counting, Origins, Stepping, check_size, check_time, counted, course_of
+from lsys_kit.derivation.courses import Counting, Origins, Sight, Stepping, World, check_size, check_time, counted, course_of
 from lsys_kit.derivation.development import Development, developed
 from lsys_kit.derivation.fates import check_settled
 from lsys_kit.derivation.states import States
@@ -69,19 +69,20 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     2178309
     """
     if not isinstance(system, MapSystem):
-        return _derived(system, steps, **choices)
+        return derived(system, steps, None, **choices)
     if choices:
         raise ModelValueError(f'A map system has no "{next(iter(choices))}"',
                               hint="Nothing in it is left to chance, or declared.")
     return developed(system, steps)
 
 
-def _derived(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
-             **constants: object) -> Derivation:
+def derived(system: LSystem, steps: int, world: World | None, /, *, seed: int | None = None, arithmetic: str = "exact",
+            **constants: object) -> Derivation:
+    """Derive an L-system, in a world that looks at each word before the step, if modules ask for what the turtle sees."""
     seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise ModelValueError(f"The seed must be a whole number, not {seed!r}")
-    return Derivation(course_of(States(system, constants, arithmetic), seed)).to(steps)
+    return Derivation(course_of(States(system, constants, arithmetic), seed, world)).to(steps)
 
 
 class Derivation(Sequence[Word]):
@@ -180,6 +181,17 @@ class Derivation(Sequence[Word]):
         if not 1 <= step <= self.steps:
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} come from a word before, not that of step {step}")
         return self._course.origins(step)
+
+    def sight(self, step: int) -> Sight | None:
+        """What the next step sees of a step's word, which has its query modules filled in there; None where nobody looks.
+
+        >>> from lsys_kit import derive, read
+        >>> apex = derive(read("axiom: F A ?P(0,0)\\nA > ?P(x,y) : y < 3 -> F A"), 2)
+        >>> print(apex[2], "and", apex.sight(2).word)
+        F F F A?P(0,2) and F F F A?P(0,3)
+        """
+        self[step]  # an IndexError, where there is no such step
+        return self._course.sight(step)
 
     def ancestors(self, step: int, before: int = 0) -> list[int]:
         """For each module of a step's word the position, in the word of an earlier step, of the module that it descends from.

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.matching import chain, values_at
 from lsys_kit.derivation.rules import Rule
-from lsys_kit.derivation.states import States
 from lsys_kit.derivation.stepping import Old, Stepper, uncut
-from lsys_kit.derivation.words import Word
 from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.expressions import Name, names_in
 from lsys_kit.notation.model import Module, joined
@@ -79,22 +77,22 @@ def explain(derivation: Derivation, step: int) -> Explanation:
     2. a becomes b: production 1, b < a -> b
          production 2, a -> c: matches too, but production 1 stands before it
     """
-    origins, new, old_word = derivation.origins(step), derivation[step].numbers(), derivation[step - 1]
+    origins, new, sight = derivation.origins(step), derivation[step].numbers(), derivation.sight(step - 1)
+    stepper = Stepper(derivation.states, 0)
+    old = stepper.old(sight.word.numbers(), sight.sees) if sight else stepper.old(derivation[step - 1].numbers())
     successors: dict[int, list[Module]] = {}
     applied: dict[int, int | None] = {}
     for code, parent, production in zip(new, origins.parents, origins.productions, strict=True):
         successors.setdefault(parent, []).append(derivation.states.modules[code])
         applied[parent] = production
-    return Explanation(_fates(derivation.states, old_word, successors, applied))
+    return Explanation(_fates(stepper, old, successors, applied))
 
 
-def _fates(states: States, word: Word, successors: dict[int, list[Module]], applied: dict[int, int | None]) -> Iterator[Fate]:
-    stepper = Stepper(states, 0)
-    old = stepper.old(word.numbers())
+def _fates(stepper: Stepper, old: Old, successors: dict[int, list[Module]], applied: dict[int, int | None]) -> Iterator[Fate]:
     for position, kept in enumerate(uncut(old.symbols)):
         module = old.modules[position]
         made = tuple(successors.get(position, ()))
-        rules = [rule for kind, found in states.rules.items() if kind[0] == module.symbol for rule in found]
+        rules = [rule for kind, found in stepper.states.rules.items() if kind[0] == module.symbol for rule in found]
         refusals = [(rule, _refusal(stepper, old, position, rule)) for rule in rules] if kept else []
         matching = [rule for rule, why in refusals if why is None]
         chosen = _chosen(matching, applied.get(position), bool(made))
@@ -135,11 +133,13 @@ def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | Non
     for index, wanted in rule.equalities:
         if values[index] != wanted(given):
             return f"asks for {arguments[index]}, and there is {number_text(values[index])}"
-    if not stepper.states.holds(rule, values, module):
+    chance = old.chance(0, 0, position)
+    if not stepper.states.holds(rule, values, module, chance):
         names = names_in(rule.production.condition) if rule.production.condition else frozenset()
         known = {a.name: value for a, value in zip(arguments, values, strict=True) if isinstance(a, Name)}
         known |= dict(zip((c.name for c in stepper.states.system.constants), stepper.states.constants, strict=True))
-        told = ", ".join(f"{name} = {number_text(known[name])}" for name in sorted(names))
+        told = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
+                          *(f"{asked} is {number_text(answer((*given, chance)))}" for asked, answer in rule.questions)])
         return f"{rule.production.condition} is false{f' where {told}' if told else ''}"
     return None
 

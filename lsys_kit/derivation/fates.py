@@ -75,7 +75,7 @@ def all_fates(states: States, limit: int) -> list[tuple[Fate, ...]] | None:
 
 def has_fates(states: States) -> bool:
     """Whether only a module itself, and a lot among its productions, decide what becomes of it."""
-    return (states.parts_settled and not states.system.meta and CUT not in symbols(states.system)
+    return (states.parts_settled and not (states.asks or states.system.meta or CUT in symbols(states.system))
             and not any(rule.left or rule.right or rule.random for rules in states.rules.values() for rule in rules))
 
 

@@ -17,6 +17,8 @@ def fault_in(system: LSystem, module: Module, rule: Rule, fault: Exception) -> L
     """A value that cannot be computed."""
     what = "The axiom" if module is AXIOM else f"{module} under production {rule.number + 1}, {rule.production},"
     hint = None if module is AXIOM else "A condition before the arrow can keep such values out."
+    if rule.looks:
+        hint = "Where there is no such shoot, an answer is infinite." if isinstance(fault, OverflowError) else None
     start, end = rule.production.at or (None, None)
     return ModelValueError(f"{what} has no value: {reason(fault)}", system.source or None, start, end, hint)
 

@@ -17,8 +17,9 @@ from typing import Any, TypeAlias, TypeGuard
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, is_symbolic, reason, settled_value, sound, tidy
 from lsys_kit.notation.checks import suggestion
-from lsys_kit.notation.expressions import Expression, Function, Name, function_of, is_random
-from lsys_kit.notation.model import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.expressions import Apply, Expression, Function, Name, function_of, is_random, questions_in
+from lsys_kit.notation.grogra_variables import expressions_of
+from lsys_kit.notation.model import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat
 from lsys_kit.notation.read import read_number
 
 Kind: TypeAlias = tuple[str, int]
@@ -61,6 +62,10 @@ class Rule:
         What it makes.
     random
         Whether what it makes is left to chance.
+    looks
+        Whether it asks for what the turtle sees.
+    questions
+        What its condition asks, each with the function of the answer.
     """
 
     number: int
@@ -72,6 +77,8 @@ class Rule:
     probability: Function | None
     successor: tuple[Part | Parts, ...]
     random: bool
+    looks: bool
+    questions: tuple[tuple[Apply, Function], ...]
 
     @cached_property
     def least(self) -> int:
@@ -80,8 +87,8 @@ class Rule:
 
     @cached_property
     def settled(self) -> bool:
-        """Whether a module alone decides what the rule does: no neighbour and no chance."""
-        return not (self.left or self.right or self.random or self.probability is not None)
+        """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that is seen."""
+        return not (self.left or self.right or self.random or self.looks or self.probability is not None)
 
 
 Rules: TypeAlias = Mapping[Kind, tuple[Rule, ...]]
@@ -129,14 +136,16 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     def ready(expression: Any) -> Function:
         return function_of(expression, order, arithmetic)
 
-    given = [expression for module in flat(production.successor) for expression in module.arguments]
+    made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
+    asked = [part for part in (production.condition, production.probability, *made) if part is not None]
     return Rule(
         number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
         tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
         _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
-        any(isinstance(expression, Expression) and is_random(expression) for expression in given))
+        any(map(is_random, made)), any(question for part in asked for question in questions_in(part)),
+        tuple((question, ready(question)) for question in questions_in(production.condition)) if production.condition else ())
 
 
 def _parts(items: Sequence[Item], order: Mapping[str, int], size: int, arithmetic: str) -> tuple[Part | Parts, ...]:

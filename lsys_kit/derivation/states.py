@@ -22,6 +22,8 @@ EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
 CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
+QUERIES = frozenset(("?P", "?H", "?U", "?L"))
+"""The symbols whose values are the turtle's: its position, its heading, its up and its left."""
 
 
 class Successors(dict[int, tuple[int, ...]]):
@@ -53,7 +55,9 @@ class States:
     modules
         The module of each state.
     settled
-        Whether every module's fate depends on itself alone: no contexts, no chance, no cut, no meta-rules.
+        Whether every module's fate depends on itself alone: no contexts, no chance, no cut, no meta-rules, no questions.
+    asks
+        Whether it asks for what the turtle sees, by a rule or by a query module such as `?P(x,y)`.
     successors
         The successor of each settled state.
     parts_settled
@@ -86,8 +90,9 @@ class States:
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
         self.parts_settled = all(rule.settled for rules in self.decomposition.values() for rule in rules)
-        self.settled = not system.meta and self.parts_settled and CUT not in _symbols(system) and all(
-            rule.settled for rules in self.rules.values() for rule in rules)
+        rules = [rule for table in (self.rules, self.decomposition) for found in table.values() for rule in found]
+        self.asks = any(rule.looks for rule in rules) or not _symbols(system).isdisjoint(QUERIES)
+        self.settled = not (system.meta or self.asks or CUT in _symbols(system)) and all(rule.settled for rule in rules)
         self.axiom = tuple(self._axiom())
 
     def __len__(self) -> int:
@@ -133,22 +138,22 @@ class States:
 
     def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
         """The rule that rewrites a module, of rules that need no context."""
-        return self.drawn(self.matched(module, rules), chance)
+        return self.drawn(self.matched(module, rules, chance), chance)
 
-    def matched(self, module: Module, rules: Rules) -> list[tuple[Rule, tuple[Value, ...]]]:
+    def matched(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[tuple[Rule, tuple[Value, ...]]]:
         """The rules that match a module, up to a first that leaves nothing to chance, each with the module's values."""
         values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
         found: list[tuple[Rule, tuple[Value, ...]]] = []
         for rule in rules.get(kind_of(module), ()):
-            if self.holds(rule, values, module):
+            if self.holds(rule, values, module, chance):
                 found.append((rule, values))
                 if found[0][0].probability is None:
                     break
         return found
 
-    def holds(self, rule: Rule, values: tuple[Value, ...], module: Module) -> bool:
+    def holds(self, rule: Rule, values: tuple[Value, ...], module: Module, chance: Chance | None = None) -> bool:
         """Whether a rule's values are what it asks for and its condition is true."""
-        given = values + self.constants
+        given = (*values, *self.constants, chance)
         try:
             return (all(same(values[i], wanted(given)) for i, wanted in rule.equalities)
                     and (rule.condition is None or bool(rule.condition(given))))
@@ -161,16 +166,25 @@ class States:
         """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
         if not matched or matched[0][0].probability is None:
             return matched[0][0] if matched else None
-        lots = self.lots(matched)
+        lots = self.lots(matched, chance)
         unit = chance.unit() if chance else 0.0
         try:
             return lots[chosen([weight for _, weight in lots], unit)][0]
         except ValueError as fault:
             raise fault_in(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
 
-    def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]]) -> list[tuple[Rule, Value]]:
+    def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]],
+             chance: Chance | None = None) -> list[tuple[Rule, Value]]:
         """Of the rules that match those that are chosen by lot, each with its weight."""
-        return [(rule, rule.probability(values + self.constants)) for rule, values in matched if rule.probability]
+        return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
+
+    def weight(self, rule: Rule, values: tuple[Value, ...], chance: Chance | None = None) -> Value:
+        """How likely a rule that is left to chance is chosen, beside others."""
+        assert rule.probability
+        try:
+            return sound(rule.probability((*values, *self.constants, chance)))
+        except (ArithmeticError, ValueError) as fault:
+            raise fault_in(self.system, rule.production.predecessor, rule, fault) from None
 
     def made(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
              chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:

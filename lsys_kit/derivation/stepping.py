@@ -6,8 +6,10 @@ cases have equal results, which are computed once and kept; where a rule makes r
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeAlias
 
 from lsys_kit.derivation.chance import Chance
 from lsys_kit.derivation.matching import Neighbours, chain, context, neighbours, values_at
@@ -18,6 +20,8 @@ from lsys_kit.notation.model import CLOSING, OPENING, LSystem, Module
 
 Matches = list[tuple[Rule, tuple[Value, ...]]]
 """The rules that match a module, in the order written, with the values of the parameters that they name."""
+Sees: TypeAlias = Callable[..., Value]
+"""What a module sees that asks the turtle: from its position, a function's number and the values that it is asked with."""
 
 
 @dataclass(frozen=True)
@@ -38,12 +42,17 @@ class Replacement:
 
 @dataclass(frozen=True)
 class Old:
-    """The word before a step: its states, modules and symbols, and who stands beside whom."""
+    """The word before a step: its states, modules and symbols, who stands beside whom, and what each module sees."""
 
     codes: Sequence[int]
     modules: Sequence[Module]
     symbols: Sequence[str]
     around: Neighbours | None
+    sees: Sees | None
+
+    def chance(self, seed: int, step: int, position: int) -> Chance:
+        """What a module is given besides its neighbours: random numbers, and what it sees."""
+        return Chance(seed, step, position, self.sees and partial(self.sees, position))
 
 
 class Stepper:
@@ -73,13 +82,13 @@ class Stepper:
         self._matched: dict[tuple[object, ...], Matches] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
 
-    def old(self, codes: Sequence[int]) -> Old:
+    def old(self, codes: Sequence[int], sees: Sees | None = None) -> Old:
         """A word as a step needs it."""
         modules = [self.states.modules[code] for code in codes]
         symbols = [module.symbol for module in modules]
-        return Old(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None)
+        return Old(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
 
-    def replacements(self, codes: Sequence[int], step: int) -> Iterator[Replacement]:
+    def replacements(self, codes: Sequence[int], step: int, sees: Sees | None = None) -> Iterator[Replacement]:
         """What each module of a word becomes; what is cut off becomes nothing.
 
         Parameters
@@ -88,8 +97,10 @@ class Stepper:
             The word's states.
         step
             The word's step, from which chance is drawn.
+        sees
+            What answers the modules' questions to the turtle.
         """
-        old, nothing = self.old(codes), Replacement((), None)
+        old, nothing = self.old(codes, sees), Replacement((), None)
         for position, (code, kept) in enumerate(zip(codes, uncut(old.symbols), strict=True)):
             if not kept:
                 yield nothing
@@ -98,17 +109,17 @@ class Stepper:
             elif self.states.is_settled(code):
                 yield self._settled.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
             else:
-                yield self._open(old, position, Chance(self.seed, step, position))
+                yield self._open(old, position, old.chance(self.seed, step, position))
 
     def _open(self, old: Old, position: int, chance: Chance) -> Replacement:
         """What becomes of a module whose fate is not settled by itself."""
-        matched = self.matched(old, position)
+        matched = self.matched(old, position, chance)
         rule = self.states.drawn(matched, chance)
         if rule is None:
             return Replacement(self.states.parts(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
         key = old.codes[position], values, rule.number
-        settled = not rule.random and self.states.parts_settled
+        settled = not (rule.random or rule.looks) and self.states.parts_settled
         if settled and key in self._made:
             return self._made[key]
         replacement = Replacement(self.states.replaced(rule, old.modules[position], values, chance), rule.number)
@@ -116,18 +127,20 @@ class Stepper:
             self._made[key] = replacement
         return replacement
 
-    def matched(self, old: Old, position: int) -> Matches:
+    def matched(self, old: Old, position: int, chance: Chance | None = None) -> Matches:
         """The rules that match the module at a position."""
         rules = self.states.candidates(old.codes[position])
         case = self._case(rules, old, position)
         if case is None:
-            return self._matching(rules, old, position)
+            return self._matching(rules, old, position, chance)
         if case not in self._matched:
-            self._matched[case] = self._matching(rules, old, position)
+            self._matched[case] = self._matching(rules, old, position, chance)
         return self._matched[case]
 
     def _case(self, rules: Sequence[Rule], old: Old, position: int) -> tuple[object, ...] | None:
-        """The states on which the matching depends; None where a rule names a branch, which may hold any number of them."""
+        """The states on which the matching depends; None where that is what is seen, or a branch, which may hold any number."""
+        if any(rule.looks for rule in rules):
+            return None
         if old.around is None:
             return (old.codes[position],)
         if any(is_branch(item) for rule in rules for item in rule.right):
@@ -142,14 +155,14 @@ class Stepper:
             return (position,)
         return context(rule, old.modules, old.symbols, old.around, position, self.passed)
 
-    def _matching(self, rules: Sequence[Rule], old: Old, position: int) -> Matches:
+    def _matching(self, rules: Sequence[Rule], old: Old, position: int, chance: Chance | None) -> Matches:
         found: Matches = []
         for rule in rules:
             at = self.context(rule, old, position)
             if at is None:
                 continue
             values = values_at(old.modules, at)
-            if self.states.holds(rule, values, old.modules[position]):
+            if self.states.holds(rule, values, old.modules[position], chance):
                 if not found and rule.probability is None:
                     return [(rule, values)]
                 if rule.probability is not None:

@@ -48,7 +48,7 @@ class Turtle:
     pulls
         By its number each tropism.
     last
-        Its last stroke.
+        The number of its last stroke, in the plane of the step that it was; None before the first.
     once
         The names of what goes back after the next stroke, with the values that they had.
     state
@@ -237,15 +237,26 @@ def follow(turtle: Turtle, word: Word, acts: Mapping[str, Act], ready: Callable[
     ModelValueError
         A value is no number that can be drawn.
     """
-    numbers, system = word.numbers(), word.states.system
-    drawn = images(word.states, numbers)
-    turtle.unknown = dict.fromkeys(unknown(drawn, system))
-    told = {state: [(acts[order.action], ready(order)) for order in found if order.action in acts]
-            for state, found in orders(drawn, system.turtle).items()}
-    for state in numbers:
+    told = told_by(word, acts, ready)
+    turtle.unknown = dict.fromkeys(told.unknown)
+    for state in word.numbers():
         turtle.state = state
-        for act, what in told[state]:
+        for act, what in told.acts[state]:
             act(turtle, what)
+
+
+class Told(NamedTuple):
+    """What a word's modules tell a turtle: for each state the acts and what they are given; and the symbols unknown to it."""
+
+    acts: dict[int, list[tuple[Act, Any]]]
+    unknown: tuple[str, ...]
+
+
+def told_by(word: Word, acts: Mapping[str, Act], ready: Callable[[Order], Any]) -> Told:
+    """What a word tells a turtle that has these acts."""
+    system, drawn = word.states.system, images(word.states, word.numbers())
+    return Told({state: [(acts[order.action], ready(order)) for order in found if order.action in acts]
+                 for state, found in orders(drawn, system.turtle).items()}, unknown(drawn, system))
 
 
 def left_behind(outlines: Sequence[Outline], rounds: Sequence[Round],

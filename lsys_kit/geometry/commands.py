@@ -152,6 +152,8 @@ LEFT_SIDE: Mapping[str, int] = {"abop": 1, "grogra": -1, "plant-string": 1}
 
 STEP: Mapping[str, float] = {"abop": 1.0, "grogra": 100.0, "plant-string": 1.0}
 """How long a step is, where the system does not say."""
+FIRST_COLOUR = 14
+"""The colour of strokes where none was set, as GROGRA numbers it: yellow."""
 WIDTH = 0.1
 """How wide a stroke is, where a command asks for the width and none was set."""
 REACH = 1e50

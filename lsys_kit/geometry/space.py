@@ -52,7 +52,7 @@ class Flyer(Turtle):
         x, y, z = start
         self.at = end = x + length * hx, y + length * hy, z + length * hz
         if drawn:
-            self.last = start, end
+            self.last = len(self.strokes) // _COLUMNS
             self.strokes.extend((*start, *end, len(self.stack), self.state, self.width, self.colour))
             for pull in self.pulls.values():
                 _pulled(self, pull)
@@ -195,7 +195,8 @@ def _seen(point: Vector) -> Vector:
 def _back(turtle: Flyer, order: Order) -> None:
     """Go to a place on the last stroke."""
     if turtle.last is not None:
-        (x, y, z), (u, v, w) = turtle.last
+        first = turtle.last * _COLUMNS
+        x, y, z, u, v, w = turtle.strokes[first:first + 6]
         part = order.factor + order.addend
         turtle.at = x + part * (u - x), y + part * (v - y), z + part * (w - z)
 
@@ -240,11 +241,15 @@ def followed(word: Word, angle: float | None = None) -> Scene:
     turn = float(system.angle) if angle is None else angle
     turtle = Flyer(first_frame(system.turtle, float(system.heading)), first_step(system))
     follow(turtle, word, ACTS, lambda order: ready(order, turn))
+    polygons, discs = left_behind(turtle.outlines, turtle.rounds, _points)
+    return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))
+
+
+def strokes_of(turtle: Flyer) -> Segments:
+    """The strokes that a turtle has left, in the order of their numbers."""
     rows = np.array(turtle.strokes).reshape(-1, _COLUMNS)
     orders, states, colours = (rows[:, column].astype(np.int64) for column in (6, 7, 9))
-    polygons, discs = left_behind(turtle.outlines, turtle.rounds, _points)
-    return Scene(Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours), polygons=polygons, discs=discs,
-                 unknown=tuple(turtle.unknown))
+    return Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours)
 
 
 def ready(order: Order, angle: float) -> Any:

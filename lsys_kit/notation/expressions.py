@@ -9,7 +9,7 @@ Decimal literals are rational numbers, and arithmetic is exact (see `arithmetic`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -153,6 +153,19 @@ def is_random(expression: Expression) -> bool:
                                               or any(map(is_random, expression.operands)))
 
 
+def questions_in(expression: Expression) -> Iterator[Apply]:
+    """What an expression asks of the turtle.
+
+    >>> [str(question) for question in questions_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
+    ['sensed(2, 1)']
+    """
+    if isinstance(expression, Apply):
+        if OPERATORS[expression.operator].looks:
+            yield expression
+        for operand in expression.operands:
+            yield from questions_in(operand)
+
+
 def function_of(expression: Expression, order: Mapping[str, int], arithmetic: str = "exact") -> Function:
     """The function that an expression stands for.
 
@@ -162,7 +175,8 @@ def function_of(expression: Expression, order: Mapping[str, int], arithmetic: st
         Any expression whose names are all in `order`.
     order
         For each name its index in the tuple of values that the function takes. Where the expression is random, the last
-        element of that tuple is what draws the numbers: it has the methods `uniform`, `normal`, and so on.
+        element of that tuple is what draws the numbers: it has the methods `uniform`, `normal`, and so on; where it asks
+        for what the turtle sees, that element has the attribute `sees`.
     arithmetic
         "exact", or "float" to compute in doubles throughout, as cpfg and L-Py do.
 

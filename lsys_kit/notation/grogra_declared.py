@@ -145,7 +145,8 @@ def named(expression: Expression, names: Declared) -> Expression:
         return Name(names.draws[expression])
     operands = tuple(named(operand, names) for operand in expression.operands)
     if expression.operator == "sensed":
-        return Name(f"{names.functions[_function(expression)]}({', '.join(map(str, operands[1:]))})")
+        values = f"({', '.join(map(str, operands[1:]))})" if operands[1:] else ""
+        return Name(f"{names.functions[_function(expression)]}{values}")
     return Apply(expression.operator, operands)
 
 

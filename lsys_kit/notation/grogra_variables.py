@@ -133,6 +133,8 @@ def _meant_name(name: Name, scope: Scope) -> Expression:
         names = {*scope.known, *scope.variables}
         hint = suggestion(name.name, names, 0.5)  # so that "xo" is like "x0"
         raise ModelNameError(f'I do not know the name "{name}"', scope.source, *_place(name.at), hint or _UNKNOWN)
+    if variable.kind == "function" and variable.numbers[1] == 0:
+        return Apply("sensed", (Number(variable.numbers[0]),), name.at)
     if variable.kind == "function":
         raise ModelSyntaxError(f'"{name}" is a function, and its values are missing', scope.source, *_place(name.at),
                                f'It is asked as in "{name}({", ".join("1" * variable.numbers[1])})".')

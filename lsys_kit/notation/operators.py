@@ -44,6 +44,8 @@ class Operator:
         Whether its first operand is a truth, whatever the others are.
     random
         Whether it gives another number at every use.
+    looks
+        Whether it asks for what the turtle sees.
     """
 
     build: Callable[..., Function]
@@ -53,6 +55,7 @@ class Operator:
     arity: tuple[int, int] = (2, 2)
     asks: bool = False
     random: bool = False
+    looks: bool = False
 
     def spelling(self, operator: str) -> str:
         return operator if self.precedence in (5, 7) and operator in "/^" else f" {operator} "
@@ -98,11 +101,14 @@ def _drawn(method: str) -> Callable[..., Function]:
     return build
 
 
-def _sensed(number: Function, *_: Function) -> Function:
-    """A sensitive function of GROGRA, chosen by its number: who derives words alone has no answer."""
+def _sensed(number: Function, *operands: Function) -> Function:
+    """A sensitive function of GROGRA, chosen by its number: what stands behind the values may have somebody who sees."""
 
     def asked(v: tuple[Any, ...]) -> Any:
-        raise ValueError(f"function {brief(number(v))} asks for what the turtle sees, and words alone do not tell that")
+        sees = getattr(v[-1], "sees", None) if v else None
+        if sees is None:
+            raise ValueError(f"function {brief(number(v))} asks for what the turtle sees, and words alone do not tell that")
+        return sees(number(v), *[operand(v) for operand in operands])
 
     return asked
 
@@ -180,5 +186,5 @@ OPERATORS: Mapping[str, Operator] = {
     "binomial": Operator(_drawn("binomial"), None, random=True),
     "poisson": Operator(_drawn("poisson"), None, arity=(1, 1), random=True),
     "table": Operator(_drawn("table"), None, arity=(1, 16), random=True),
-    "sensed": Operator(_sensed, None, arity=(1, 16)),
+    "sensed": Operator(_sensed, None, arity=(1, 16), looks=True),
 }

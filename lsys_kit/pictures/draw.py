@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
@@ -31,6 +31,7 @@ from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.solids import glb, mtl, obj
 from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, turtle_svg
 from lsys_kit.pictures.view import seen
+from lsys_kit.worlds.derive import derive
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -1,0 +1,76 @@
+"""Deriving in a world: before each step somebody looks at the word, and answers what its modules ask.
+
+Interpret, ask, fill in, step. The engine is the one of the derivation room, which knows no turtle: it is handed what looks at
+a word (see `World` there), as it is handed a seed. So the public `derive` stands here, above geometry, and a system that asks
+for nothing is derived as if this room were not there.
+"""
+
+from __future__ import annotations
+
+from typing import Any, overload
+
+from lsys_kit.derivation import derive as words_alone
+from lsys_kit.derivation.derive import Derivation, derived
+from lsys_kit.derivation.development import Development
+from lsys_kit.notation.maps import MapSystem
+from lsys_kit.notation.model import LSystem
+from lsys_kit.worlds.sight import seen
+
+
+@overload
+def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
+           **constants: object) -> Derivation: ...
+@overload
+def derive(system: MapSystem, steps: int) -> Development: ...
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
+    """Derive a system: the words of steps 0 to `steps`.
+
+    Parameters
+    ----------
+    system
+        Any L-system. Where its rules ask for what the turtle sees, by a sensitive function or by a query module such as
+        `?P(x,y)`, each word is looked at before the next step. Or a map system, whose maps are derived, and which has no
+        choices.
+    steps
+        How many steps.
+    **choices
+        `seed`, where chance begins: the same seed gives the same words, on every machine; by default the system's own, else 0.
+        `arithmetic`, "exact", or "float" to compute in doubles as cpfg and L-Py do. And new values for declared constants:
+        numbers, or texts such as "14/10".
+
+    Returns
+    -------
+    Derivation
+        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those between. A query
+        module has the answer of the last step in it; `sight(step)` tells what the next one sees. For a map system a
+        `Development`, a sequence of `steps + 1` maps.
+
+    Raises
+    ------
+    ModelLimitError
+        A step would be too large; the error has the step, the size and, in `partial`, the derivation of the steps that fit.
+    ModelValueError
+        A value cannot be computed; the error names the module and the production.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
+    >>> [str(word) for word in derive(fibonacci, 3)]
+    ['a', 'a b', 'a b a', 'a b a a b']
+    >>> derive(fibonacci, 30).lengths[-1]
+    2178309
+
+    An apex that grows while it is below 3:
+
+    >>> derive(read("axiom: F A ?P(0,0)\\nA > ?P(x,y) : y < 3 -> F A"), 4)
+    0 F A?P(0,0)
+    1 F F A?P(0,1)
+    2 F F F A?P(0,2)
+    3 F F F A?P(0,3)
+    4 F F F A?P(0,3)
+    """
+    if isinstance(system, LSystem):
+        return derived(system, steps, seen, **choices)
+    maps: Development = words_alone.derive(system, steps, **choices)
+    return maps

@@ -1,0 +1,266 @@
+"""What is seen of a word: laws first, then small scenes that can be checked by hand."""
+
+from __future__ import annotations
+
+import math
+from itertools import chain
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read
+from lsys_kit.derivation.courses import Stepping
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.states import States
+from lsys_kit.derivation.words import Word
+from lsys_kit.geometry.space import followed
+from lsys_kit.notation.expressions import Apply, Number
+from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.worlds.sight import Seen, seen
+from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
+
+FUNCTIONS = {1: (1,), 2: (1,), 7: (), 9: (60, 1)}
+ASKING = tuple(Production(Module("x"), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
+               for number, values in FUNCTIONS.items())
+"""Rules that make modules x ask; they are never applied here."""
+
+
+def word_of(modules: str | list[Module], **settings) -> Word:
+    """A word as it is: its modules parted by blanks, such as `F(2)` or `+(45)`, and those called x ask."""
+    if isinstance(modules, str):
+        modules = [Module(symbol, tuple(Number(float(value)) for value in values.rstrip(")").split(",") if value))
+                   for symbol, _, values in (part.partition("(") for part in modules.split())]
+    return derive(LSystem(tuple(modules), ASKING, **settings), 0)[0]
+
+
+def asked(sight: Seen, number: int, *values: float) -> list[float]:
+    """What a function answers to the modules x of a word, one after another."""
+    return [float(sight.sees(position, number, *values)) for position, module in enumerate(sight.word) if module.symbol == "x"]
+
+
+def all_answers(word: Word) -> list[list[float]]:
+    sight = seen(word)
+    return [asked(sight, number, *values) for number, values in FUNCTIONS.items()]
+
+
+degrees = st.integers(-72, 72).map(lambda tens: Number(5 * tens))
+lengths = st.integers(1, 6).map(lambda halves: Number(halves / 2))
+moves = st.one_of(
+    st.builds(lambda symbol, value: [Module(symbol, (value,)), Module("x")], st.sampled_from("FFf"), lengths),
+    st.builds(lambda symbol, value: [Module(symbol, (value,))], st.sampled_from("+&/"), degrees))
+plants = st.recursive(
+    st.lists(moves, min_size=1, max_size=5).map(lambda parts: list(chain.from_iterable(parts))),
+    lambda inner: st.lists(inner | inner.map(lambda word: [Module("["), *word, Module("]")]), min_size=1, max_size=4).map(
+        lambda parts: list(chain.from_iterable(parts))), max_leaves=8)
+
+
+@given(systems_with({CONTEXT}) | systems_with({CHANCE, REPETITION}) | systems_with({CUT, CONTEXT}) | systems())
+@settings(max_examples=60, deadline=None)
+def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem) -> None:
+    alone = derive(system, 3, seed=5)
+    looked_at = Derivation(Stepping(States(system), 5, seen)).to(3)
+    assert list(map(str, looked_at)) == list(map(str, alone))
+    assert looked_at.lengths == alone.lengths
+    assert alone.sight(2) is None
+
+
+@given(plants)
+@settings(max_examples=80, deadline=None)
+def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[Module]) -> None:
+    query = Module("?P", tuple(map(Number, (0, 0, 0))))
+    word = word_of([query if module.symbol == "x" else module for module in modules])
+    places = [module.arguments for module in seen(word).word if module.symbol == "?P"]
+    behind = [modules[at - 1].symbol == "F" for at, module in enumerate(modules) if module.symbol == "x"]
+    found = [place for place, drawn in zip(places, behind, strict=True) if drawn]
+    ends = followed(word).segments.ends[:, 3:]
+    expected = np.column_stack((ends[:, 0], ends[:, 2], -ends[:, 1]))
+    assert np.array(found, float).reshape(-1, 3) == pytest.approx(expected, abs=2e-9)
+
+
+@given(plants, st.tuples(degrees, degrees, degrees))
+@settings(max_examples=80, deadline=None)
+def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns: tuple[Number, ...]) -> None:
+    queries = [Module(symbol, tuple(map(Number, (0, 0, 0)))) for symbol in ("?H", "?L", "?U")]
+    prefix = [Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True)]
+    word = [module for module in seen(word_of([*prefix, *modules, *queries])).word if module.symbol in ("?H", "?L", "?U")]
+    head, left, up = (np.array(module.arguments, float) for module in word)
+    assert np.cross(head, left) == pytest.approx(up, abs=1e-8)
+    assert [head @ head, left @ left, head @ left] == pytest.approx([1, 1, 0], abs=1e-8)
+
+
+@given(plants, lengths, st.tuples(degrees, degrees, degrees))
+@settings(max_examples=80, deadline=None)
+def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Module], far: Number,
+                                                              turns: tuple[Number, ...]) -> None:
+    prefix = [Module("f", (far,)), *(Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
+    here, there = seen(word_of(modules)), seen(word_of([*prefix, Module("f", (far,)), *modules]))
+    for number, values in ((2, (1,)), (9, (180, 1))):
+        assert asked(there, number, *values) == pytest.approx(asked(here, number, *values), abs=1e-8)
+
+
+@given(plants, lengths, degrees)
+@settings(max_examples=80, deadline=None)
+def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Module], far: Number, turn: Number) -> None:
+    back = Number(-float(turn.value))
+    prefix = [Module("+", (turn,)), Module("f", (far,)), Module("+", (back,))]
+    inclinations = asked(seen(word_of(modules)), 7)
+    assert asked(seen(word_of([*prefix, *modules])), 7) == pytest.approx(inclinations, abs=1e-6)
+
+
+@given(plants)
+@settings(max_examples=80, deadline=None)
+def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Module]) -> None:
+    larger = [Module(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
+    assert asked(seen(word_of(larger)), 2, 2) == pytest.approx([2 * d for d in asked(seen(word_of(modules)), 2, 1)], abs=1e-8)
+
+
+def by_definition(word: Word, at: int, least: float) -> float:
+    """Function 2 read literally: of all shoots but the last on the branch and its mother the nearest begin or end point."""
+    branch, stack, mothers, lengths, shoot = [], [], [], [], None
+    for position, module in enumerate(word):
+        if position == at:
+            shoot = branch[-2:] if branch else []
+        if module.symbol == "F":
+            mothers.append(branch[-1:])
+            lengths.append(float(module.arguments[0]))
+            branch = [*branch, len(lengths) - 1]
+        elif module.symbol == "[":
+            stack.append(branch)
+        elif module.symbol == "]":
+            branch = stack.pop()
+    ends = followed(word).segments.ends
+    assert shoot
+    points = [ends[n, i:i + 3] for n in range(len(ends)) for i in (0, 3) if n not in shoot and lengths[n] >= least]
+    return min((math.dist(ends[shoot[-1], 3:], point) for point in points), default=math.inf)
+
+
+@given(plants, st.sampled_from((0.5, 1, 2)))
+@settings(max_examples=120, deadline=None)
+def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Module], least: float) -> None:
+    word = word_of([Module("F", (Number(1),)), *modules])
+    sight = seen(word)
+    for position, module in enumerate(word):
+        if module.symbol == "x":
+            assert float(sight.sees(position, 2, least)) == pytest.approx(by_definition(word, position, least), abs=1e-8)
+
+
+def test_the_nearest_of_many_shoots_is_found_wherever_they_stand() -> None:
+    rng = np.random.default_rng(7)
+    places = rng.normal(size=(400, 3)) * (50, 1, 5)
+    prefix = " ".join(f"[ @M({x},{y},{z}) F(1) x ]" for x, y, z in places)
+    word = word_of(prefix)
+    ends = followed(word).segments.ends
+    points = ends.reshape(-1, 3)
+    expected = [np.delete(np.linalg.norm(points - tip, axis=1), (2 * n, 2 * n + 1)).min() for n, tip in enumerate(ends[:, 3:])]
+    assert asked(seen(word), 2, 1) == pytest.approx(expected, abs=1e-8)
+
+
+@given(plants, st.integers(0, 18))
+@settings(max_examples=80, deadline=None)
+def test_a_wider_cone_shows_nothing_farther(modules: list[Module], tens: int) -> None:
+    sight = seen(word_of(modules))
+    narrow, wide, all_around = (asked(sight, 9, angle, 1) for angle in (10 * tens, 10 * tens + 10, 180))
+    assert all(a >= b >= c for a, b, c in zip(narrow, wide, all_around, strict=True))
+    assert all_around == asked(sight, 2, 1)
+
+
+@given(plants)
+@settings(max_examples=60, deadline=None)
+def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Module]) -> None:
+    answers = [answer for row in all_answers(word_of(modules)) for answer in row]
+    assert all(answer >= 0 for answer in answers)
+
+
+def test_a_lonely_shoot_sees_no_other() -> None:
+    assert asked(seen(word_of("F(2) F(3) x")), 2, 1) == [math.inf]
+    assert asked(seen(word_of("x")), 2, 1) == [math.inf]
+
+
+def test_a_shoot_sees_its_grandmother() -> None:
+    assert asked(seen(word_of("F(2) F(3) F(4) x")), 2, 1) == [7]
+
+
+def test_a_short_shoot_is_not_seen() -> None:
+    sight = seen(word_of("F(10) [ +(90) F(0.5) ] [ -(90) F(3) ] x"))
+    assert asked(sight, 2, 0.5) == [0]
+    assert asked(seen(word_of("[ F(10) ] f(5) +(90) [ F(0.5) ] f(1) F(2) x")), 2, 1) == [pytest.approx(math.hypot(3, 5))]
+    assert asked(seen(word_of("[ F(10) ] f(5) +(90) [ F(0.5) ] f(1) F(2) x")), 2, 0.5) == [2.5]
+
+
+def test_a_shoot_of_another_colour_is_not_seen() -> None:
+    word = word_of("F(10) [ P(2) RU(90) f(3) F(1) ] [ P(4) RU(-90) f(2) F(1) ] RL(90) F(1) x", turtle="grogra")
+    sight = seen(word)
+    assert asked(sight, 2, 1) == [pytest.approx(math.sqrt(5))]
+    assert asked(sight, 2, 1, 2) == [pytest.approx(math.sqrt(10))]
+    assert asked(sight, 2, 1, 14) == [math.inf]  # its mother alone has the colour that is the first
+    assert asked(sight, 2, 1, 1) == [math.inf]
+
+
+def test_before_the_first_shoot_a_module_asks_from_where_the_turtle_is() -> None:
+    assert asked(seen(word_of("[ f(3) x ] [ +(90) f(4) F(1) ]")), 2, 1) == [5]
+    assert asked(seen(word_of("[ +(70) x ]")), 7) == [70]
+
+
+@pytest.mark.parametrize(("word", "answer"), [
+    ("F(1) x", 0), ("+(90) F(1) x", 90), ("&(35) F(1) x", 35), ("+(180) F(1) x", 180), ("+(20) F(1) -(20) x", 20)])
+def test_an_inclination_is_that_of_the_shoot(word: str, answer: float) -> None:
+    assert asked(seen(word_of(word)), 7) == [pytest.approx(answer)]
+
+
+@pytest.mark.parametrize(("word", "answer"), [
+    ("F(1) x", math.inf),
+    ("F(1) x [ +(30) F(1) ]", 30),
+    ("F(1) x [ F(1) ]", 0),
+    ("F(1) x [ +(60) F(1) ] [ -(40) F(1) ]", 40),
+    ("F(1) x [ f(3) +(90) f(2) +(180) F(4) ]", 0),
+    ("F(1) x [ f(3) +(90) f(1) F(4) ]", math.degrees(math.atan2(1, 3))),
+    ("F(1) x [ ^(90) f(5) &(90) f(1) +(90) f(1) +(180) F(2) ]", 0),
+    ("[ -(90) F(3) x ] F(5)", math.degrees(math.atan2(3, 5))),
+    ("f(2) [ +(90) F(3) x ] [ -(90) F(3) ]", math.inf),
+    ("+(90) f(2) -(90) F(4) +(180) f(1) F(2) x", 0),
+])
+def test_the_steepest_way_up_is_measured_from_the_vertical(word: str, answer: float) -> None:
+    assert asked(seen(word_of(word)), 1, 1) == [pytest.approx(answer)]
+
+
+def test_a_cone_points_where_the_shoot_points() -> None:
+    word = "F(4) x [ f(3) F(1) ] [ +(90) f(1) F(1) ]"
+    sight = seen(word_of(word))
+    assert [asked(sight, 9, angle, 1) for angle in (0, 30, 89, 90)] == [[3], [3], [3], [1]]
+
+
+def test_what_is_measured_is_told_exactly() -> None:
+    system = read("axiom: [+(30) F(1) ?P(0,0)] [-(60) F(0.1) F(0.2) ?P(0,0)] A\nA -> B")
+    word = derive(system, 1)[-1]
+    assert [str(module) for module in word if module.symbol == "?P"] == ["?P(-0.5,0.866025404)", "?P(0.259807621,0.15)"]
+    doubles = [m.arguments for m in derive(system, 1, arithmetic="float")[-1] if m.symbol == "?P"]
+    assert all(type(value) is float for values in doubles for value in values)
+
+
+@pytest.mark.parametrize(("values", "told"), [("", "?P"), ("(9)", "?P(-1)"), ("(9,9)", "?P(-1,0)"), ("(9,9,9)", "?P(-1,0,0)")])
+def test_a_query_module_gets_as_many_values_as_it_has_room_for(values: str, told: str) -> None:
+    assert str(derive(read(f"axiom: +(90)F(1)?P{values}"), 1)[-1]) == f"+(90)F(1){told}"
+
+
+def test_a_fourth_value_is_not_to_be_had() -> None:
+    with pytest.raises(ModelValueError, match=r"\?P\(0,0,0,0\) asks for more than the three values"):
+        derive(read("axiom: ?P(0,0,0,0)"), 1)
+
+
+def test_interpretation_rules_are_followed() -> None:
+    system = read("axiom: I ?P(0,0)\nI -> I\ninterpretation:\nI -> F(3) -(90) F(1)")
+    assert str(derive(system, 1)[-1]) == "I?P(1,3)"
+
+
+def test_a_plant_with_a_million_open_brackets_is_an_error() -> None:
+    with limits(brackets=50), pytest.raises(ModelLimitError, match="More than 50 brackets"):
+        derive(read("axiom: A ?P(0,0)\nA -> [A]"), 60)
+
+
+def test_looking_is_given_up_in_time() -> None:
+    with limits(seconds=0.2), pytest.raises(ModelLimitError, match=r"was not reached in 0\.2 seconds") as caught:
+        derive(read("axiom: A ?P(0,0)\nA -> [+F A][-F A]"), 30)
+    assert isinstance(caught.value.partial, Derivation)
+    assert caught.value.partial.steps > 5
