@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.development import Development
 from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
@@ -22,9 +23,11 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.notation.maps import MapSystem
 from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures import raster
 from lsys_kit.pictures.files import keep, keep_beside
+from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import GREEN, colours
 from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
@@ -174,14 +177,16 @@ def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions:
 @overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture: ...
-def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPicture:
+@overload
+def draw(what: MapSystem | Development, n: int | None = None, **forces: object) -> MapPicture: ...
+def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture:
     """Draw a system, a derivation, a word or a stage diagram.
 
     Parameters
     ----------
     what
         A system is derived first. A filament is then shown as a developmental sequence, one row a step; anything else as
-        the turtle draws its last word. A single word is shown as it is.
+        the turtle draws its last word. A single word is shown as it is. The maps of a map system stand side by side.
     n
         For a system how many steps; by default those that the system asks for.
     angle
@@ -189,7 +194,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPictur
     **choices
         For a system `seed`, `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules
         are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
-        where in the successor a module stands.
+        where in the successor a module stands. For a map system new values of the forces that shape it: `stiffness`, `rest`,
+        `pressure`, `damping`.
 
     Raises
     ------
@@ -204,6 +210,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> Picture | NetPictur
     """
     if isinstance(what, Stages):
         return _diagram(what, **choices)
+    if isinstance(what, MapSystem | Development):
+        return map_picture(what, n, **choices)
     return _drawing(what, n, **choices)
 
 

@@ -1,0 +1,236 @@
+"""Maps as pictures: the steps of a development side by side, with a common scale, as in seed 003 and The Algorithmic Beauty of
+Plants, figures 7.4 to 7.7.
+
+Walls have their labels, and arrows where they have a direction. Cells of one colour have the same walls around them.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.development import Development, developed
+from lsys_kit.derivation.maps import Map
+from lsys_kit.derivation.rules import number_from
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.geometry.maps import placed, scenes
+from lsys_kit.geometry.relaxation import Forces
+from lsys_kit.geometry.scene import Floats, Polygons, Scene
+from lsys_kit.notation.maps import MapSystem
+from lsys_kit.pictures.files import keep
+from lsys_kit.pictures.labels import letter_svg
+from lsys_kit.pictures.palette import INK, PAPER, QUIET, SERIES, tinted
+from lsys_kit.pictures.svg import MARGIN, Frame, background, described, document
+
+WIDTH, HIGHEST = 760, 400
+"""The width of a line of maps and the height of a map at most, in pixels."""
+LARGE, MIDDLE, SMALL = 180.0, 130.0, 95.0
+"""Pixels for a unit: of few maps; of maps in several lines; of maps in one line at least."""
+GAP, CAPTION, NUMBER = 22, 34, 14
+"""The space between two maps, that below one, and the size of the number of its step there, in pixels."""
+MOST_STEPS, STEPS = 12, 4
+"""A picture shows so many steps, the last ones; so many are derived where nothing is said."""
+LABEL, LEAST_LABELLED, LEAST_POINTED = 13.0, 24.0, 13.0
+"""The size of a label, and how long walls are that have a label or an arrow, in pixels."""
+FILLS = tuple(tinted(colour, strength) for strength in (0.3, 0.6) for colour in SERIES)
+"""The colours of the kinds of cells that are met first."""
+REST = tinted(QUIET, 0.13)
+"""The colour of cells of all further kinds."""
+RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "damping": (0.1, 10)}
+"""Between which values the forces can be computed."""
+
+
+@dataclass(frozen=True)
+class MapPicture:
+    """A picture of the steps of a map system, side by side.
+
+    Attributes
+    ----------
+    maps, places, scenes
+        The maps that are shown, where their vertices lie, and their walls and cells.
+    first
+        The step of the first of them.
+    """
+
+    maps: Sequence[Map]
+    places: Sequence[Floats]
+    scenes: Sequence[Scene]
+    first: int
+
+    @property
+    def text(self) -> str:
+        """What the picture shows, in words."""
+        counts = zip(self.maps[-1].counts, ("vertex", "wall", "cell"), ("vertices", "walls", "cells"), strict=True)
+        last = ", ".join(f"{count:,} {one if count == 1 else many}" for count, one, many in counts)
+        steps = f"steps {self.first} to {self.first + len(self.maps) - 1}" if len(self.maps) > 1 else ""
+        return described([steps, ("the last: " if steps else "") + last])
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        panels = arranged(self.scenes)
+        body = "".join(panel_svg(found, places, scene, panel, self.first + number) for number, (found, places, scene, panel)
+                       in enumerate(zip(self.maps, self.places, self.scenes, panels, strict=True)))
+        width, height = panels[0].frame.width, panels[0].frame.height
+        return document(background(width, height) + body, width, height, described([self.text, self._colours]))
+
+    @property
+    def _colours(self) -> str:
+        """What the colours mean, in words."""
+        kinds = 1 + max(int(scene.polygons.states.max()) for scene in self.scenes)
+        if kinds == 1:
+            return "all cells have the same walls around them"
+        return "cells of one colour have the same walls around them" + ", but for grey ones" * (kinds > len(FILLS))
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg file.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": self.text}
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def map_picture(what: MapSystem | Development, n: int | None = None, **forces: object) -> MapPicture:
+    """The picture of a map system after `n` steps, or of a development."""
+    if isinstance(what, MapSystem):
+        what = developed(what, n if n is not None else what.steps if what.steps is not None else STEPS)
+    elif n is not None:
+        raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
+    walls = sum(walls for _, walls, _ in what.counts[-MOST_STEPS:])
+    if walls > current().segments:
+        raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
+                              limit=current().segments, needed=walls, hint="Take fewer steps, or set limits(segments=...).")
+    places = [*placed(what, forces_of(forces))]
+    first = max(0, len(what) - MOST_STEPS)
+    return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], first)
+
+
+def forces_of(choices: dict[str, object]) -> Forces:
+    """The forces that are chosen; the others as they are.
+
+    >>> forces_of({"pressure": "1/5"})
+    Forces(stiffness=1.0, rest=0.1, pressure=0.2, damping=1.0)
+    """
+    values: dict[str, float] = {}
+    for name, choice in choices.items():
+        if name not in RANGES:
+            raise ModelNameError(f'A map has no "{name}"', hint=f"Its forces are {', '.join(RANGES)}.")
+        values[name] = float(number_from(choice, name))
+        least, most = RANGES[name]
+        if not least <= values[name] <= most:
+            raise ModelValueError(f'"{name}" must lie between {least} and {most}, not be {values[name]:g}')
+    return replace(Forces(), **values)
+
+
+class Panel(NamedTuple):
+    """Where a map stands in the picture, and where the number of its step stands, in tenths of a pixel."""
+
+    frame: Frame
+    x: int
+    y: int
+
+
+def arranged(some: Sequence[Scene]) -> list[Panel]:
+    """For each map where it stands: in lines, each in the middle, with a common scale."""
+    scale = _scale(some)
+    lines = [*_lines(some, scale)]
+    widths = [sum(scene.width * scale + GAP for scene in line) - GAP for line in lines]
+    heights = [max(scene.height for scene in line) * scale for line in lines]
+    size = math.ceil(max(widths)) + 2 * MARGIN, math.ceil(sum(heights) + len(lines) * CAPTION) + 2 * MARGIN
+    panels: list[Panel] = []
+    top = 0.0
+    for line, width, height in zip(lines, widths, heights, strict=True):
+        across = (max(widths) - width) / 2
+        for scene in line:
+            (left, _, _, highest), own = scene.box, scene.width * scale
+            drop = top + (height - scene.height * scale) / 2
+            panels.append(Panel(Frame(scale, left - across / scale, highest + drop / scale, *size),
+                                round((MARGIN + across + own / 2) * 10), round((MARGIN + top + height + NUMBER + 3) * 10)))
+            across += own + GAP
+        top += height + CAPTION
+    return panels
+
+
+def _scale(some: Sequence[Scene]) -> float:
+    """Pixels for a unit: so many that all maps stand in one line, if they are large enough there."""
+    in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / sum(scene.width for scene in some)
+    return min(min(LARGE, in_line) if in_line >= SMALL else MIDDLE, *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
+               *(HIGHEST / scene.height for scene in some))
+
+
+def _lines(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
+    """Maps that stand beside one another."""
+    line: list[Scene] = []
+    across = 0.0
+    for scene in some:
+        width = scene.width * scale
+        if line and across + width > WIDTH - 2 * MARGIN + 1e-6:
+            yield line
+            line, across = [], 0.0
+        line.append(scene)
+        across += width + GAP
+    yield line
+
+
+def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, step: int) -> str:
+    """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
+    return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame)}"
+            f'<text x="{panel.x}" y="{panel.y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
+            f'fill="{QUIET}">{step}</text>')
+
+
+def cells_svg(cells: Polygons, frame: Frame) -> str:
+    """The cells, filled: a soft colour for each of the first kinds."""
+    shapes = []
+    for corners, kind in zip(cells, cells.states.tolist(), strict=True):
+        points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
+        shapes.append(f'<polygon points="{points}" fill="{FILLS[kind] if kind < len(FILLS) else REST}"/>')
+    return "".join(shapes)
+
+
+def walls_svg(found: Map, places: Floats, frame: Frame) -> str:
+    """The walls as one path, their arrows as another, then their labels."""
+    points = frame.points(places).tolist()
+    strokes, arrows, labels = [], [], []
+    for wall in found.walls:
+        (x, y), (to_x, to_y) = points[wall.start], points[wall.end]
+        length = math.hypot(to_x - x, to_y - y)
+        strokes.append(f"M{x} {y}L{to_x} {to_y}")
+        if wall.directed and length > LEAST_POINTED * 10:
+            arrows.append(_arrow(x, y, to_x, to_y, length))
+        if length > LEAST_LABELLED * 10:
+            labels.append(_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
+    return (f'<path d="{"".join(strokes)}" fill="none" stroke="{INK}" stroke-width="16" stroke-linecap="round"/>'
+            f'<path d="{"".join(arrows)}" fill="{INK}"/>'
+            f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{INK}" stroke="{PAPER}" '
+            f'stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
+
+
+def _arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
+    """A head that points along a wall, behind its middle."""
+    along, across = (to_x - x) / length, (to_y - y) / length
+    reach = min(70.0, 0.25 * length)
+    tip = 0.76 * length + reach / 2
+    corners = ((tip, 0.0), (tip - reach, reach * 0.42), (tip - reach, -reach * 0.42))
+    at = (f"{x + ahead * along - aside * across:.0f} {y + ahead * across + aside * along:.0f}" for ahead, aside in corners)
+    return f"M{'L'.join(at)}Z"
+
+
+def _label(label: str, x: int, y: int) -> str:
+    letter, number = re.fullmatch(r"(\D)(\d*)", label).groups()  # type: ignore[union-attr]
+    return f'<text x="{x}" y="{y + round(3.4 * LABEL)}">{letter_svg(letter, number)}</text>'
