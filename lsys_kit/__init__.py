@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from lsys_kit.derivation.continuity import continuity
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth import growth
+    from lsys_kit.derivation.lineage import lineage
     from lsys_kit.derivation.stages import stages
     from lsys_kit.derivation.timed import timed
     from lsys_kit.errors import (
@@ -46,7 +47,8 @@ _HOMES = {
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films", "check": "classroom.exercises",
     "continuity": "derivation.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
-    "growth": "derivation.growth", "limits": "budget", "read": "notation.read", "stages": "derivation.stages",
+    "growth": "derivation.growth", "limits": "budget", "lineage": "derivation.lineage",
+    "read": "notation.read", "stages": "derivation.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",
 }
 
@@ -67,6 +69,7 @@ __all__ = [
     "figure",
     "growth",
     "limits",
+    "lineage",
     "read",
     "stages",
     "system",

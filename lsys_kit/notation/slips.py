@@ -27,9 +27,9 @@ _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
 """The characters beyond ASCII that the grammars know."""
 _A_VALUE = frozenset(("NUMBER", "LPAR"))
 _AN_ARROW = "This is no arrow"
-_CHOICES = {"TRADITION": ("turtle", 'Turtles are "abop", "grogra" and "plant-string".'),
-            "LOOK": ("cells", 'Cells are "rectangles" or "ellipses".')}
-"""The keywords behind which one of some words stands, by the kind of that word, and which words these are."""
+_CHOICES = {"TRADITION": ("turtle", "turtle", 'Turtles are "abop", "grogra" and "plant-string".'),
+            "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".')}
+"""The keywords behind which one of some words stands, by the kind of that word; what it is called, and which there are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
 _REPEAT = 'What is repeated reads "repeat(3) <F>", or, with a name that counts from 0, "repeat(3, i) <F(i)>".'
 _BEFORE_ARROW, _NO_ARROW = rf"(?=.*(?:{ARROW.pattern}))", rf"(?!.*(?:{ARROW.pattern}))"
@@ -143,11 +143,11 @@ def _chosen(stumble: Stumble) -> ModelSyntaxError | None:
     kind = next(iter(_CHOICES.keys() & stumble.accepted), None)
     if kind is None:
         return None
-    keyword, choices = _CHOICES[kind]
+    keyword, called, choices = _CHOICES[kind]
     if not stumble.found:
         return stumble.error(f'Nothing stands behind "{keyword}:"', choices, stumble.start, len(keyword))
     found = re.match(r"[\w-]+|.", stumble.after)
-    return stumble.error(f"I do not know the {keyword} {quoted(found[0] if found else stumble.found)}", choices)
+    return stumble.error(f"I do not know the {called} {quoted(found[0] if found else stumble.found)}", choices)
 
 
 def _braces(stumble: Stumble) -> ModelSyntaxError | None:

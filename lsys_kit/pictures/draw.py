@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import unescape
@@ -12,9 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.ageing import ageing_of
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.development import Development
 from lsys_kit.derivation.interpret import is_filament
+from lsys_kit.derivation.lineage import Lineage
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.derivation.words import Word
@@ -23,16 +25,19 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.notation.arithmetic import Value
 from lsys_kit.notation.maps import MapSystem
 from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures import raster
+from lsys_kit.pictures.filaments import LOOKS, rows_svg, sheet_of
 from lsys_kit.pictures.files import keep, keep_beside
+from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import GREEN, colours
 from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.solids import glb, mtl, obj
-from lsys_kit.pictures.svg import Row, background, described, document, frame_of, rows_svg, turtle_svg
+from lsys_kit.pictures.svg import WIDTH, Row, background, described, document, frame_of, turtle_svg
 from lsys_kit.pictures.view import seen
 from lsys_kit.worlds.derive import derive
 
@@ -59,6 +64,10 @@ class Picture:
         The states whose modules are marked.
     solid
         The scene of the last step as it is in space; None where it lies in the plane.
+    look
+        How cells are drawn: as "rectangles" or "ellipses".
+    time
+        How long a step of a filament takes, where its system says so.
     """
 
     rows: tuple[Row, ...]
@@ -66,6 +75,8 @@ class Picture:
     current: int | None = None
     marked: Collection[int] = ()
     solid: Scene | None = None
+    look: str = LOOKS[0]
+    time: Value | None = None
 
     @property
     def scene(self) -> Scene:
@@ -82,7 +93,8 @@ class Picture:
     def svg(self) -> str:
         """The picture as SVG text."""
         if len(self.scene.cells):
-            body, width, height = rows_svg(self.rows, self.colour_of, self.current, self.marked)
+            sheet = sheet_of(self.rows, self.current is not None, self.time)
+            body, width, height = rows_svg(sheet, self.look, self.colour_of, self.current, self.marked), WIDTH, sheet.height
         else:
             frame = frame_of(self.scene.box)
             width, height = frame.width, frame.height
@@ -97,7 +109,7 @@ class Picture:
     def png(self) -> bytes:
         """The picture as PNG, without text."""
         if len(self.scene.cells):
-            return raster.rows_png([row.scene for row in self.rows], self.colour_of)
+            return raster.rows_png(self.rows, self.look, self.colour_of)
         return raster.turtle_png(self.scene, self.colour_of)
 
     @cached_property
@@ -175,12 +187,15 @@ class NetPicture:
 @overload
 def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False) -> NetPicture: ...
 @overload
+def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture: ...
+@overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
-         arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture: ...
+         arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None,
+         **constants: object) -> Picture: ...
 @overload
 def draw(what: MapSystem | Development, n: int | None = None, **forces: object) -> MapPicture: ...
-def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture:
-    """Draw a system, a derivation, a word or a stage diagram.
+def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
+    """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
     Parameters
     ----------
@@ -191,11 +206,13 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         For a system how many steps; by default those that the system asks for.
     angle
         Degrees by which `+` and `-` turn; by default the system's.
+    cells
+        How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses"; by default as the system says.
     **choices
         For a system `seed`, `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules
         are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
-        where in the successor a module stands. For a map system new values of the forces that shape it: `stiffness`, `rest`,
-        `pressure`, `damping`.
+        where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
+        For a map system new values of the forces that shape it: `stiffness`, `rest`, `pressure`, `damping`.
 
     Raises
     ------
@@ -212,6 +229,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         return _diagram(what, **choices)
     if isinstance(what, MapSystem | Development):
         return map_picture(what, n, **choices)
+    if isinstance(what, Lineage):
+        return lineage_picture(what, **choices)
     return _drawing(what, n, **choices)
 
 
@@ -220,12 +239,13 @@ def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -
 
 
 def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int | None = None,
-             arithmetic: str = "exact", marked: Collection[int] = (), **constants: object) -> Picture:
+             arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, **constants: object) -> Picture:
     if not isinstance(what, LSystem | Derivation | Word):
-        raise ModelValueError(f"Only systems, derivations, words and stage diagrams can be drawn, not {type(what).__name__}")
+        raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
+                              f"not {type(what).__name__}")
     what = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
     if is_filament(what.states.system):
-        return _sequence(what, marked)
+        return _sequence(what, marked, cells)
     turn = float(number_from(angle, "angle") if angle is not None else what.states.system.angle)
     step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)
     return Picture((Row(step, seen(scene)),), state_colours(what), None, marked, scene if scene.dimension == 3 else None)
@@ -240,13 +260,22 @@ def derived(what: LSystem | Derivation | Word, n: int | None, **choices: Any) ->
     return what
 
 
-def _sequence(what: Derivation | Word, marked: Collection[int]) -> Picture:
+def _sequence(what: Derivation | Word, marked: Collection[int], cells: str | None) -> Picture:
     """A filament's steps below one another; a word alone."""
     if isinstance(what, Word):
-        return Picture((Row(0, filament(what)),), state_colours(what), None, marked)
+        return filament_picture(what, (Row(0, filament(what)),), None, marked, cells)
     first = max(0, what.steps + 1 - MOST_ROWS)
     rows = tuple(Row(step, filament(what[step])) for step in range(first, what.steps + 1))
-    return Picture(rows, state_colours(what), what.steps, marked)
+    return filament_picture(what, rows, what.steps, marked, cells)
+
+
+def filament_picture(what: Derivation | Word, rows: tuple[Row, ...], current: int | None, marked: Collection[int] = (),
+                     cells: str | None = None) -> Picture:
+    """The picture of a filament's rows, as its system asks for it."""
+    look = what.states.system.cells if cells is None else cells
+    if look not in LOOKS:
+        raise ModelValueError(f"Cells are drawn as {' or '.join(LOOKS)}, not as {look!r}")
+    return Picture(rows, state_colours(what), current, marked, look=look, time=ageing_of(what.states).step)
 
 
 def state_colours(what: Derivation | Word) -> Mapping[int, str]:
@@ -293,7 +322,7 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     picture = what if isinstance(what, Picture) else draw(what, **choices)
     ax = new_axes() if ax is None else ax
     if len(picture.scene.cells):
-        plot_rows(ax, picture.rows, picture.colour_of)
+        plot_rows(ax, picture.rows, picture.look, picture.colour_of)
     else:
         plot_turtle(ax, picture.scene, picture.colour_of)
     ax.set_aspect("equal")

@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.geometry.scene import CIRCLE, Cells, Scene
+from lsys_kit.geometry.scene import CIRCLE, Scene
+from lsys_kit.pictures.filaments import Cell, sheet_of, wall_colour, wall_width
 from lsys_kit.pictures.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, Frame, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import MARGIN, WIDTH, Frame, Row, frame_of, groups, shape_colours
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+    from PIL.ImageDraw import ImageDraw
 
 Coordinates: TypeAlias = NDArray[np.float32]
 FINE = 3
@@ -103,38 +105,36 @@ def spread(found: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
     return all_
 
 
-def rows_png(scenes: Sequence[Scene], colour_of: Mapping[int, str]) -> bytes:
+def rows_png(rows: Sequence[Row], look: str, colour_of: Mapping[int, str]) -> bytes:
     """Filaments below one another, with a common scale, as a PNG picture."""
     from PIL import Image, ImageDraw
 
-    longest = max(scene.width for scene in scenes)
-    tallest = max(scene.height for scene in scenes)
-    pitch = min(46.0, (HEIGHT - 2 * MARGIN) / len(scenes))
-    scale = min((WIDTH - 2 * MARGIN) / max(longest, 1e-9), 0.78 * pitch / max(tallest, 1e-9))
-    height = round(pitch * len(scenes)) + 2 * MARGIN
-    image = Image.new("RGB", (WIDTH * FINE, height * FINE), PAPER)
+    sheet = sheet_of(rows, written=False)
+    image = Image.new("RGB", (WIDTH * FINE, sheet.height * FINE), PAPER)
     pen = ImageDraw.Draw(image)
-    for place, scene in enumerate(scenes):
-        middle = (MARGIN + pitch * (place + 0.5)) * FINE
-        left = (WIDTH - scene.width * scale) / 2 * FINE
-        _row(pen, scene.cells, scale * FINE, left, middle, colour_of)
-    return _png(image.resize((WIDTH, height), Image.Resampling.BOX))
+    for place, row in enumerate(rows):
+        middle = sheet.middle(place) * FINE
+        for cell in sheet.cells(row):
+            _cell(pen, cell, look, middle, colour_of.get(cell.state, GREEN))
+        for wall in sheet.walls(row):
+            reach, colour = (wall.height + 2) * FINE, wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
+            pen.line([(wall.x * FINE, middle - reach), (wall.x * FINE, middle + reach)], fill=colour,
+                     width=round(wall_width(wall.shade) * FINE))
+    return _png(image.resize((WIDTH, sheet.height), Image.Resampling.BOX))
 
 
-def _row(pen: object, cells: Cells, scale: float, left: float, middle: float, colour_of: Mapping[int, str]) -> None:
-    for x, (length, width), way, shade, state in zip(
-            (cells.centres[:, 0] * scale + left).tolist(), (cells.sizes * scale / 2).tolist(), cells.polarities.tolist(),
-            cells.shades.tolist(), cells.states.tolist(), strict=True):
-        colour = colour_of.get(state, GREEN)
-        pen.ellipse((x - length, middle - width, x + length, middle + width), outline=colour,  # type: ignore[attr-defined]
-                    fill=tinted(colour, 0.28 + 0.6 * shade), width=FINE)
-        if length > 7 and way:
-            reach, head = 0.58 * length * way, 0.32 * min(length, width)
-            tip = x + reach
-            back = tip - head * way
-            pen.line([(x - reach, middle), (tip, middle)], fill=INK, width=FINE)  # type: ignore[attr-defined]
-            pen.line([(back, middle - head), (tip, middle), (back, middle + head)],  # type: ignore[attr-defined]
-                     fill=INK, width=FINE, joint="curve")
+def _cell(pen: ImageDraw, cell: Cell, look: str, middle: float, colour: str) -> None:
+    x, length, width = cell.x * FINE, cell.length * FINE, cell.width * FINE
+    box, fill = (x - length, middle - width, x + length, middle + width), tinted(colour, 0.28 + 0.6 * cell.shade)
+    if look == "ellipses":
+        pen.ellipse(box, outline=colour, fill=fill, width=FINE)
+    else:
+        pen.rounded_rectangle(box, min(length, width), outline=colour, fill=fill, width=FINE)
+    if length > 7 and cell.way:
+        tip, head = x + 0.55 * length * cell.way, 0.3 * min(length, width)
+        back = tip - head * cell.way
+        pen.line([(2 * x - tip, middle), (tip, middle)], fill=INK, width=FINE)
+        pen.line([(back, middle - head), (tip, middle), (back, middle + head)], fill=INK, width=FINE, joint="curve")
 
 
 def _png(image: object) -> bytes:

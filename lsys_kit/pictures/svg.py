@@ -5,15 +5,15 @@ Coordinates are whole tenths of a pixel, so that the text of a picture is the sa
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.geometry.scene import CIRCLE, OWN, Cells, Discs, Floats, Integers, Polygons, Scene, Segments
-from lsys_kit.pictures.palette import CHOSEN, GREEN, INK, MARK, MARK_EDGE, PAPER, QUIET, tinted
+from lsys_kit.geometry.scene import CIRCLE, OWN, Discs, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.pictures.palette import CHOSEN, GREEN, MARK_EDGE, PAPER, tinted
 
 WIDTH, HEIGHT = 600, 400
 """The largest picture, in pixels."""
@@ -159,59 +159,6 @@ class Row:
 
     step: int
     scene: Scene
-
-
-def rows_svg(rows: Sequence[Row], colour_of: Mapping[int, str], current: int | None = None,
-             marked: Collection[int] = ()) -> tuple[str, int, int]:
-    """Filaments below one another, centred, with a common scale; the current row on a tinted band.
-
-    Returns
-    -------
-    tuple
-        The body of the picture, its width and its height in pixels.
-    """
-    gutter = 34
-    longest = max(row.scene.width for row in rows)
-    tallest = max(row.scene.height for row in rows)
-    pitch_most = min(46.0, (HEIGHT - 2 * MARGIN) / len(rows))
-    scale = min((WIDTH - gutter - 2 * MARGIN) / max(longest, 1e-9), 0.78 * pitch_most / max(tallest, 1e-9))
-    pitch = max(14.0, min(pitch_most, tallest * scale / 0.72))
-    width = WIDTH
-    body = []
-    for place, row in enumerate(rows):
-        middle = round((MARGIN + pitch * (place + 0.5)) * 10)
-        if row.step == current:
-            body.append(f'<rect x="20" y="{middle - round(pitch * 5)}" width="{width * 10 - 40}" height="{round(pitch * 10)}" '
-                        f'rx="40" fill="{MARK}"/>')
-        weight = ' font-weight="bold"' if row.step == current else ""
-        body.append(f'<text x="{gutter * 10 - 60}" y="{middle + 45}" font-size="150" text-anchor="end" '
-                    f'font-family="sans-serif" fill="{INK if weight else QUIET}"{weight}>{row.step}</text>')
-        left = round((gutter + (width - gutter) / 2 - row.scene.width * scale / 2) * 10)
-        body.append(cells_svg(row.scene.cells, scale * 10, left, middle, colour_of, marked))
-    return "".join(body), width, round(pitch * len(rows)) + 2 * MARGIN
-
-
-def cells_svg(cells: Cells, scale: float, left: int, middle: int, colour_of: Mapping[int, str],
-              marked: Collection[int] = ()) -> str:
-    """One filament: ellipses, lighter when young, with arrows for their polarity."""
-    centres = np.floor(cells.centres[:, 0] * scale + left + 0.5001).astype(int).tolist()
-    radii = np.floor(cells.sizes * scale / 2 + 0.5001).astype(int).tolist()
-    shades, states = cells.shades.tolist(), cells.states.tolist()
-    fills = {key: tinted(colour_of.get(key[0], GREEN), 0.28 + 0.6 * key[1]) for key in set(zip(states, shades, strict=True))}
-    shapes = []
-    for x, (rx, ry), shade, state in zip(centres, radii, shades, states, strict=True):
-        edge = f'{MARK_EDGE}" stroke-width="32' if state in marked else colour_of.get(state, GREEN)
-        shapes.append(f'<ellipse cx="{x}" cy="{middle}" rx="{rx}" ry="{ry}" fill="{fills[state, shade]}" stroke="{edge}"/>')
-    arrows = "".join(_arrow(x, middle, rx, ry, way)
-                     for x, (rx, ry), way in zip(centres, radii, cells.polarities.tolist(), strict=True) if rx > 25 and way)
-    return (f'<g stroke-width="10">{"".join(shapes)}</g>'
-            f'<path d="{arrows}" fill="none" stroke="{INK}" stroke-width="9" stroke-linecap="round" stroke-linejoin="round"/>')
-
-
-def _arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
-    reach, head = round(0.58 * rx), max(12, round(0.32 * min(rx, ry)))
-    tip = x + way * reach
-    return f"M{x - way * reach} {y}H{tip}M{tip - way * head} {y - head}L{tip} {y}L{tip - way * head} {y + head}"
 
 
 def background(width: int, height: int) -> str:

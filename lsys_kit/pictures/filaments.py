@@ -1,0 +1,234 @@
+"""Filaments as pictures: the rows of a developmental sequence below one another, with a common scale.
+
+Cells are ellipses, as in seed 000's figures, or rectangles with round ends, as in seed 002's, in which the smallest cells are
+round; arrows are their polarity. Walls are bars, thicker and darker with age, with their age in figures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from itertools import pairwise
+from typing import NamedTuple
+
+from lsys_kit.notation.arithmetic import Value, number_text, tidy
+from lsys_kit.pictures.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
+from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, Row
+
+LOOKS = ("rectangles", "ellipses")
+"""How cells may be drawn."""
+HEAD, STEPS, TIMES, AGES = 18, 34, 46, 12
+"""Room for the heading, the column of steps, that of times, and the ages of walls, in pixels."""
+TALLEST, FILLED = 46.0, 0.66
+"""How far rows are apart at most, in pixels, and how much of that is filled."""
+LEGIBLE = 28
+"""Ages of walls are written where rows are so many pixels apart."""
+
+
+class Cell(NamedTuple):
+    """A cell in the picture: its middle, half its length and width, its polarity, shade and state."""
+
+    x: float
+    length: float
+    width: float
+    way: int
+    shade: float
+    state: int
+
+
+class Wall(NamedTuple):
+    """A wall in the picture: where it stands, half its height, its age in figures, its shade and state."""
+
+    x: float
+    height: float
+    age: str
+    shade: float
+    state: int
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Where the rows stand in a picture, in pixels.
+
+    Attributes
+    ----------
+    rows
+        The rows.
+    numbered
+        Whether their steps stand beside them.
+    time
+        How long a step takes; None where times do not stand beside them.
+    scale
+        Pixels for a unit of length.
+    gutter, head, above
+        Room to the left of all rows, above them all, and above each row's cells.
+    pitch
+        How far rows are apart.
+    """
+
+    rows: Sequence[Row]
+    numbered: bool
+    time: Value | None
+    scale: float
+    gutter: int
+    head: int
+    above: int
+    pitch: float
+
+    @property
+    def height(self) -> int:
+        """The height of the picture."""
+        return round(self.pitch * len(self.rows)) + self.head + 2 * MARGIN
+
+    def middle(self, place: int) -> float:
+        """How far down the cells of a row stand."""
+        return MARGIN + self.head + self.pitch * (place + 0.5) + self.above / 2
+
+    def cells(self, row: Row) -> Iterator[Cell]:
+        """The cells of a row."""
+        cells, left = row.scene.cells, self._left(row)
+        return (Cell(left + x, length / 2, width / 2, way, shade, state) for x, (length, width), way, shade, state in zip(
+            (cells.centres[:, 0] * self.scale).tolist(), (cells.sizes * self.scale).tolist(), cells.polarities.tolist(),
+            cells.shades.tolist(), cells.states.tolist(), strict=True))
+
+    def walls(self, row: Row) -> Iterator[Wall]:
+        """The walls of a row."""
+        walls, left = row.scene.walls, self._left(row)
+        return (Wall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
+                for x, height, age, shade, state in zip(
+                    (walls.places * self.scale).tolist(), (walls.heights * self.scale).tolist(), walls.ages.tolist(),
+                    walls.shades.tolist(), walls.states.tolist(), strict=True))
+
+    def _left(self, row: Row) -> float:
+        """Where a row begins: all are centred."""
+        return self.gutter + (WIDTH - self.gutter - MARGIN - row.scene.width * self.scale) / 2
+
+
+def sheet_of(rows: Sequence[Row], numbered: bool = False, time: Value | None = None, written: bool = True) -> Sheet:
+    """The sheet for some rows.
+
+    Parameters
+    ----------
+    rows
+        The rows.
+    numbered
+        Whether their steps stand beside them.
+    time
+        How long a step takes; times stand beside the rows too, where they are not those of the steps.
+    written
+        Whether there is any text.
+    """
+    time = time if numbered and time != 1 else None
+    gutter, head = MARGIN + STEPS * numbered + TIMES * (time is not None), HEAD * numbered
+    longest = max(max(row.scene.width for row in rows), 1e-9)
+    tallest = max(max(row.scene.height for row in rows), 1e-9)
+    most = min(TALLEST, (HEIGHT - 2 * MARGIN - head) / len(rows))
+    above = AGES if written and most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
+    scale = min((WIDTH - gutter - 2 * MARGIN) / longest, (FILLED * most - above) / tallest)
+    pitch = max(14.0, min(most, (tallest * scale + above) / FILLED))
+    return Sheet(rows, numbered, time, scale, gutter, head, above, pitch)
+
+
+def rows_svg(sheet: Sheet, look: str, colour_of: Mapping[int, str], current: int | None = None,
+             marked: Collection[int] = ()) -> str:
+    """Filaments below one another, centred, with a common scale; the current row on a tinted band."""
+    body = [_heading(sheet)] if sheet.numbered else []
+    for place, row in enumerate(sheet.rows):
+        middle = sheet.middle(place)
+        if sheet.numbered:
+            body.append(_labels(sheet, row.step, middle, row.step == current))
+        body.append(cells_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
+        body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
+    return "".join(body)
+
+
+def _heading(sheet: Sheet) -> str:
+    """What stands in the columns."""
+    y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
+    if sheet.time is not None:
+        texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
+    return "".join(f'<text x="{tenths(x)}" y="{y}" font-size="110" text-anchor="end" font-family="sans-serif" '
+                   f'fill="{QUIET}">{text}</text>' for x, text in texts)
+
+
+def _labels(sheet: Sheet, step: int, middle: float, current: bool) -> str:
+    """A row's step and time, on a band where it is the current one."""
+    top, size = middle - sheet.above / 2 - sheet.pitch / 2, tenths(min(14.0, 0.8 * sheet.pitch))
+    band = (f'<rect x="40" y="{tenths(top)}" width="{WIDTH * 10 - 80}" height="{tenths(sheet.pitch)}" rx="60" fill="{MARK}"/>'
+            if current else "")
+    texts = [(MARGIN + STEPS - 8, str(step))]
+    if sheet.time is not None:
+        texts.append((MARGIN + STEPS + TIMES - 8, time_text(step * sheet.time)))
+    weight = f'fill="{INK}" font-weight="bold"' if current else f'fill="{QUIET}"'
+    return band + "".join(f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
+                          f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>' for x, text in texts)
+
+
+def time_text(time: Value) -> str:
+    """A time in figures: exactly where that is short.
+
+    >>> time_text(0.7), time_text(2 / 3)
+    ('0.7', '0.6667')
+    """
+    text = number_text(tidy(time))
+    return escape(text if len(text) <= 6 else f"{float(time):.4g}")
+
+
+def cells_svg(cells: Sequence[Cell], look: str, middle: float, colour_of: Mapping[int, str],
+              marked: Collection[int] = ()) -> str:
+    """One filament: cells, lighter when young, with arrows for their polarity."""
+    fills = {key: tinted(colour_of.get(key[0], GREEN), 0.28 + 0.6 * key[1]) for key in {(c.state, c.shade) for c in cells}}
+    y, shapes, arrows = tenths(middle), [], []
+    for cell in cells:
+        x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
+        edge = f'{MARK_EDGE}" stroke-width="32' if cell.state in marked else colour_of.get(cell.state, GREEN)
+        shape = (f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"' if look == "ellipses" else
+                 f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"')
+        shapes.append(f'{shape} fill="{fills[cell.state, cell.shade]}" stroke="{edge}"/>')
+        if cell.way and rx > 25:
+            arrows.append(arrow(x, y, rx, ry, cell.way))
+    return (f'<g stroke-width="10">{"".join(shapes)}</g>'
+            f'<path d="{"".join(arrows)}" fill="none" stroke="{INK}" stroke-width="10" stroke-linecap="round" '
+            f'stroke-linejoin="round"/>')
+
+
+def arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
+    """The arrow of a cell that points to the left or right, as the data of a path."""
+    reach, head = round(0.55 * rx), max(12, round(0.3 * min(rx, ry)))
+    tip = x + way * reach
+    return f"M{x - way * reach} {y}H{tip}M{tip - way * head} {y - head}L{tip} {y}L{tip - way * head} {y + head}"
+
+
+def wall_width(shade: float) -> float:
+    """How thick a wall is drawn, in pixels."""
+    return 1.5 + 3.0 * shade
+
+
+def wall_colour(colour: str, shade: float) -> str:
+    """The colour of a wall, given that of its symbol."""
+    return tinted(colour, 0.5 + 0.5 * shade)
+
+
+def _walls_svg(walls: Sequence[Wall], middle: float, aged: bool, colour_of: Mapping[int, str], marked: Collection[int]) -> str:
+    """The walls of a filament, with their ages above."""
+    parts = []
+    for wall in walls:
+        x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
+        colour = MARK_EDGE if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
+        parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
+    if aged and _apart(walls):
+        parts += [f'<text x="{tenths(wall.x)}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" text-anchor="middle" '
+                  f'font-family="sans-serif" fill="{INK}">{wall.age}</text>' for wall in walls]
+    return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
+
+
+def _apart(walls: Sequence[Wall]) -> bool:
+    """Whether the ages of walls can stand side by side."""
+    return all(left.x + 3.2 * len(left.age) < right.x - 3.2 * len(right.age) for left, right in pairwise(walls))
+
+
+def tenths(pixels: float) -> int:
+    """Whole tenths of a pixel; halves are always rounded the same way."""
+    return math.floor(pixels * 10 + 0.5001)

@@ -1,0 +1,117 @@
+"""Developmental sequences as pictures: rows with a common scale, their steps and times, cells, arrows and walls."""
+
+from __future__ import annotations
+
+import io
+import re
+from xml.etree import ElementTree as ET
+
+import pytest
+from PIL import Image
+
+from lsys_kit import ModelValueError, derive, draw, figure, read, system
+from lsys_kit.pictures.draw import Picture
+from lsys_kit.pictures.filaments import Cell, Sheet, sheet_of
+from lsys_kit.pictures.svg import WIDTH
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def shapes(picture: Picture, kind: str) -> list[ET.Element]:
+    return [shape for shape in ET.fromstring(picture.svg).iter(f"{SVG}{kind}") if shape.get("stroke")]
+
+
+def texts(picture: Picture) -> list[str]:
+    return ["".join(text.itertext()) for text in ET.fromstring(picture.svg).iter(f"{SVG}text")]
+
+
+def sheet(id: str, steps: int) -> Sheet:
+    return sheet_of(draw(system(id), steps).rows, numbered=True)
+
+
+def test_cells_are_drawn_as_their_seed_draws_them() -> None:
+    """Ellipses in seed 000, rectangles with round ends in seed 002."""
+    assert (len(shapes(draw(system("J1"), 3), "ellipse")), len(shapes(draw(system("J1"), 3), "rect"))) == (11, 0)
+    assert (len(shapes(draw(system("P1"), 3), "ellipse")), len(shapes(draw(system("P1"), 3), "rect"))) == (0, 11)
+
+
+def test_cells_are_drawn_as_a_teacher_wants_them() -> None:
+    assert len(shapes(draw(system("J1"), 3, cells="rectangles"), "rect")) == 11
+    assert len(shapes(draw(system("P1"), 3, cells="ellipses"), "ellipse")) == 11
+    with pytest.raises(ModelValueError, match="rectangles or ellipses, not as 'squares'"):
+        draw(system("P1"), 3, cells="squares")
+
+
+def test_the_smallest_cells_of_l_system_7_are_round() -> None:
+    """Seed 002, section 8: the width of a cell is the length of a new short one."""
+    cell = shapes(draw(system("P7"), 0), "rect")[0]
+    assert cell.get("width") == cell.get("height") == str(2 * int(cell.get("rx")))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("id", "steps"), [("J1", 6), ("P5", 6), ("P9w", 6), ("J4", 12)])
+def test_all_rows_have_one_scale_and_one_middle(id: str, steps: int) -> None:
+    found = sheet(id, steps)
+    middles = set()
+    for row in found.rows:
+        cells: list[Cell] = list(found.cells(row))
+        assert sum(2 * cell.length for cell in cells) == pytest.approx(found.scale * row.scene.width)
+        middles.add(round(cells[0].x - cells[0].length + cells[-1].x + cells[-1].length, 6))
+    assert len(middles) == 1
+    assert max(cells[-1].x + cells[-1].length for cells in (list(found.cells(row)) for row in found.rows)) < WIDTH
+
+
+@pytest.mark.parametrize(("id", "steps"), [("J1", 6), ("P5", 6), ("P9", 6), ("J5", 20), ("J3", 40), ("P1", 0)])
+def test_rows_do_not_touch(id: str, steps: int) -> None:
+    found = sheet(id, steps)
+    tall = max(row.scene.height for row in found.rows) * found.scale + found.above
+    assert tall <= 0.95 * found.pitch
+
+
+def test_rows_have_their_steps_and_times_where_a_step_is_no_unit_of_time() -> None:
+    assert texts(draw(system("P5"), 2)) == ["step", "t", "0", "0", "1", "0.7", "2", "1.4"]
+    assert texts(draw(system("P5"), 1, dt="1/3"))[-2:] == ["1", "1/3"]
+    assert texts(draw(system("J4"), 2)) == ["step", "0", "1", "2"]
+
+
+def test_a_word_by_itself_has_no_number() -> None:
+    assert texts(draw(derive(system("J1"), 3)[-1])) == []
+
+
+def test_the_last_row_is_marked_by_more_than_colour() -> None:
+    root = ET.fromstring(draw(system("J1"), 3).svg)
+    assert ["".join(text.itertext()) for text in root.iter(f"{SVG}text") if text.get("font-weight") == "bold"] == ["3"]
+
+
+def test_every_cell_with_a_polarity_has_an_arrow() -> None:
+    data = "".join(path.get("d", "") for path in ET.fromstring(draw(system("J1"), 3).svg).iter(f"{SVG}path"))
+    assert data.count("H") == 11
+
+
+def test_walls_are_drawn_with_their_ages_and_the_older_ones_thicker() -> None:
+    picture = draw(derive(system("P9w"), 3)[-1])
+    walls = [path for path in shapes(picture, "path") if re.fullmatch(r"M\d+ \d+V\d+", path.get("d", ""))]
+    assert texts(picture) == ["3", "1", "0", "2", "0", "4"]
+    widths = [int(wall.get("stroke-width", "0")) for wall in walls]
+    assert sorted(range(6), key=widths.__getitem__) == sorted(range(6), key=[3, 1, 0, 2, 0, 4].__getitem__)
+
+
+def test_ages_that_would_stand_too_close_are_left_out() -> None:
+    crowded = read("axiom: W(1.25) a W(2.25)\na -> a W(0.25) a\ninterpretation:\na -> O(0.1,1)")
+    assert "0.25" not in texts(draw(derive(crowded, 2)[-1]))
+
+
+def test_a_picture_of_pixels_and_a_figure_show_the_same_cells() -> None:
+    from matplotlib.patches import Ellipse, FancyBboxPatch
+
+    assert sum(isinstance(patch, Ellipse) for patch in figure(system("J1"), n=2).patches) == 6
+    ax = figure(system("P9w"), n=2)
+    assert sum(isinstance(patch, FancyBboxPatch) for patch in ax.patches) == 6
+    assert (len(ax.lines), len(ax.texts)) == (9, 9)
+    image = Image.open(io.BytesIO(draw(system("P9w"), 2).png)).convert("RGB")
+    assert len(image.getcolors(100_000)) > 5
+
+
+def test_a_look_reads_back_and_is_no_part_of_what_a_system_is() -> None:
+    model = read("cells: ellipses\naxiom: a\na -> a b\ninterpretation:\na -> R(2,1)")
+    assert read(str(model)).cells == "ellipses"
+    assert model == read(str(model).replace("cells: ellipses\n", ""))

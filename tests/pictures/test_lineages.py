@@ -1,0 +1,133 @@
+"""Lineages as pictures: lines in continuous time, over the cells of the last word."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, lineage, read, system, timed
+from lsys_kit.pictures.lineages import LineagePicture
+from lsys_kit.pictures.trees import tree_of
+
+SVG = "{http://www.w3.org/2000/svg}"
+ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"))
+P5_LATE = lineage(system("P5"), 3, dt="1.4")
+P6 = lineage(system("P6"), 3, dt="1.4")
+
+
+def texts(picture: LineagePicture) -> list[str]:
+    return ["".join(text.itertext()) for text in ET.fromstring(picture.svg).iter(f"{SVG}text")]
+
+
+def paths(picture: LineagePicture, **wanted: str) -> list[str]:
+    found = ET.fromstring(picture.svg).iter(f"{SVG}path")
+    return [path.get("d", "") for path in found
+            if all(path.get(name.replace("_", "-")) == value for name, value in wanted.items())]
+
+
+@pytest.mark.parametrize(("id", "steps"), [("P1", 5), ("P6", 6), ("J4", 9), ("K27", 9), ("P9", 6), ("P8", 6)])
+def test_each_line_ends_over_its_cell(id: str, steps: int) -> None:
+    tree = tree_of(lineage(system(id), steps))
+    assert [cell.state for cell in tree.row] == list(tree.lineage.words[-1])
+    assert all(tree.x[cell.state] == cell.x for cell in tree.row)
+    edges = [(cell.x - cell.length, cell.x + cell.length) for cell in tree.row]
+    assert all(right == pytest.approx(left) for (_, right), (left, _) in pairwise(edges))
+
+
+def test_a_mother_stands_over_her_daughters() -> None:
+    tree = tree_of(P6)
+    for cell in range(len(P6.cells)):
+        if daughters := P6.daughters(cell):
+            assert tree.x[daughters[0]] < tree.x[cell] < tree.x[daughters[-1]]
+
+
+def test_time_runs_down_evenly() -> None:
+    tree = tree_of(P6)
+    one = tree.y(Fraction(1)) - tree.y(0)
+    assert [tree.y(time) - tree.y(0) for time in P6.divisions] == pytest.approx([float(time) * one for time in P6.divisions])
+
+
+@pytest.mark.parametrize("given", [P6, lineage(system("P1"), 4), lineage(ANABAENA, 4)])
+def test_every_daughter_has_a_corner_at_her_mothers_division(given: object) -> None:
+    picture = draw(given)  # type: ignore[call-overload]
+    corners = [path for path in paths(picture) if re.match(r"M\d+ \d+H\d+Q", path)]
+    assert len(corners) == sum(cell.mother is not None for cell in picture.lineage.cells)
+
+
+def test_the_axis_has_the_times_of_the_steps() -> None:
+    assert texts(draw(P6))[:5] == ["t", "0", "1.4", "2.8", "4.2"]
+    assert texts(draw(lineage(system("P1"), 2)))[:4] == ["step", "0", "1", "2"]
+    assert texts(draw(lineage(ANABAENA, "5/2")))[:4] == ["t", "0", "1", "2"]
+    assert len([text for text in texts(draw(lineage(system("J4"), 40, lifeTimeA=6, lifeTimeB=6))) if text.isdigit()]) <= 15
+
+
+def test_short_and_long_cells_are_told_apart_by_dashes_too() -> None:
+    picture = draw(P6)
+    assert {"M(0)", "M(0.2)", "within a step"} <= set(texts(picture))
+    assert paths(picture, stroke="#E69F00")
+    assert not [path for path in ET.fromstring(picture.svg).iter(f"{SVG}path")
+                if path.get("stroke") == "#E69F00" and not path.get("stroke-dasharray")]
+
+
+def test_a_legend_stands_only_where_there_is_something_to_tell() -> None:
+    assert "within a step" not in texts(draw(lineage(system("P1"), 4)))
+    assert "should have divided" not in texts(draw(P6))
+    assert not {"M", "M(0)"} & set(texts(draw(lineage(system("P8"), 4))))
+
+
+def test_where_a_cell_divides_late_a_broad_band_begins() -> None:
+    picture = draw(P5_LATE)
+    assert "should have divided" in texts(picture)
+    assert len(paths(picture, stroke_width="90")) == 1 + sum(cell.due is not None for cell in P5_LATE.cells)
+    assert not paths(draw(P6), stroke_width="90")
+
+
+def test_lines_within_a_step_are_thin() -> None:
+    """Seed 002, figure 6: thick where the production moves a cell on, thin where decomposition makes it."""
+    assert paths(draw(P6), stroke_width="11", stroke="#009E73")
+    assert not paths(draw(lineage(system("P1"), 4)), stroke_width="11")
+    assert not paths(draw(lineage(ANABAENA, 4)), stroke_width="11")
+
+
+def test_intervals_are_marked_with_their_lengths() -> None:
+    """Seed 002, figure 5: sample intervals 0.7 and 1.4."""
+    tree = lineage(system("P5"), 6)
+    marked = draw(tree, intervals=[("1.4", "2.1"), ("1.4", "2.8")])
+    assert [text for text in texts(marked) if text in ("0.7", "1.4")] == ["0.7", "1.4", "0.7", "1.4"]
+    with pytest.raises(ModelValueError, match="from 4 to 5"):
+        draw(tree, intervals=[(4, 5)])
+
+
+def test_where_there_is_no_filament_the_modules_stand_below() -> None:
+    assert texts(draw(lineage(ANABAENA, "5/2")))[4:7] == ["bl(0.5)", "ar(0.5)", "ar(0.5)"]
+
+
+def test_a_picture_of_a_lineage_is_described_kept_and_the_same_every_time(tmp_path: Path) -> None:
+    picture = draw(P6)
+    assert ET.fromstring(picture.svg).get("aria-label") == f"Lineage of {P6}"
+    assert repr(picture) == "lineage of 17 cells at time 4.2, after 16 divisions"
+    assert picture.svg == draw(lineage(system("P6"), 3, dt="1.4")).svg
+    assert set(picture._repr_mimebundle_()) == {"image/svg+xml", "text/plain"}
+    picture.save(tmp_path / "tree.svg")
+    assert (tmp_path / "tree.svg").read_text(encoding="utf-8") == f"{picture.svg}\n"
+    with pytest.raises(ModelFileError):
+        picture.save(tmp_path / "tree.gif")
+
+
+def test_a_word_too_large_for_a_picture_is_refused() -> None:
+    with pytest.raises(ModelLimitError, match="610 cells are too many"):
+        draw(lineage(system("P1"), 13))
+
+
+@pytest.mark.parametrize("id", ["J3", "K5", "K7", "K19", "L1", "K16"])
+def test_a_lineage_of_anything_can_be_drawn(id: str) -> None:
+    ET.fromstring(draw(lineage(system(id), 2)).svg)
+
+
+def test_a_lineage_of_no_step_is_one_cell() -> None:
+    ET.fromstring(draw(lineage(system("P6"), 0)).svg)
