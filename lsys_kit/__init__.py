@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lsys_kit.budget import limits
-    from lsys_kit.classroom.catalogue import system, systems
+    from lsys_kit.classroom.catalogue import map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises import check
     from lsys_kit.classroom.explorer import explore
     from lsys_kit.derivation.continuity import continuity
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         ModelValueError,
     )
     from lsys_kit.notation.read import read
+    from lsys_kit.notation.read_map import read_map
     from lsys_kit.notation.write import write
     from lsys_kit.pictures.draw import draw, figure
     from lsys_kit.pictures.films import animate
@@ -48,7 +49,9 @@ _HOMES = {
     "continuity": "derivation.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth", "limits": "budget", "lineage": "derivation.lineage",
-    "read": "notation.read", "stages": "derivation.stages",
+    "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue",
+    "read": "notation.read", "read_map": "notation.read_map",
+    "stages": "derivation.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",
 }
 
@@ -70,7 +73,10 @@ __all__ = [
     "growth",
     "limits",
     "lineage",
+    "map_system",
+    "map_systems",
     "read",
+    "read_map",
     "stages",
     "system",
     "systems",

@@ -1,4 +1,5 @@
-"""The catalogue: the systems of the seeds by their ids, each a TOML file in the folder `systems` that explains itself.
+"""The catalogue: the systems of the seeds by their ids, each a TOML file that explains itself; those of L-systems stand in the
+folder `systems`, those of map systems in `maps`.
 
 A file holds the rules in their own notation, where they were printed, what is wrong with the print, and the words that
 must come out. A file is read when its system is first asked for.
@@ -12,15 +13,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from types import MappingProxyType
 from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.checks import suggestion
+from lsys_kit.notation.maps import MapSystem
 from lsys_kit.notation.model import LSystem
 from lsys_kit.notation.read import read
+from lsys_kit.notation.read_map import read_map
 
-_FOLDER = files(__package__) / "systems"
+SYSTEMS, MAPS = "systems", "maps"
+"""The folders."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +49,9 @@ class Entry:
     notes
         What else a reader should know, a sentence each.
     words
-        Some steps and their words, as far as chance has no part in them.
+        Some steps and their words, or maps, as far as chance has no part in them.
     lengths
-        The number of modules at steps 0, 1, 2, ..., as far as they were checked and chance has no part in them.
+        The number of modules, or walls, at steps 0, 1, 2, ..., as far as they were checked and chance has no part in them.
     same_as
         The id of the system that this one repeats, or None.
     """
@@ -87,13 +92,38 @@ def system(id: str) -> LSystem:
     ------
     ModelNameError
         No system has that id.
+    ModelValueError
+        It is that of a map system.
 
     Examples
     --------
     >>> print(system("j1").productions[0])
     ar -> al br
     """
-    return _system(_known(id))
+    return _system(_known(id, SYSTEMS))
+
+
+def map_system(id: str) -> MapSystem:
+    """The map system with an id, whatever its case.
+
+    Parameters
+    ----------
+    id
+        One of `map_systems()`.
+
+    Raises
+    ------
+    ModelNameError
+        No map system has that id.
+    ModelValueError
+        It is that of an L-system.
+
+    Examples
+    --------
+    >>> print(map_system("k28").productions[0])
+    A -> B[-A][+A]B
+    """
+    return _map_system(_known(id, MAPS))
 
 
 def systems() -> Catalogue:
@@ -104,11 +134,24 @@ def systems() -> Catalogue:
     >>> print(repr(systems()).splitlines()[0])
     J1    seed 000  Anabaena catenula: long and short cells with a polarity
     """
-    return Catalogue(sorted(_ids().values(), key=lambda id: (entry(id).seed, _natural(id))))
+    return _catalogue(SYSTEMS)
+
+
+def map_systems() -> Catalogue:
+    """All map systems of the catalogue, in the order of the seeds.
+
+    >>> print(repr(map_systems()).splitlines()[0])
+    K28  seed 003  A map whose cells divide crosswise
+    """
+    return _catalogue(MAPS)
+
+
+def _catalogue(folder: str) -> Catalogue:
+    return Catalogue(sorted(_ids(folder).values(), key=lambda id: (entry(id).seed, _natural(id))))
 
 
 def entry(id: str) -> Entry:
-    """What the catalogue knows about a system.
+    """What the catalogue knows about a system, be it an L-system or a map system.
 
     Raises
     ------
@@ -120,31 +163,43 @@ def entry(id: str) -> Entry:
     >>> entry("P4").words[1]
     'M(2,-1)M(1,1)'
     """
-    return _entry(_known(id))
+    return _entry(_known(id, MAPS if _is_in(id, MAPS) else SYSTEMS))
 
 
-def _known(id: str) -> str:
+def _is_in(id: str, folder: str) -> bool:
+    return isinstance(id, str) and id.strip().upper() in _ids(folder)
+
+
+def _known(id: str, folder: str) -> str:
     """The id as the catalogue writes it."""
     if not isinstance(id, str):
         raise ModelValueError(f"A system is asked for by its id, a text such as \"P4\", not by {type(id).__name__}")
-    ids = _ids()
-    if id.strip().upper() not in ids:
-        shown = id if len(id) <= 20 else f"{id[:20]}..."
-        hint = suggestion(id[:20].upper(), ids.values()) or f"Systems are: {', '.join(sorted(ids.values(), key=_natural))}."
-        raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
-    return ids[id.strip().upper()]
+    if _is_in(id, folder):
+        return _ids(folder)[id.strip().upper()]
+    for other, kind, function in ((MAPS, "a map system, and no L-system", "map_system"),
+                                  (SYSTEMS, "an L-system, and no map system", "system")):
+        if _is_in(id, other):
+            raise ModelValueError(f"{id.strip().upper()} is {kind}", hint=f'{function}("{id.strip().upper()}") gives it.')
+    ids, shown = _ids(folder).values(), id if len(id) <= 20 else f"{id[:20]}..."
+    hint = suggestion(id[:20].upper(), ids) or f"Systems are: {', '.join(sorted(ids, key=_natural))}."
+    raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
 
 
 @cache
-def _ids() -> Mapping[str, str]:
+def _ids(folder: str) -> Mapping[str, str]:
     """The ids, by their capital letters; known from the names of the files alone."""
-    names = (file.name.removesuffix(".toml") for file in _FOLDER.iterdir() if file.name.endswith(".toml"))
+    names = (file.name.removesuffix(".toml") for file in _folder(folder).iterdir() if file.name.endswith(".toml"))
     return {name.upper(): name for name in names}
+
+
+def _folder(folder: str) -> Traversable:
+    return files(__package__) / folder
 
 
 @cache
 def _entry(id: str) -> Entry:
-    fields: dict[str, Any] = tomllib.loads((_FOLDER / f"{id}.toml").read_text(encoding="utf-8"))
+    folder = MAPS if _is_in(id, MAPS) else SYSTEMS
+    fields: dict[str, Any] = tomllib.loads((_folder(folder) / f"{id}.toml").read_text(encoding="utf-8"))
     for name in ("errata", "notes", "lengths"):
         fields[name] = tuple(fields.get(name, ()))
     words = {int(step): word for step, word in fields.pop("words", {}).items()}
@@ -155,6 +210,11 @@ def _entry(id: str) -> Entry:
 def _system(id: str) -> LSystem:
     found = _entry(id)
     return read(found.rules, found.notation)
+
+
+@cache
+def _map_system(id: str) -> MapSystem:
+    return read_map(_entry(id).rules)
 
 
 def _natural(id: str) -> tuple[str, int, str]:

@@ -1,5 +1,5 @@
 """Maps as pictures: the steps of a development side by side, with a common scale, as in seed 003 and The Algorithmic Beauty of
-Plants, figures 7.4 to 7.7.
+Plants, chapter 7.
 
 Walls have their labels, and arrows where they have a direction. Cells of one colour have the same walls around them.
 """

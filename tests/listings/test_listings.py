@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 
 import pytest
 
+from lsys_kit.classroom.catalogue import map_system
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.timed import timed
 from lsys_kit.derivation.words import Word
@@ -187,6 +188,7 @@ def test_a_map_as_printed_has_the_vertices_walls_and_cells_of_the_table(listing:
     assert [list(found) for found in derive(system, len(counts) - 1).counts] == counts
     assert system.notes == ()
     assert read_map(str(system)) == system
+    assert system.productions == map_system(listing["system"]).productions
 
 
 def test_the_first_map_is_printed_twice() -> None:
