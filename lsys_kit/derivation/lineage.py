@@ -115,7 +115,11 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
     """
     if isinstance(what, LSystem):
         steps: Any = n if n is not None else what.steps if what.steps is not None else 5
-        return _of_words(derive(what, steps, seed=seed, arithmetic=arithmetic, **constants))
+        start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
+        if start.states.asks:
+            raise ModelValueError("The system asks for what the turtle sees, and words alone do not tell that",
+                                  hint="Derive it first, and ask for the lineage of the derivation.")
+        return _of_words(start.to(steps))
     if isinstance(what, Timed) and n is not None and not constants:
         return _in_time(what, number_from(n, "time"))
     if isinstance(what, Timed):

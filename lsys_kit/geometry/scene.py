@@ -231,8 +231,8 @@ class Scene:
     @property
     def corners(self) -> tuple[Floats, Floats]:
         """The least and the greatest of each coordinate; zeros where there is nothing."""
-        shapes = (self.segments.points, self.cells.points, self.walls.points, self.polygons.points, self.discs.points)
-        found = [points for points in shapes if len(points)] or [np.zeros((1, self.dimension))]
+        shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs)
+        found = [each.points for each in shapes if len(each)] or [np.zeros((1, self.dimension))]
         axes = range(self.dimension)  # column by column, which numpy does ten times as fast
         return (np.array([min(points[:, axis].min() for points in found) for axis in axes]),
                 np.array([max(points[:, axis].max() for points in found) for axis in axes]))

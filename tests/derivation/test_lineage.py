@@ -18,6 +18,8 @@ TIMED = read("t_div = 1\nt_s = 0\nt_l = 0.2\naxiom: R(0)\nL(t_div) -> L(t_s) R(t
 """Seed 002's L-systems 5 and 6 in continuous time."""
 TRUE = lineage(timed(TIMED), 7)
 ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"))
+LOOKING = read("turtle: grogra\naxiom: a\na : sensed(2,1) > 60 -> RH(180) F(100) [ - b ] + a\nb -> a")
+"""Seed 003's sensitive dichotomy: a branches where no shoot is near."""
 STEPS = st.fractions("1/10", 3, max_denominator=20)
 
 
@@ -174,7 +176,8 @@ def test_a_lineage_is_told_in_a_line() -> None:
 
 
 @pytest.mark.parametrize(("what", "n", "choices", "said"), [
-    ("P6", 2, {}, "not str"), (timed(TIMED), None, {}, "time at which it ends is needed"),
+    ("P6", 2, {}, "not str"), (LOOKING, 2, {}, "Derive it first"),
+    (timed(TIMED), None, {}, "time at which it ends is needed"),
     (derive(system("P6"), 2), 3, {}, "chosen when a system is derived"),
     (derive(system("P6"), 2), None, {"dt": 1}, "chosen when a system is derived"), (timed(TIMED), -1, {}, "before the axiom")])
 def test_what_has_no_lineage_is_explained(what: object, n: object, choices: dict[str, object], said: str) -> None:
@@ -193,3 +196,8 @@ def test_times_are_those_of_the_steps() -> None:
     tree = lineage(system("P6"), 4)
     assert [after - before for before, after in pairwise(tree.times)] == [Fraction(7, 10)] * 4
     assert lineage(system("P8"), 3).times == (0, 1, 2, 3)
+
+
+def test_a_system_that_looks_around_has_a_lineage_once_it_is_derived() -> None:
+    derivation = derive(LOOKING, 3)
+    assert words(lineage(derivation)) == named(derivation)

@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, lineage, read, system, timed
+from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, figure, lineage, read, system, timed
 from lsys_kit.pictures.lineages import LineagePicture
 from lsys_kit.pictures.trees import tree_of
 
@@ -117,6 +117,11 @@ def test_a_picture_of_a_lineage_is_described_kept_and_the_same_every_time(tmp_pa
     assert (tmp_path / "tree.svg").read_text(encoding="utf-8") == f"{picture.svg}\n"
     with pytest.raises(ModelFileError):
         picture.save(tmp_path / "tree.gif")
+
+
+def test_a_lineage_goes_into_no_figure() -> None:
+    with pytest.raises(ModelValueError, match="goes into a figure"):
+        figure(P6)  # type: ignore[arg-type]
 
 
 def test_a_word_too_large_for_a_picture_is_refused() -> None:
