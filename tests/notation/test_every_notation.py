@@ -10,12 +10,12 @@ import re
 import pytest
 
 from lsys_kit.classroom.catalogue import system, systems
-from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.layout import FEATURES
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import NOTATIONS
 from lsys_kit.notation.write import write
+from lsys_kit.worlds.derive import derive
 
 STEPS = 4
 EVERY = [(id, notation) for notation in NOTATIONS for id in systems()]

@@ -1,0 +1,147 @@
+"""Topiary: query modules tell an apex where it is, and what is outside is cut off (Prusinkiewicz, James and Mech, 1994)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from itertools import pairwise
+from math import hypot, isclose
+from pathlib import Path
+
+import pytest
+
+from lsys_kit import derive, draw, explain, explore, growth, read, stages, system, write
+from lsys_kit.__main__ import main
+from lsys_kit.derivation.derive import derive as words_alone
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.notation.model import Module
+
+OUTSIDE = "x < -2.6 || x > 2.6 || y < 0 || y > 5.2"
+BOX = "[;(5)^(90)f(1)&(90)+(90)F(2.6)[F(0.05)]-(90)F(5.2)[F(0.05)]-(90)F(5.2)[F(0.05)]-F(5.2)[F(0.05)]-F(2.6)]"
+LABORATORY = f"""Lsystem: 1
+derivation length: 30
+consider: JFDA?P
+Axiom: {BOX}X
+X --> ;(1)!(0.08)F(1)A?P(0,0,0)
+F(n) > A?P(x,y,z) : {OUTSIDE} --> JF(0.02)%
+F(n) < A > ?P(x,y,z) : {OUTSIDE} --> *
+A --> /(180)DF(1)A
+D > J --> [+(32)/(180)F(1)A?P(0,0,0)]
+F(n) > J --> JF(n)
+F(n) > [J=] --> JF(n)
+J --> *
+endlsystem"""
+"""The Virtual Laboratory's model; its production for F(n)A, two modules at once, is two productions here."""
+WORDS = (Path(__file__).parent / "topiary.cpfg.txt").read_text(encoding="utf-8").splitlines()
+"""What cpfg derives of it, step by step, without the box."""
+NUMBER = re.compile(r"(?<=[(,])-?\d[\d.e+-]*")
+
+
+def printed(word: Iterable[Module]) -> str:
+    """A word as cpfg prints it: numbers with six digits."""
+    return "".join(module.symbol + (f"({','.join(f'{float(v):g}' for v in module.arguments)})" if module.arguments else "")
+                   for module in word)
+
+
+def shown(word: Iterable[Module]) -> str:
+    """A word as the table of systems prints it: without its box, without what is cut off, and without values."""
+    text = "".join(f"{module.symbol}" for module in word if module.symbol != "B")
+    return re.sub(r"%\?P", "", text)
+
+
+def apices(word: Iterable[Module]) -> int:
+    return sum(module.symbol == "A" for module in word)
+
+
+def test_the_model_of_the_virtual_laboratory_gives_the_words_of_cpfg() -> None:
+    for word, expected in zip(derive(read(LABORATORY, "cpfg"), 30), WORDS, strict=True):
+        text = printed(word).removeprefix(BOX)
+        assert NUMBER.sub("", text) == NUMBER.sub("", expected)
+        numbers = zip(map(float, NUMBER.findall(text)), map(float, NUMBER.findall(expected)), strict=True)
+        assert all(isclose(a, b, rel_tol=1e-5, abs_tol=1e-8) for a, b in numbers)
+
+
+def test_the_topiary_of_the_table_of_systems() -> None:
+    words = [shown(word) for word in derive(system("K24"), 7)]
+    assert words == ["FA?P", "F@oF/A?P", "F@oF/@oF/A?P", "F@oF/@oF/@oF/A?P", "F@oF/@oF/@oF/@oF/A?P", "F@oF/@oF/@oF/@oF/T",
+                     "F@oF/@oF/@oF/@oS/", "F@oF/@oF/@oF/[+FA?P]/"]
+
+
+@pytest.mark.parametrize(("id", "size", "steps"), [("K24", 2, 20), ("K24", 4, 68), ("K24", 3, 40), ("K25", 4, 110)])
+def test_what_grows_out_of_the_box_is_cut_off(id: str, size: int, steps: int) -> None:
+    """In the end everything is inside, and no bud is left that a signal could wake."""
+    derivation = derive(system(id), steps + 10, L=size)
+    assert derivation[-1] == derivation[steps]
+    assert derivation[-1].counts().keys() <= {"B", "F", "[", "]", "+", "/"}
+    plant = read(write(system(id)).replace("axiom: B", "axiom:"))
+    scene = scene_of(derive(plant, steps, L=size)[-1])
+    (left, *_), (right, *_) = scene.corners
+    assert -size / 2 - 1e-9 <= left
+    assert right <= size / 2 + 1e-9
+    assert scene.height <= size + 1e-9
+    assert len(scene.segments) > size
+
+
+def test_another_condition_cuts_a_ball() -> None:
+    outside, farther = "max(abs(x), abs(z)) > L/2 || y < 0 || y > L", "x^2 + (y - L/2)^2 + z^2 > (L/2)^2 + 0.01"
+    ball = read(write(system("K25")).replace(outside, farther).replace("axiom: B", "axiom:"))
+    ends = scene_of(derive(ball, 300, L=8)[-1]).segments.ends[:, 3:]
+    assert len(ends) > 20
+    assert all(hypot(x, y, z - 4) < 4.01 for x, y, z in ends)
+
+
+def test_one_apex_grows_at_a_time() -> None:
+    words = derive(system("K24"), 60)
+    assert all(apices(word) + word.counts().get("T", 0) + word.counts().get("S", 0) <= 1 for word in words)
+    heights = [module.arguments[1] for word in words[:6] for module in word if module.symbol == "?P"]
+    assert heights == [0, 1, 2, 3, 4, 5]
+
+
+def test_a_word_shows_the_last_answer_and_the_sight_the_next() -> None:
+    derivation = derive(system("K24"), 8)
+    for step, (word, after) in enumerate(pairwise(derivation)):
+        sight = derivation.sight(step)
+        assert sight
+        assert [module.symbol for module in sight.word] == [module.symbol for module in word]
+        answered = [module for module in sight.word if module.symbol == "?P"]
+        assert answered == [m for m in after if m.symbol == "?P" and m.arguments != (0, 0)] or "%" in map(str, word)
+
+
+def test_the_explanation_names_the_place() -> None:
+    fate = next(fate for fate in explain(derive(system("K24"), 5), 5) if fate.module.symbol == "A")
+    assert fate.production.startswith("production 1, A > ?P(x,y)")
+    growing = next(fate for fate in explain(derive(system("K24"), 4), 4) if fate.module.symbol == "A")
+    assert growing.refused[0].endswith("is false where L = 4, x = 0, y = 4")
+
+
+def test_the_same_plant_in_cpfgs_notation() -> None:
+    other = read(write(system("K24"), "cpfg"), "cpfg")
+    assert list(map(printed, derive(other, 30))) == list(map(printed, derive(system("K24"), 30)))
+
+
+def test_words_alone_leave_query_modules_as_they_are() -> None:
+    assert str(words_alone(system("K24"), 6)[-1]).endswith("A?P(0,0)")
+
+
+def test_a_system_that_asks_has_no_growth_matrix() -> None:
+    apex = read("axiom: ?P(0,0) A\nA -> F A")
+    assert derive(apex, 3).lengths == [2, 3, 4, 5]
+    with pytest.raises(Exception, match="context-free systems"):
+        growth(apex)
+    assert "?P" in repr(stages(system("K24"))) or stages(system("K24")).grouped
+
+
+def test_a_query_module_may_have_productions_of_its_own() -> None:
+    counting = read("axiom: F ?P(0,0)\n?P(x,y) : y < 4 -> F ?P(0,0)\n?P(x,y) -> K(y)")
+    assert str(derive(counting, 5)[-1]) == "F F F F K(4)"
+
+
+def test_the_shell_and_the_explorer_look_around(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["derive", "K24", "-n", "6"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "B F@o F/(180)@o F/(180)@o F/(180)@o S/(180)"
+    assert main(["derive", "K24", "-n", "6", "--set", "L=3"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "B F@o F/(180)@o F/(180)[+F A?P(0,0)]/(180)"
+    panel = explore("K24")
+    panel.step.value = 6
+    assert (panel.sight.word.counts()["S"], panel._message.value) == (1, "")
+    assert str(draw(system("K24"), 6)) == "9 segments, 5 discs, width 4, height 4.2"
