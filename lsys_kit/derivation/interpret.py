@@ -18,6 +18,8 @@ def images(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ..
     >>> {str(states.modules[s]): " ".join(map(str, image)) for s, image in images(states, states.axiom).items()}
     {'A(2)': 'F(2) F(1)', '[': '[', 'B': 'B', ']': ']'}
     """
+    if not states.system.interpretation:
+        return {state: (states.modules[state],) for state in dict.fromkeys(numbers)}
     return {state: image(states, states.modules[state]) for state in dict.fromkeys(numbers)}
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from lsys_kit.errors import ModelValueError
@@ -41,7 +40,7 @@ class Command:
     """
 
     action: str
-    factor: Fraction = Fraction(1)
+    factor: float = 1.0
     addend: float = 0.0
     argument: Literal["all", "more", "times", ""] = "all"
     bare: str = ""
@@ -64,15 +63,15 @@ class Row(NamedTuple):
         return tuple(command for command in (self.command, self.then) if command)
 
 
-_LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", Fraction(-1)), Command("turn", Fraction(0), 180, "")
-_DOWN, _OPEN = Command("droop", Fraction(0), math.inf, ""), Command("open", argument="")
-_LEAF, _FLOWER = Command("surface", Fraction(1, 2), surface="leaf"), Command("surface", Fraction(1, 4), surface="rosette")
+_LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 0.0, 180, "")
+_DOWN, _OPEN = Command("droop", 0.0, math.inf, ""), Command("open", argument="")
+_LEAF, _FLOWER = Command("surface", 1 / 2, surface="leaf"), Command("surface", 1 / 4, surface="rosette")
 
 TABLE: tuple[Row, ...] = (
     #   ABOP    GROGRA  plants in words; x is the argument                               what to do
     Row("F",    "F",    "I",   "a stroke forward, as long as the step or x",           Command("draw")),
-    Row("",     "",     "A",   "a stroke of two thirds of the step",                   Command("draw", Fraction(2, 3))),
-    Row("",     "",     "B",   "a stroke of a third of the step",                      Command("draw", Fraction(1, 3))),
+    Row("",     "",     "A",   "a stroke of two thirds of the step",                   Command("draw", 2 / 3)),
+    Row("",     "",     "B",   "a stroke of a third of the step",                      Command("draw", 1 / 3)),
     Row("",     "F+",   "",    "a stroke that is longer than the step by x",           Command("draw", argument="more")),
     Row("",     "F*",   "",    "a stroke of x times the step",                         Command("draw", argument="times")),
     Row("f",    "f",    "",    "forward like `F`, without a stroke",                   Command("move")),
@@ -85,9 +84,9 @@ TABLE: tuple[Row, ...] = (
     Row("- RU", "-",    "-",   "turn to its right",                                    _RIGHT),
     Row("|",    "",     "",    "turn round",                                           _ROUND),
     Row("&",    "RL",   "",    "pitch its head down, by the angle or x degrees",       Command("pitch")),
-    Row("^",    "",     "",    "pitch its head up",                                    Command("pitch", Fraction(-1))),
+    Row("^",    "",     "",    "pitch its head up",                                    Command("pitch", -1.0)),
     Row("\\",   "",     "",    "roll to its left, by the angle or x degrees",          Command("roll")),
-    Row("/",    "RH",   "",    "roll to its right",                                    Command("roll", Fraction(-1))),
+    Row("/",    "RH",   "",    "roll to its right",                                    Command("roll", -1.0)),
     Row("$ @v", "$",    "",    "roll until its left is level and its up points up",    Command("level", argument="")),
     Row("",     "RV",   "",    "bend down, with the strength x or that of `V`",        Command("droop")),
     Row("",     "RG",   "",    "bend straight down",                                   _DOWN),
@@ -99,8 +98,8 @@ TABLE: tuple[Row, ...] = (
     Row("",     "Ll",   "",    "the step is x up to the next stroke",                  Command("next length")),
     Row("",     "Ll+",  "",    "the step is longer by x up to the next stroke",        Command("next length", argument="more")),
     Row("", "Ll*", "", "the step is x times as long up to the next stroke", Command("next length", argument="times")),
-    Row("#",    "",     "",    "strokes are x wide, or 10/7 times as wide",            Command("width", Fraction(10, 7))),
-    Row("!",    "",     "",    "strokes are x wide, or 7/10 times as wide",            Command("width", Fraction(7, 10))),
+    Row("#",    "",     "",    "strokes are x wide, or 10/7 times as wide",            Command("width", 10 / 7)),
+    Row("!",    "",     "",    "strokes are x wide, or 7/10 times as wide",            Command("width", 7 / 10)),
     Row("",     "D",    "",    "strokes are x wide, or as wide as at first",           Command("width", bare="first width")),
     Row("",     "D+",   "",    "strokes are wider by x",                               Command("width", argument="more")),
     Row("",     "D*",   "",    "strokes are x times as wide",                          Command("width", argument="times")),
@@ -214,7 +213,7 @@ def orders(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, l
 def _order(command: Command, module: Module) -> Order:
     """A command with a module's argument."""
     values = values_of(module) if command.argument else ()
-    action, factor, addend = command.action, float(command.factor), command.addend
+    action, factor, addend = command.action, command.factor, command.addend
     if not values:
         action = command.bare or action
     elif command.argument == "all":
@@ -234,6 +233,8 @@ def values_of(module: Module) -> tuple[float, ...]:
     ModelValueError
         An argument is no number that can be drawn.
     """
+    if not module.arguments:
+        return ()
     try:
         values = tuple(map(float, module.arguments))  # type: ignore[arg-type]
     except (TypeError, OverflowError):
