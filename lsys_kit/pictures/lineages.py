@@ -197,7 +197,7 @@ def _legend(tree: Tree) -> str:
     if len(tree.kinds) > 1:
         entries += [(f'stroke="{kind.colour}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}', kind.label,
                      kind.characters) for kind in tree.kinds]
-    if tree.lineage.stepwise and any(cell.born not in tree.lineage.times for cell in cells):
+    if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
         entries.append((f'stroke="{QUIET}" stroke-width="{THIN}"', "within a step", 13))
     if any(cell.due is not None for cell in cells):
         entries.append((LATE_LOOK, "should have divided", 19))

@@ -53,7 +53,7 @@ def plot_rows(ax: Axes, rows: Sequence[Row], look: str, colour_of: Mapping[int, 
     """Filaments below one another, centred."""
     from matplotlib.patches import Ellipse, FancyArrowPatch, FancyBboxPatch, Patch
 
-    pitch = 1.4 * max(row.scene.height for row in rows)
+    pitch = (1.8 if any(len(row.scene.walls) for row in rows) else 1.4) * max(row.scene.height for row in rows)
     for place, row in enumerate(rows):
         cells, y = row.scene.cells, -pitch * place
         for (x, _), (length, width), way, shade, state in zip(

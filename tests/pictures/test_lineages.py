@@ -76,6 +76,7 @@ def test_short_and_long_cells_are_told_apart_by_dashes_too() -> None:
 
 def test_a_legend_stands_only_where_there_is_something_to_tell() -> None:
     assert "within a step" not in texts(draw(lineage(system("P1"), 4)))
+    assert "within a step" in texts(draw(lineage(system("K27"), 4)))
     assert "should have divided" not in texts(draw(P6))
     assert not {"M", "M(0)"} & set(texts(draw(lineage(system("P8"), 4))))
 
