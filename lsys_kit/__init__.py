@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth import growth
     from lsys_kit.derivation.lineage import lineage
+    from lsys_kit.derivation.pnml import pnml
     from lsys_kit.derivation.stages import stages
     from lsys_kit.derivation.timed import timed
     from lsys_kit.errors import (
@@ -49,9 +50,8 @@ _HOMES = {
     "continuity": "derivation.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth", "limits": "budget", "lineage": "derivation.lineage",
-    "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue",
-    "read": "notation.read", "read_map": "notation.read_map",
-    "stages": "derivation.stages",
+    "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.pnml",
+    "read": "notation.read", "read_map": "notation.read_map", "stages": "derivation.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",
 }
 
@@ -75,6 +75,7 @@ __all__ = [
     "lineage",
     "map_system",
     "map_systems",
+    "pnml",
     "read",
     "read_map",
     "stages",

@@ -84,7 +84,8 @@ def _parser() -> argparse.ArgumentParser:
     draw.add_argument("--seconds", default="0.6", help="how long a film shows each step")
     stages = command("stages", commands.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
-    stages.add_argument("-o", "--output", required=True, metavar="FILE", help="ends in .svg")
+    stages.add_argument("-o", "--output", required=True, metavar="FILE", help="ends in .svg, or in .pnml for Petri-net tools")
+    stages.add_argument("--durations", action="store_true", help="transitions take a module's life span, not a step")
     convert = command("convert", commands.convert, "Print a model in another notation.",
                       "Example: lsys-kit convert K5 --to plant-string -o plant.txt")
     _add_conversion(convert)

@@ -103,7 +103,7 @@ def draw_stages(options: argparse.Namespace) -> None:
 
     system = _system(options)
     word = None if options.steps is None else _words(system, options)[-1]
-    picture = draw(stages(system), tokens=word)
+    picture = draw(stages(system, durations=options.durations), tokens=word)
     picture.save(options.output)
     print(picture)
 

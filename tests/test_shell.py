@@ -296,6 +296,19 @@ def test_stages_writes_the_diagram_with_the_tokens_of_a_step(shell, tmp_path):
     assert path.read_text() != first
 
 
+def test_stages_writes_a_net_for_petri_net_tools(shell, tmp_path):
+    path = tmp_path / "net.pnml"
+    assert shell("stages", "P4", "-n", "9", "-o", str(path)).status == 0
+    assert path.read_text().startswith('<?xml version="1.0" encoding="UTF-8"?>\n<pnml xmlns="http://www.pnml.org/')
+
+
+def test_stages_tells_how_long_cells_live(shell, tmp_path):
+    path = tmp_path / "net.svg"
+    assert "2 stages M(0), M(0.2); tokens 2, 5" in shell("stages", "P7", "-n", "4", "--durations", "-o", str(path)).out
+    assert "after 0.8" in path.read_text()
+    refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives is not told", "line")
+
+
 def test_a_picture_goes_nowhere_else(shell, tmp_path):
     refused(shell("draw", "K5", "-n", "2", "-o", "out.bmp"), ".svg, .png, .pdf, .glb or .obj", ".gif")
     refused(shell("stages", "P4", "-o", "out.png"), ".svg")

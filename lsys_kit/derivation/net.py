@@ -46,7 +46,8 @@ class Transition:
     place
         The number of the place whose tokens it takes.
     production
-        The production's place in the order written, from 0; None where a module only grows older.
+        The production's place in the order written, from 0; None where a module only grows older. Where it takes no time, or
+        a time of its own, the place among the decomposition rules, if these say so.
     condition
         What the production asks for where the net is grouped by symbol: contexts and condition as they are written, else empty.
     chance
@@ -54,7 +55,7 @@ class Transition:
     span
         How long a token stays; None where that is a step.
     at_once
-        Whether it takes no time, as decomposition; `production` then counts the decomposition rules.
+        Whether it takes no time, as decomposition.
     """
 
     place: int

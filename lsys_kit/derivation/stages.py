@@ -19,7 +19,7 @@ from functools import lru_cache, partial
 from lsys_kit.derivation.fates import Fate, all_fates, has_fates
 from lsys_kit.derivation.grouping import by_symbol
 from lsys_kit.derivation.interpret import images
-from lsys_kit.derivation.lives import lives
+from lsys_kit.derivation.lives import Growing, growing_in_steps, growing_in_time, lives
 from lsys_kit.derivation.lumping import Position, deciding, lumped, shorn
 from lsys_kit.derivation.net import Arc as Arc
 from lsys_kit.derivation.net import Place as Place
@@ -48,7 +48,7 @@ class _Table:
     most: int = 10 * MOST_PLACES
 
 
-def stages(system: LSystem | Timed, polarity: bool = False, **constants: object) -> Stages:
+def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False, **constants: object) -> Stages:
     """The stage diagram of a system.
 
     Parameters
@@ -57,13 +57,16 @@ def stages(system: LSystem | Timed, polarity: bool = False, **constants: object)
         A system; or a timed one (see `timed`), whose transitions then say how long they take.
     polarity
         Whether cells that point left and right have places of their own.
+    durations
+        Whether transitions take the time for which a module lives, whatever a step is. A timed system's always do.
     **constants
         New values for declared constants.
 
     Raises
     ------
     ModelValueError
-        A value cannot be computed, or a timed system is given new constants.
+        A value cannot be computed, a timed system is given new constants, or the productions of a system whose durations are
+        asked for do more than let time pass.
     ModelLimitError
         The modules of a timed system begin at too many different ages.
 
@@ -86,12 +89,19 @@ def stages(system: LSystem | Timed, polarity: bool = False, **constants: object)
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
                                   hint="Write stages(timed(system, name=value)).")
-        found = lives(system, MOST_PLACES)
-        return _net(_Table(system.states, found.modules, found.fates, found.stretch), system.states, polarity)
+        return _in_time(growing_in_time(system), polarity)
     states = States(system, constants)
+    if durations:
+        return _in_time(growing_in_steps(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
     return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
                 None) or by_symbol(states)
+
+
+def _in_time(growing: Growing, polarity: bool) -> Stages:
+    """The net whose transitions take as long as a stretch of life."""
+    found = lives(growing, MOST_PLACES)
+    return _net(_Table(growing.states, found.modules, found.fates, found.stretch), growing.states, polarity)
 
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:

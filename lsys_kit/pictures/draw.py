@@ -17,6 +17,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.development import Development
 from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.lineage import Lineage
+from lsys_kit.derivation.pnml import pnml
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.derivation.words import Word
@@ -168,14 +169,15 @@ class NetPicture:
         return drawn_stages(self.net, self.tokens, positions=self.positions)
 
     def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg file.
+        """Write the picture to an .svg file, or the net to a .pnml file for Petri-net tools (see `pnml`).
 
         Raises
         ------
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode(),
+                          ".pnml": lambda: f"{pnml(self.net, self.tokens)}\n".encode()})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}
@@ -304,7 +306,7 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     Raises
     ------
     ModelValueError
-        The axes are in space, or it is no drawing of a word.
+        The axes are in space.
 
     Examples
     --------
@@ -322,9 +324,6 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     picture = what if isinstance(what, Picture) else draw(what, **choices)
     ax = new_axes() if ax is None else ax
     if len(picture.scene.cells):
-    if not isinstance(picture, Picture):
-        raise ModelValueError("Only the drawing of a system, a derivation or a word goes into a figure",
-                              hint="Keep other pictures as .svg.")
         plot_rows(ax, picture.rows, picture.look, picture.colour_of)
     else:
         plot_turtle(ax, picture.scene, picture.colour_of)

@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lsys_kit import derive
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.catalogue import systems as catalogue
 from lsys_kit.derivation.chance import Chance
-from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.stages import Stages, stages
 from lsys_kit.derivation.timed import timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
@@ -287,6 +287,11 @@ def test_chance_that_hangs_on_a_value_is_that_of_each_state() -> None:
                          "A(2) -> A(3) with probability 0.5\nA(2) -> B with probability 0.5\nA(3) -> A(1)")
 
 
+def test_cells_that_go_other_ways_with_another_chance_have_places_of_their_own() -> None:
+    text = "axiom: A B\nA -> A : {0}\nA -> C : 1\nB -> B : {1}\nB -> C : 1\ninterpretation:\nA -> R(1,1)\nB -> L(1,1)"
+    assert [len(stages(read(text.format(*weights))).places) for weights in ((1, 1), (2, 2), (1, 2))] == [2, 2, 3]
+
+
 def test_context_and_condition_stand_apart() -> None:
     assert [transition.condition for transition in stages(catalogued("J3")).transitions] == [
         "a(i) > c : i > 1", "a(i) < b : i < w", "a(w) < b", "c < b", "a(i) < c : i > 1", "a(1) < c"]
@@ -331,7 +336,7 @@ def moved_in_time(net: Stages, until: Fraction) -> tuple[int, ...]:
 
 @pytest.mark.parametrize("text", [
     CELLS_OF_TWO_AGES, "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)",
-    "axiom: a(0) X\na(2) -> a(0) b(1/3) X W(0)\nb(1) -> a(1/2) [b(0)] W(2)"])
+    "axiom: a(0) X\na(2) -> a(0) b(1/3) X W(0)\nb(1) -> a(1/2) [b(0)] W(2)", "axiom: a(1/4)\na(1) -> a(1/4) a(1/2)"])
 @given(st.integers(0, 40))
 def test_tokens_of_a_timed_net_move_when_their_time_is_up(text: str, twelfths: int) -> None:
     growing = timed(read(text))
@@ -371,3 +376,31 @@ def test_timed_nets_that_cannot_be() -> None:
         stages(timed(read(CELLS_OF_TWO_AGES), short="short"))
     with pytest.raises(ModelLimitError, match="more than 40 different ages"):
         stages(timed(read("axiom: A(0,0)\nA(1,x) -> A(x/2,x/2+1)")))
+
+
+@pytest.mark.parametrize("name", ["K27", "P6", "P7"])
+@given(st.fractions("1/7", 2, max_denominator=40), st.integers(0, 4))
+def test_durations_hold_whatever_a_step_is(name: str, dt: Fraction, step: int) -> None:
+    dt += Fraction(1, 1009)  # so that no step ends at a division
+    net = stages(catalogued(name), durations=True, dt=dt)
+    word = derive(catalogued(name), step, dt=dt)[-1]
+    assert net.tokens(word) == moved_in_time(net, step * dt)
+    assert sum(net.tokens(word)) == len(word)
+
+
+def test_the_paper_s_net_has_two_stages_with_durations() -> None:
+    net = stages(catalogued("P7"), durations=True, t_l="0.4")
+    assert repr(net) == "M(0,1) -> M(0.4,1) after 0.4\nM(0.4,1) -> M(0.4,1) + M(0,1) after 0.6"
+    assert repr(stages(catalogued("K27"), durations=True)) == "ar(0) -> ar(0) + bl(0) after 1\nbl(0) -> ar(0) after 1"
+
+
+def test_the_rule_that_is_the_first_to_apply_ends_a_life() -> None:
+    text = "axiom: a(0) b(0,1)\na(t) -> a(t+1)\nb(t,p) -> b(t+1,p)\ndecomposition:\n"
+    rules = "a(t) : t >= 3 -> b(0,0)\na(t) : t > 2 -> b(0,1)\nb(t,p) : t > 1 && p == 1 -> a(0)\nb(t,p) : t > 4 -> a(0) a(0)"
+    assert repr(stages(read(text + rules), durations=True)) == "a(0) -> b(0,1) after 2\nb(0,1) -> a(0) after 1"
+
+
+@pytest.mark.parametrize("name", ["J1", "J4", "P5", "K8", "K19"])
+def test_durations_that_no_rule_tells(name: str) -> None:
+    with pytest.raises(ModelValueError, match="How long a module lives is not told where"):
+        stages(catalogued(name), durations=True)

@@ -55,7 +55,8 @@ def sampled(path: str) -> list[tuple[float, float]]:
 def text_box(text: ET.Element) -> tuple[float, float, float, float]:
     """About the space that a text takes: left, top, right, bottom."""
     x, y, size = (float(text.attrib[key]) for key in ("x", "y", "font-size"))
-    width = width_of("".join(t for t in text.itertext() if t != (text.findtext(f"{SVG}title"))), size)
+    told = text.findtext(f"{SVG}title") or ""
+    width = width_of("".join(text.itertext()).removeprefix(told), size)  # the title stands first, and is not seen
     left = x - width / 2 if text.get("text-anchor") == "middle" else x
     return left, y - 0.72 * size, left + width, y + 0.2 * size
 
