@@ -241,4 +241,5 @@ def _scene(piece: Piece, strange: tuple[str, ...]) -> Scene:
     polygons = Polygons(piece.corners, np.cumsum([0, *piece.of_polygons[0]]), *piece.of_polygons[1:])
     radii, kinds, states, colours = piece.of_discs
     discs = Discs(piece.centres, radii, kinds, states, colours)
-    return Scene(Segments(piece.strokes.reshape(-1, 2 * piece.strokes.shape[1]), *piece.of_strokes), polygons=polygons, discs=discs, unknown=strange)
+    strokes = Segments(piece.strokes.reshape(-1, 2 * piece.strokes.shape[1]), *piece.of_strokes)
+    return Scene(strokes, polygons=polygons, discs=discs, unknown=strange)
