@@ -306,7 +306,7 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     Raises
     ------
     ModelValueError
-        The axes are in space.
+        The axes are in space, or it is no drawing of a word.
 
     Examples
     --------
@@ -322,6 +322,9 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
         raise ModelValueError("A drawing needs axes in the plane, and these are in space",
                               hint="A plant in space can be kept as .glb, which other programs turn.")
     picture = what if isinstance(what, Picture) else draw(what, **choices)
+    if not isinstance(picture, Picture):
+        raise ModelValueError("Only the drawing of a system, a derivation or a word goes into a figure",
+                              hint="Keep other pictures as .svg.")
     ax = new_axes() if ax is None else ax
     if len(picture.scene.cells):
         plot_rows(ax, picture.rows, picture.look, picture.colour_of)
