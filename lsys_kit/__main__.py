@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NoReturn
 
 from lsys_kit import commands
-from lsys_kit.errors import LSystemError
+from lsys_kit.errors import LSystemError, printable
 
 BAD_INPUT, INTERRUPTED, NOBODY_READS = 2, 130, 141
 """Exit statuses: a mistake in the input; as shells say of a program that was interrupted, or whose reader has gone."""
@@ -56,7 +56,7 @@ class _Parser(argparse.ArgumentParser):
     """argparse with one line to say what is wrong, and a pointer to the help."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(BAD_INPUT, f"lsys-kit: {message}. See {self.prog} --help.\n")
+        self.exit(BAD_INPUT, f"lsys-kit: {''.join(map(printable, message))}. See {self.prog} --help.\n")
 
 
 def _parser() -> argparse.ArgumentParser:

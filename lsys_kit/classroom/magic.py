@@ -9,18 +9,18 @@ from __future__ import annotations
 import builtins
 import re
 import unicodedata
-from html import escape
 from keyword import iskeyword
 from typing import Any
 
 import lsys_kit
 from lsys_kit.classroom.typeset import boxed, shown
-from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, printable
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.checks import suggestion
 from lsys_kit.notation.model import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import NOTATIONS, notation_called
 from lsys_kit.notation.stumble import printed
+from lsys_kit.pictures.labels import escaped
 from lsys_kit.pictures.palette import INK, MARK, PAPER, QUIET, VERMILION
 
 AROUND, WIDTH = 8, 100
@@ -148,8 +148,8 @@ def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, s
         ^
     """
     said = str(mistake).partition("\n")[0]
-    html = (f'<span aria-hidden="true">&#9888;</span> <b>Not readable yet.</b> {escape(said)}'
-            f"{_quotation(mistake, text)}{escape(after)}")
+    html = (f'<span aria-hidden="true">&#9888;</span> <b>Not readable yet.</b> {escaped(said)}'
+            f"{_quotation(mistake, text)}{escaped(after)}")
     return {"text/html": boxed("lsys-mistake", "alert", VERMILION, html),
             "text/plain": f"Not readable yet. {mistake}" + (f"\n{after}" if after else "")}
 
@@ -162,7 +162,7 @@ def _quotation(mistake: LSystemError, text: str) -> str:
     first, last = max(0, mistake.line - 1 - AROUND), min(len(lines), mistake.line + AROUND)
     digits = len(str(last))
     quoted = (f'<span style="color:{QUIET};user-select:none">{number + 1:>{digits}}  </span>'
-              + (_marked(lines[number], mistake) if number + 1 == mistake.line else _clean(lines[number][:WIDTH]))
+              + (_marked(lines[number], mistake) if number + 1 == mistake.line else escaped(lines[number][:WIDTH]))
               for number in range(first, last))
     return f'<pre style="margin:6px 0;color:{INK};background:{PAPER};overflow-x:auto">' + "\n".join(quoted) + "</pre>"
 
@@ -174,10 +174,5 @@ def _marked(line: str, mistake: LSystemError) -> str:
     start, end = mistake.column - 1, min(mistake.end - 1, mistake.column - 1 + WIDTH)
     first = max(0, start - WIDTH // 2)
     look = f"background:{MARK};font-weight:bold;text-decoration:underline wavy {VERMILION} 2px;text-underline-offset:3px"
-    return (_clean(line[first:start]) + f'<u style="{look}">{_clean(line[start:end]) or "&nbsp;"}</u>'
-            + _clean(line[end:first + 2 * WIDTH]))
-
-
-def _clean(text: str) -> str:
-    """A piece of a text as it may stand in a page."""
-    return escape("".join(map(printable, text)))
+    return (escaped(line[first:start]) + f'<u style="{look}">{escaped(line[start:end]) or "&nbsp;"}</u>'
+            + escaped(line[end:first + 2 * WIDTH]))

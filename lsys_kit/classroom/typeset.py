@@ -7,7 +7,6 @@ predecessor, the probability over the arrow. All text is escaped: nothing that a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from html import escape
 from itertools import islice
 
 from lsys_kit.budget import current, limits
@@ -21,7 +20,7 @@ from lsys_kit.notation.layout import settings
 from lsys_kit.notation.model import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
 from lsys_kit.notation.operators import OPERATORS
 from lsys_kit.notation.registry import notation_called
-from lsys_kit.pictures.labels import html_label
+from lsys_kit.pictures.labels import escaped, html_label
 from lsys_kit.pictures.palette import BLUE, INK, PAPER, QUIET
 from lsys_kit.worlds.derive import derive
 
@@ -111,12 +110,12 @@ def _plain(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Wor
 
 
 def _box(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
-    called = f"<b>{escape(name)}</b>" if name else "This"
-    set_so = " &nbsp;·&nbsp; ".join(map(escape, settings(system, notation_called(system.notation).turtle)))
+    called = f"<b>{escaped(name)}</b>" if name else "This"
+    set_so = " &nbsp;·&nbsp; ".join(map(escaped, settings(system, notation_called(system.notation).turtle)))
     steps = "".join(_row((f"<span {_QUIET}>{step}</span>", word_html(word))) for step, word in enumerate(words))
     return boxed("lsys-system", "group", BLUE,
-                 f"<div>{called} is an L-system in the notation {escape(system.notation)}.</div>"
-                 + "".join(f"<div>{escape(note)}</div>" for note in notes)
+                 f"<div>{called} is an L-system in the notation {escaped(system.notation)}.</div>"
+                 + "".join(f"<div>{escaped(note)}</div>" for note in notes)
                  + _table(_rows(system), "font-family:Georgia,serif;font-size:16px;line-height:1.5")
                  + (f"<div {_QUIET}>{set_so}</div>" if set_so else "")
                  + f"<div {_QUIET}>first words</div>{_table([steps])}")
@@ -232,7 +231,7 @@ def formula(expression: Expression, system: LSystem) -> str:
 def _applied(expression: Apply, part: Callable[[Expression, int], str]) -> str:
     """An operator with its operands, each in parentheses where it binds less tightly than is asked."""
     operator, operands = OPERATORS[expression.operator], expression.operands
-    sign = escape(_SIGNS.get(expression.operator, expression.operator))
+    sign = escaped(_SIGNS.get(expression.operator, expression.operator))
     if operator.precedence is None:
         return f"{sign}({', '.join(part(operand, 0) for operand in operands)})"
     if len(operands) == 1:

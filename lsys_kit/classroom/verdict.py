@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
 
+from lsys_kit.pictures.labels import escaped
 from lsys_kit.pictures.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
 
 _SIGNS: Mapping[str, tuple[str, str]] = {
@@ -16,6 +16,11 @@ _SIGNS: Mapping[str, tuple[str, str]] = {
     "Hint": ("→", BLUE),
 }
 """For each verdict its sign and its colour: what it says never hangs on the colour."""
+
+
+PLAIN = "mathjax_ignore tex2jax_ignore"
+"""The classes of HTML in which dollar signs begin no formula: those of MathJax 3, which notebooks use, and of its version 2,
+which web pages made of notebooks use."""
 
 
 class Verdict(float):
@@ -54,8 +59,9 @@ class Verdict(float):
     def _repr_html_(self) -> str:
         """The box: a sign, a word and the message, all text escaped."""
         sign, colour = _SIGNS[self.said]
-        return (f'<div role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};padding:6px 12px">'
-                f'<span aria-hidden="true">{sign}</span> <b>{escape(self.said)}.</b> {_html(self.message)}</div>')
+        return (f'<div class="{PLAIN}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
+                'padding:6px 12px">'
+                f'<span aria-hidden="true">{sign}</span> <b>{escaped(self.said)}.</b> {_html(self.message)}</div>')
 
 
 def _html(message: str) -> str:
@@ -67,7 +73,8 @@ def _html(message: str) -> str:
     lines = message.split("\n")
     quoted = next((i for i, line in enumerate(lines) if line.startswith("  ")), len(lines))
     last = next((i for i in range(quoted, len(lines)) if not lines[i].startswith("  ")), len(lines))
-    html = "<br>".join(escape(line) for line in lines[:quoted])
+    html = "<br>".join(map(escaped, lines[:quoted]))
     if quoted < len(lines):
-        html += '<pre style="margin:4px 0">' + escape("\n".join(lines[quoted:last])) + "</pre>" + _html("\n".join(lines[last:]))
+        html += '<pre style="margin:4px 0">' + "\n".join(map(escaped, lines[quoted:last])) + "</pre>"
+        html += _html("\n".join(lines[last:]))
     return html

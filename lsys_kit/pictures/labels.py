@@ -13,8 +13,18 @@ from html import escape
 from typing import cast
 
 from lsys_kit.derivation.net import Place
+from lsys_kit.errors import printable
 from lsys_kit.notation.arithmetic import Value, number_text
 from lsys_kit.notation.model import LSystem, Module, symbols
+
+
+def escaped(text: str) -> str:
+    """A text as it may stand in HTML or SVG: no markup, and nothing that would not show or would turn it around.
+
+    >>> escaped("<b>"), escaped("a\\x1bb")
+    ('&lt;b&gt;', 'a?b')
+    """
+    return escape("".join(map(printable, text)))
 
 
 @lru_cache(maxsize=64)
@@ -64,11 +74,11 @@ def svg_label(symbol: str, system: LSystem, values: str = "") -> str:
 
 def letter_svg(letter: str, subscript: str, values: str = "") -> str:
     """The same, given its parts."""
-    text = f'<tspan font-style="italic">{escape(letter)}</tspan>' if letter[:1].isalpha() else escape(letter)
+    text = f'<tspan font-style="italic">{escaped(letter)}</tspan>' if letter[:1].isalpha() else escaped(letter)
     if subscript:
-        text += f'<tspan dy="3" font-size="70%">{escape(subscript)}</tspan>'
+        text += f'<tspan dy="3" font-size="70%">{escaped(subscript)}</tspan>'
     if values:
-        text += f'<tspan dy="-3">{escape(values)}</tspan>' if subscript else escape(values)
+        text += f'<tspan dy="-3">{escaped(values)}</tspan>' if subscript else escaped(values)
     return text
 
 
@@ -80,8 +90,8 @@ def html_label(module: Module, system: LSystem) -> str:
     '<i>a</i><sub style="line-height:0">r</sub>(2)'
     """
     letter, subscript = parts(module.symbol, system)
-    text = f"<i>{escape(letter)}</i>" if letter[:1].isalpha() else escape(letter)
-    return text + (f'<sub style="line-height:0">{escape(subscript)}</sub>' if subscript else "") + escape(values_text(module))
+    text = f"<i>{escaped(letter)}</i>" if letter[:1].isalpha() else escaped(letter)
+    return text + (f'<sub style="line-height:0">{escaped(subscript)}</sub>' if subscript else "") + escaped(values_text(module))
 
 
 def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:

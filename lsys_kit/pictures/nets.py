@@ -10,7 +10,6 @@ import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from html import escape
 from string import punctuation
 
 from lsys_kit.derivation.net import Place, Stages
@@ -18,7 +17,7 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.commands import COMMANDS
 from lsys_kit.notation.model import LSystem
 from lsys_kit.pictures.captions import notes_of, readable, short, shortened, terms_of, width_of
-from lsys_kit.pictures.labels import place_parts, place_text, svg_label
+from lsys_kit.pictures.labels import escaped, place_parts, place_text, svg_label
 from lsys_kit.pictures.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, laid_out
 from lsys_kit.pictures.palette import INK, MARK, MARK_EDGE, PAPER, QUIET, colours, tinted
 from lsys_kit.pictures.routes import planned, rows_of, shown_places
@@ -102,7 +101,7 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     told = "" if tokens is None else "; tokens " + ", ".join(short(tokens[place]) for place in diagram.order)
     told += f"; {diagram.names[diagram.order.index(marked)]} is marked" if marked in diagram.order else ""
     paper = f'<rect width="100%" height="100%" fill="{PAPER}"/>'
-    return f'{diagram.start}{escape(told)}">{paper}{"".join(body)}{diagram.lines}</svg>'
+    return f'{diagram.start}{escaped(told)}">{paper}{"".join(body)}{diagram.lines}</svg>'
 
 
 def steering_of(system: LSystem) -> frozenset[str]:
@@ -146,7 +145,7 @@ def _start(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
     told = "; ".join((told, *besides))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
             f'style="max-width:100%;height:auto" font-family="sans-serif" fill="{INK}" role="img" '
-            f'aria-label="{escape(told)}')
+            f'aria-label="{escaped(told)}')
 
 
 def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, str]]:
@@ -169,7 +168,7 @@ def _stage(net: Stages, number: int, centre: Point, colours_: tuple[str, str]) -
     letter, subscript, values = place_parts(place, net.system)
     label = svg_label(place.symbol if subscript else letter, net.system, values)
     said = place_text(place, net.system) + (", of either polarity" if len(place.modules) > 1 else "")
-    return (f'<title>{escape(said)}</title><circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS:.1f}" fill="{fill}" stroke="{edge}" '
+    return (f'<title>{escaped(said)}</title><circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS:.1f}" fill="{fill}" stroke="{edge}" '
             f'stroke-width="1.8"/><text x="{x:.1f}" y="{y + RADIUS + 17:.1f}" font-size="{LABEL_SIZE}" '
             f'text-anchor="middle">{label}</text>')
 
@@ -199,7 +198,7 @@ def _bar_svg(net: Stages, layout: Layout, number: int, terms: str) -> str:
     if terms:
         x, y = bar.terms
         text = (f'<text class="terms" x="{x:.1f}" y="{y:.1f}" font-size="{SMALL}">'
-                f'<title>{escape(terms_of(net.transitions[number]))}</title>{escape(terms)}</text>')
+                f'<title>{escaped(terms_of(net.transitions[number]))}</title>{escaped(terms)}</text>')
     return (f'<g class="transition"><path class="feed" d="{rounded(bar.line)}" {_STROKE}/><rect x="{bar.x - 1.8:.1f}" '
             f'y="{bar.y - bar.half:.1f}" width="3.6" height="{2 * bar.half:.1f}" rx="0.8"/>{text}</g>')
 
@@ -239,9 +238,9 @@ def _towards(start: Point, end: Point, reach: float) -> Point:
 def _note_svg(centre: Point, text: str) -> str:
     (x, y), width = centre, width_of(text, SMALL)
     return (f'<rect x="{x - width / 2:.1f}" y="{y - 6:.1f}" width="{width:.1f}" height="12" fill="{PAPER}"/><text class="note" '
-            f'x="{x:.1f}" y="{y + 0.36 * SMALL:.1f}" font-size="{SMALL}" text-anchor="middle">{escape(text)}</text>')
+            f'x="{x:.1f}" y="{y + 0.36 * SMALL:.1f}" font-size="{SMALL}" text-anchor="middle">{escaped(text)}</text>')
 
 
 def _besides_svg(layout: Layout, line: int, text: str) -> str:
     return (f'<text class="besides" x="{EDGE:.1f}" y="{layout.height + LINE * line:.1f}" font-size="{SMALL}">'
-            f'{escape(text)}</text>')
+            f'{escaped(text)}</text>')
