@@ -83,7 +83,8 @@ def check_settled(states: States, what: str) -> None:
     """Refuse a question that has an answer only where every module's fate depends on itself alone."""
     if not states.settled:
         raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
-                              hint="Derive this system, and look at its words.")
+                              hint="Derive this system, and look at its words; where it leaves its productions to chance, "
+                                   "stages(system).expected(n) counts on average.")
 
 
 def closure(states: States, limit: int) -> Sequence[int] | None:

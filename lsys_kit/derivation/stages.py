@@ -106,15 +106,25 @@ def _in_time(growing: Growing, polarity: bool) -> Stages:
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
     """The states of a system, then those without the parameters that decide nothing; only where they end."""
-    kept = deciding(states.system)
-    whole = tuple(rule for rule in states.system.interpretation if shorn(rule.predecessor, kept) == rule.predecessor)
-    for model, dropped in ((states, False), (States(replace(lumped(states.system), interpretation=whole), constants), True)):
-        with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
-            fates = all_fates(model, 4 * MOST_PLACES) if has_fates(model) else None
-            if fates is not None:
-                rows = {module: row for row, module in enumerate(model.modules)}
-                yield (_Table(model, model.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED) if dropped
-                       else _Table(model, model.modules, fates, rows.get))
+    for fates in _ended(states):
+        yield _Table(states, states.modules, fates, {module: row for row, module in enumerate(states.modules)}.get)
+    system, kept = states.system, deciding(states.system)
+    model = lumped(system)
+    if (model.axiom, model.productions, model.decomposition) == (system.axiom, system.productions, system.decomposition):
+        return
+    whole = tuple(rule for rule in system.interpretation if shorn(rule.predecessor, kept) == rule.predecessor)
+    fewer = States(replace(model, interpretation=whole), constants)
+    for fates in _ended(fewer):
+        rows = {module: row for row, module in enumerate(fewer.modules)}
+        yield _Table(fewer, fewer.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
+
+
+def _ended(states: States) -> Iterator[list[tuple[Fate, ...]]]:
+    """The fates of all states, if these come to an end and no neighbour decides."""
+    with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
+        fates = all_fates(states, 4 * MOST_PLACES) if has_fates(states) else None
+        if fates is not None:
+            yield fates
 
 
 def _row(rows: Mapping[Module, int], kept: Set[Position], module: Module) -> int | None:
