@@ -1,8 +1,8 @@
 """How fast words are drawn, as strokes a second: put together from pieces, and module by module where all modules differ.
 
-Goals: 50,000,000 in the plane for step 9 of a plant, 10,000,000 in space, 100,000 where every module is different; a picture of
-a million strokes in 0.2 s, and the SVG text of a thousand in 1 ms. `pytest tests/benchmarks/test_drawing.py --benchmark-only -s`
-prints them.
+Goals: 50,000,000 in the plane for step 9 of a plant, 10,000,000 in space, 100,000 where every module is different; a picture
+of a million strokes in 0.2 s, and the SVG text of a thousand in 1 ms. They are printed by
+`pytest tests/benchmarks/test_drawing.py --benchmark-only -s`.
 """
 
 from __future__ import annotations
