@@ -145,6 +145,18 @@ def overhead(stand: Stand, least: float) -> float:
     return float(np.degrees(np.arctan2(sideways, up))[up > CLOSE].min(initial=math.inf))
 
 
+def shade(stand: Stand, angle: float, least: float) -> int:
+    """How many other shoots begin in a cone above the tip, which is open by so many degrees to each side.
+
+    GROGRA sums the leaves of these shoots, its N; here every shoot has 1, for leaves are not seen.
+    """
+    others = np.setdiff1d(stand.shoots.chosen(least), stand.near[:1])
+    away = stand.shoots.ends[others, 0] - stand.tip
+    edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
+    distances = np.linalg.norm(away, axis=1)
+    return int(np.count_nonzero((distances > CLOSE) & (away[:, 2] >= edge * distances - CLOSE)))
+
+
 def inclination(stand: Stand) -> float:
     """How far the shoot leans from the vertical: 0 degrees upright, 90 level, 180 hanging."""
     return math.degrees(math.atan2(math.hypot(stand.head[0], stand.head[1]), stand.head[2]))
@@ -162,6 +174,7 @@ class Sense(NamedTuple):
 SENSES: Mapping[Value, Sense] = {
     1: Sense("the inclination of the steepest way to a shoot above", 1, 1, overhead),
     2: Sense("the distance to the nearest shoot", 1, 2, nearest),
+    4: Sense("the number of shoots above", 2, 2, shade),
     7: Sense("the inclination", 0, 0, inclination),
     9: Sense("the distance to the nearest shoot ahead", 2, 3, ahead),
 }

@@ -21,7 +21,7 @@ from lsys_kit.notation.model import LSystem, Module, Production
 from lsys_kit.worlds.sight import Seen, seen
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 
-FUNCTIONS = {1: (1,), 2: (1,), 7: (), 9: (60, 1)}
+FUNCTIONS = {1: (1,), 2: (1,), 4: (60, 1), 7: (), 9: (60, 1)}
 ASKING = tuple(Production(Module("x"), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
                for number, values in FUNCTIONS.items())
 """Rules that make modules x ask; they are never applied here."""
@@ -223,6 +223,20 @@ def test_an_inclination_is_that_of_the_shoot(word: str, answer: float) -> None:
 ])
 def test_the_steepest_way_up_is_measured_from_the_vertical(word: str, answer: float) -> None:
     assert asked(seen(word_of(word)), 1, 1) == [pytest.approx(answer)]
+
+
+@pytest.mark.parametrize(("word", "angle", "count"), [
+    ("F(1) x", 180, 0),
+    ("F(1) x [ f(1) F(1) ]", 10, 1),
+    ("F(1) x [ F(1) ]", 90, 0),
+    ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(1) ]", 44, 1),
+    ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(1) ]", 45, 2),
+    ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(0.5) ]", 45, 1),
+    ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 45, 0),
+    ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 90, 2),
+])
+def test_shoots_that_begin_in_a_cone_above_are_counted(word: str, angle: float, count: int) -> None:
+    assert asked(seen(word_of(word)), 4, angle, 1) == [count]
 
 
 def test_a_cone_points_where_the_shoot_points() -> None:
