@@ -126,14 +126,12 @@ def matching(marks: Sequence[Mark]) -> tuple[Mark, Mark] | None:
     Markers match that have the same label, come from different walls, and point one away from its wall, one toward it; or both
     nowhere.
     """
-    passed: dict[Edge, list[Mark]] = {}
+    passed: dict[Edge, Mark] = {}  # the first of a kind is enough: the markers of one wall stand side by side
     for mark in marks:
-        other = next((one for one in passed.get(mark.edge.turned, ()) if one.wall != mark.wall), None)
-        if other:
+        other = passed.get(mark.edge.turned)
+        if other and other.wall != mark.wall:
             return other, mark
-        alike = passed.setdefault(mark.edge, [])
-        if len(alike) < 2 and all(one.wall != mark.wall for one in alike):  # one of two is not from the wall of a third
-            alike.append(mark)
+        passed.setdefault(mark.edge, mark)
     return None
 
 
