@@ -18,8 +18,8 @@ from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, Model
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
     from lsys_kit.notation.model import LSystem
-    from lsys_kit.pictures.draw import Picture
     from lsys_kit.pictures.films import Film
+    from lsys_kit.pictures.picture import Picture
 
 STEPS = 5
 """How many steps are drawn where neither the command nor the system says."""

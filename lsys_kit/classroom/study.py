@@ -20,8 +20,9 @@ from lsys_kit.geometry.space import in_plane
 from lsys_kit.geometry.turtle import Path, placed, traced
 from lsys_kit.notation.arithmetic import Value
 from lsys_kit.notation.model import LSystem
-from lsys_kit.pictures.draw import MOST_ROWS, Picture, filament_picture, state_colours
+from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
 from lsys_kit.pictures.labels import place_text
+from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.svg import Row
 from lsys_kit.pictures.view import seen
 from lsys_kit.worlds.derive import derive

@@ -10,8 +10,8 @@ import pytest
 from PIL import Image
 
 from lsys_kit import ModelValueError, derive, draw, figure, read, system
-from lsys_kit.pictures.draw import Picture
 from lsys_kit.pictures.filaments import Cell, Sheet, sheet_of
+from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.svg import WIDTH
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -1,0 +1,189 @@
+"""Pictures of words and of stage diagrams: what they show, and every format in which a page or a file has them."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from html import unescape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.pnml import pnml
+from lsys_kit.derivation.stages import Stages
+from lsys_kit.geometry.meshes import Mesh, mesh_of
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.notation.arithmetic import Value
+from lsys_kit.pictures import raster
+from lsys_kit.pictures.filaments import LOOKS, rows_svg, sheet_of
+from lsys_kit.pictures.files import keep, keep_beside
+from lsys_kit.pictures.nets import drawn_stages
+from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
+from lsys_kit.pictures.solids import glb, mtl, obj
+from lsys_kit.pictures.svg import WIDTH, Row, background, described, document, frame_of, turtle_svg
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture of one word, or of the steps of a filament below one another.
+
+    Attributes
+    ----------
+    rows
+        The scenes, one for each step that is shown.
+    colour_of
+        For each state its colour.
+    current
+        The step whose row is marked, or None.
+    marked
+        The states whose modules are marked.
+    solid
+        The scene of the last step as it is in space; None where it lies in the plane.
+    look
+        How cells are drawn: as "rectangles" or "ellipses".
+    time
+        How long a step of a filament takes, where its system says so.
+    """
+
+    rows: tuple[Row, ...]
+    colour_of: Mapping[int, str] = field(repr=False)
+    current: int | None = None
+    marked: Collection[int] = ()
+    solid: Scene | None = None
+    look: str = LOOKS[0]
+    time: Value | None = None
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the last step shown, as it is seen."""
+        return self.rows[-1].scene
+
+    @cached_property
+    def text(self) -> str:
+        """What the picture shows, in words."""
+        steps = f"steps {self.rows[0].step} to {self.rows[-1].step}" if len(self.rows) > 1 else ""
+        return described([steps, ("the last: " if steps else "") + str(self.scene)])
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        if len(self.scene.cells):
+            sheet = sheet_of(self.rows, self.current is not None, self.time)
+            body, width, height = rows_svg(sheet, self.look, self.colour_of, self.current, self.marked), WIDTH, sheet.height
+        else:
+            frame = frame_of(self.scene.box)
+            width, height = frame.width, frame.height
+            if len(self.scene.segments) > current().segments:
+                data = base64.b64encode(self.png).decode()
+                body = f'<image width="{width * 10}" height="{height * 10}" href="data:image/png;base64,{data}"/>'
+            else:
+                body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
+        return document(background(width, height) + body, width, height, self.text)
+
+    @cached_property
+    def png(self) -> bytes:
+        """The picture as PNG, without text."""
+        if len(self.scene.cells):
+            return raster.rows_png(self.rows, self.look, self.colour_of)
+        return raster.turtle_png(self.scene, self.colour_of)
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The last step shown as triangles in space."""
+        return mesh_of(self.scene if self.solid is None else self.solid)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to a file, in the format that its name ends in: .svg, .png, .pdf, .glb or .obj.
+
+        The last two are for programs that show things in space: they have the last step alone. The colours of an .obj file
+        stand in an .mtl file beside it.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        path = Path(path)
+        library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
+        if path.suffix.lower() == ".obj":
+            keep_beside(library, mtl(self.mesh, self.colour_of))
+        keep(path, {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png, ".pdf": lambda: _pdf(self),
+                    ".glb": lambda: glb(self.mesh, self.colour_of),
+                    ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
+             "Films end in .gif or .apng, and are made by animate(...).")
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": self.text}
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class NetPicture:
+    """A picture of a stage diagram.
+
+    Attributes
+    ----------
+    net
+        The diagram's net.
+    tokens
+        How many modules lie in each place, or None.
+    positions
+        Whether arcs say where in the successor a module stands.
+    """
+
+    net: Stages
+    tokens: tuple[int, ...] | None = None
+    positions: bool = False
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        return drawn_stages(self.net, self.tokens, positions=self.positions)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg file, or the net to a .pnml file for Petri-net tools (see `pnml`).
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode(),
+                          ".pnml": lambda: f"{pnml(self.net, self.tokens)}\n".encode()})
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        return unescape(self.svg.split('aria-label="')[1].split('"')[0])
+
+
+def plotted(picture: Picture, ax: Axes) -> Axes:
+    """The axes into which a picture was drawn, without frame, with equal scales."""
+    if len(picture.scene.cells):
+        plot_rows(ax, picture.rows, picture.look, picture.colour_of)
+    else:
+        plot_turtle(ax, picture.scene, picture.colour_of)
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    ax.set_axis_off()
+    return ax
+
+
+def _pdf(picture: Picture) -> bytes:
+    from matplotlib import rc_context
+
+    buffer = io.BytesIO()
+    sheet = plotted(picture, new_axes()).get_figure(root=True)
+    assert sheet is not None
+    with rc_context({"pdf.fonttype": 42}):  # letters that other programs can change and search
+        sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata={"CreationDate": None, "Title": picture.text})
+    return buffer.getvalue()
