@@ -56,7 +56,7 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "003-lychnis": ("Lychnis coronaria", lambda: draw(system("K19"), 15).svg),
     "003-dichotomy": ("Dichotomous branching that does not look around", lambda: draw(system("K20"), 8).svg),
     "003-sensitive-dichotomy": ("Dichotomous branching that keeps its distance", lambda: draw(system("K21"), 8).svg),
-    "003-pruning": ("Pruning in two dimensions", lambda: draw(system("K24"), 24).svg),
+    "003-pruning": ("Pruning in two dimensions", lambda: draw(system("K24")).svg),
     "003-topiary": ("Pruning in three dimensions", lambda: draw(system("K25")).svg),
     "003-timed": ("Timed Anabaena", lambda: draw(lineage(system("K27"), 12)).svg),
     **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
