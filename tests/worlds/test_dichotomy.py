@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, draw, explain, explore, growth, limits, read, write
+from lsys_kit.classroom.typeset import shown
 from lsys_kit.derivation.derive import derive as words_alone
 from lsys_kit.notation.model import LSystem
 from lsys_kit.worlds.sight import seen
@@ -143,6 +144,11 @@ def test_chance_and_sight_together_give_the_same_plant_for_the_same_seed() -> No
     assert str(derive(system, 7, seed=3)[-1]) != str(derive(system, 7, seed=4)[-1])
 
 
+def test_two_buds_that_are_alike_get_their_own_answers() -> None:
+    system = read("axiom: F(1) [+(90) F(2) b] [-(90) F(5) b]\nb -> F(sensed(2, 1) / 2)")
+    assert str(derive(system, 1)[-1]) == "F(1)[+(90)F(2)F(1)][-(90)F(5)F(2.5)]"
+
+
 def test_an_answer_is_a_number_like_any_other() -> None:
     system = read("axiom: [F(3) b] +(90) F(4) a\na -> F(sensed(2, 1)) a\nb -> b(sensed(2, 1), sensed(7))")
     assert str(derive(system, 1)[-1]) == "[F(3)b(3,0)]+(90)F(4)F(4)a"
@@ -168,6 +174,12 @@ def test_a_derivation_that_takes_too_long_keeps_its_steps() -> None:
     with limits(seconds=0.5), pytest.raises(ModelLimitError, match=r"was not reached in 0\.5 seconds") as caught:
         derive(dichotomy(), 1000)
     assert shoots(dichotomy(), 5) == [word.counts().get("F", 0) for word in list(caught.value.partial)[:6]]
+
+
+def test_a_notebook_shows_the_first_words() -> None:
+    text = shown(dichotomy(), "fork")["text/plain"]
+    assert "(f0(1) > 60) a # RH180 F100 [- b] + a" in text
+    assert "step 2: RH180 F100 [- RH180 F70 [- b] + a] + RH180 F100 [- b] + a" in text
 
 
 def test_the_dichotomy_can_be_explored_and_drawn() -> None:

@@ -273,6 +273,12 @@ def test_a_plant_with_a_million_open_brackets_is_an_error() -> None:
         derive(read("axiom: A ?P(0,0)\nA -> [A]"), 60)
 
 
+def test_somebody_looks_at_the_clock_while_the_turtle_goes_on() -> None:
+    word, calls = derive(read("axiom: A ?P(0,0)\nA -> F A A"), 13)[-1], []
+    seen(word, lambda: calls.append(len(calls)))
+    assert len(calls) >= len(word) // 4_096
+
+
 def test_looking_is_given_up_in_time() -> None:
     with limits(seconds=0.2), pytest.raises(ModelLimitError, match=r"was not reached in 0\.2 seconds") as caught:
         derive(read("axiom: A ?P(0,0)\nA -> [+F A][-F A]"), 30)
