@@ -42,16 +42,11 @@ OFTEN = 1_024
 
 
 class Sight(Protocol):
-    """What is seen of a word.
-
-    Attributes
-    ----------
-    word
-        The word, with the values of its query modules filled in.
-    """
+    """What is seen of a word."""
 
     @property
-    def word(self) -> Word: ...
+    def word(self) -> Word:
+        """The word, with the values of its query modules filled in."""
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
         """What a sensitive function answers to the module at a position."""

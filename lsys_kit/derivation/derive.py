@@ -31,7 +31,7 @@ def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: 
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
 def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
-    """Derive a system: the words of steps 0 to `steps`.
+    """Derive a system by its words alone: `lsys_kit.derive`, which is the same, also answers what modules ask of the turtle.
 
     Parameters
     ----------

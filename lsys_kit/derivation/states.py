@@ -173,8 +173,7 @@ class States:
         except ValueError as fault:
             raise fault_in(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
 
-    def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]],
-             chance: Chance | None = None) -> list[tuple[Rule, Value]]:
+    def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
         """Of the rules that match those that are chosen by lot, each with its weight."""
         return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
 
