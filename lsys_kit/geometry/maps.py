@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+import time
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 
 import numpy as np
 
+from lsys_kit.budget import current
 from lsys_kit.derivation.maps import Map, cell_words
-from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relaxed
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relaxing
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.maps import Edge
 
 FIRST_WALL = 0.28
 """The length of a wall of the first cell, before it is at rest."""
+OFTEN = 100
+"""After so many iterations the time is looked at."""
 
 
 def placed(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
@@ -44,10 +51,45 @@ def placed(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
     >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
     [0.28 0.28] [0.56 0.36]
     """
+    until = time.monotonic() + current().seconds
     points: Floats | None = None
-    for found in maps:
-        points = relaxed(polygon(len(found.vertices)) if points is None else inserted(found, points), tissue(found), forces)
+    for step, found in enumerate(maps):
+        points = _at_rest(relaxing(begun(found, points), tissue(found), forces), step, until)
         yield points
+
+
+def _at_rest(way: Iterator[Floats], step: int, until: float) -> Floats:
+    """Where the way of the vertices ends."""
+    points = next(way)
+    for iteration, farther in enumerate(way):
+        points = farther
+        if iteration % OFTEN == 0 and time.monotonic() > until:
+            raise ModelLimitError(f"The cells of step {step} did not come to rest in {current().seconds:g} seconds",
+                                  limit=current().seconds, hint="Take fewer steps, or set limits(seconds=...).")
+    return points
+
+
+def settling(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NORMAL) -> Iterator[Floats]:
+    """Where the vertices of the last map lie after some numbers of iterations, which grow; before, the map before is at rest.
+
+    >>> from lsys_kit.derivation.development import developed
+    >>> from lsys_kit.notation.read_map import read_map
+    >>> maps = developed(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
+    >>> [float(np.ptp(points[:, 0]).round(2)) for points in settling(maps, [0, 50, 5_000])]
+    [0.28, 0.64, 0.56]
+    """
+    *_, before = None, *placed(maps[:-1], forces)
+    way = relaxing(begun(maps[-1], before), tissue(maps[-1]), forces)
+    reached, points = 0, next(way)
+    for iteration in iterations:
+        points = (deque(islice(way, iteration - reached), maxlen=1) or [points])[0]
+        reached = iteration
+        yield points
+
+
+def begun(found: Map, before: Floats | None) -> Floats:
+    """Where the vertices of a map lie at first, given where those of the map before lie, if there is one."""
+    return polygon(len(found.vertices)) if before is None else inserted(found, before)
 
 
 def polygon(corners: int) -> Floats:

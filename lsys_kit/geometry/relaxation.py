@@ -7,14 +7,11 @@ proportion to the wall's length; half of the push goes to either end. So a cell 
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError
 from lsys_kit.geometry.scene import Floats, Integers
 
 PACE = 0.05
@@ -28,8 +25,6 @@ MOST = 20_000
 LEAST_AREA = 1e-3
 """The area that a cell is taken to have where it has less, so that pressures are finite. A cell that a new wall divides outside
 of it, because it is concave, may stay turned inside out."""
-OFTEN = 100
-"""After so many iterations the time is looked at."""
 
 
 @dataclass(frozen=True)
@@ -94,11 +89,6 @@ def relaxed(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Floats:
     tissue, forces
         What is connected with what, and how strongly.
 
-    Raises
-    ------
-    ModelLimitError
-        This takes too long.
-
     Examples
     --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
@@ -112,11 +102,10 @@ def relaxed(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Floats:
 
 def relaxing(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
     """The vertices at first, and after each iteration until they are at rest."""
-    until = time.monotonic() + current().seconds
     speeds, following = np.zeros_like(points), tissue.following
     room = areas(points, tissue)
     yield points
-    for iteration in range(MOST):
+    for _ in range(MOST):
         push = force(points, tissue, following, room, forces) - forces.damping * speeds
         pace, moved, left = _moved(points, speeds, push, tissue, room)
         speeds = speeds + push * pace
@@ -125,9 +114,6 @@ def relaxing(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterato
         yield points
         if farthest < AT_REST:
             return
-        if iteration % OFTEN == 0 and time.monotonic() > until:
-            raise ModelLimitError(f"The cells did not come to rest in {current().seconds:g} seconds", limit=current().seconds,
-                                  hint="Take fewer steps, or set limits(seconds=...).")
 
 
 def _moved(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.derivation.ageing import ageing_of
@@ -44,7 +44,8 @@ def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: obje
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None,
          **constants: object) -> Picture: ...
 @overload
-def draw(what: MapSystem | Development, n: int | None = None, **forces: object) -> MapPicture: ...
+def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
+         **forces: object) -> MapPicture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
@@ -63,7 +64,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         For a system `seed`, `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules
         are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
-        For a map system new values of the forces that shape it: `stiffness`, `rest`, `pressure`, `damping`.
+        For a map system `iterations`, after which its last step is shown on the way to rest, and new values of the forces that
+        shape it: `stiffness`, `rest`, `pressure`, `damping`.
 
     Raises
     ------

@@ -19,7 +19,7 @@ from lsys_kit.derivation.development import Development, developed
 from lsys_kit.derivation.maps import Map
 from lsys_kit.derivation.rules import number_from
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.geometry.maps import placed, scenes
+from lsys_kit.geometry.maps import placed, scenes, settling
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.maps import MapSystem
@@ -34,8 +34,8 @@ LARGE, MIDDLE, SMALL = 180.0, 130.0, 95.0
 """Pixels for a unit: of few maps; of maps in several lines; of maps in one line at least."""
 GAP, CAPTION, NUMBER = 22, 34, 14
 """The space between two maps, that below one, and the size of the number of its step there, in pixels."""
-MOST_STEPS, STEPS = 12, 4
-"""A picture shows so many steps, the last ones; so many are derived where nothing is said."""
+MOST_MAPS, STEPS = 12, 4
+"""A picture shows so many maps, those of the last steps; so many steps are derived where nothing is said."""
 LABEL, LEAST_LABELLED, LEAST_POINTED = 13.0, 24.0, 13.0
 """The size of a label, and how long walls are that have a label or an arrow, in pixels."""
 FILLS = tuple(tinted(colour, strength) for strength in (0.3, 0.6) for colour in SERIES)
@@ -46,37 +46,41 @@ RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "d
 """Between which values the forces can be computed."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MapPicture:
-    """A picture of the steps of a map system, side by side.
+    """A picture of the steps of a map system, side by side; or of one step while its cells come to rest.
 
     Attributes
     ----------
     maps, places, scenes
         The maps that are shown, where their vertices lie, and their walls and cells.
-    first
-        The step of the first of them.
+    numbers
+        What stands below them: steps, or iterations.
+    step
+        The step whose cells come to rest, or None.
     """
 
     maps: Sequence[Map]
     places: Sequence[Floats]
     scenes: Sequence[Scene]
-    first: int
+    numbers: Sequence[int]
+    step: int | None = None
 
     @property
     def text(self) -> str:
         """What the picture shows, in words."""
         counts = zip(self.maps[-1].counts, ("vertex", "wall", "cell"), ("vertices", "walls", "cells"), strict=True)
         last = ", ".join(f"{count:,} {one if count == 1 else many}" for count, one, many in counts)
-        steps = f"steps {self.first} to {self.first + len(self.maps) - 1}" if len(self.maps) > 1 else ""
+        if self.step is not None:
+            return described([f"step {self.step} after {', '.join(f'{number:,}' for number in self.numbers)} iterations", last])
+        steps = f"steps {self.numbers[0]} to {self.numbers[-1]}" if len(self.numbers) > 1 else ""
         return described([steps, ("the last: " if steps else "") + last])
 
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
         panels = arranged(self.scenes)
-        body = "".join(panel_svg(found, places, scene, panel, self.first + number) for number, (found, places, scene, panel)
-                       in enumerate(zip(self.maps, self.places, self.scenes, panels, strict=True)))
+        body = "".join(map(panel_svg, self.maps, self.places, self.scenes, panels, self.numbers))
         width, height = panels[0].frame.width, panels[0].frame.height
         return document(background(width, height) + body, width, height, described([self.text, self._colours]))
 
@@ -105,19 +109,39 @@ class MapPicture:
         return self.text
 
 
-def map_picture(what: MapSystem | Development, n: int | None = None, **forces: object) -> MapPicture:
-    """The picture of a map system after `n` steps, or of a development."""
+def map_picture(what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (),
+                **forces: object) -> MapPicture:
+    """The picture of a map system after `n` steps, or of a development; or of its last step on the way to rest."""
     if isinstance(what, MapSystem):
         what = developed(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
-    walls = sum(walls for _, walls, _ in what.counts[-MOST_STEPS:])
+    if iterations:
+        _check_iterations(iterations)
+        shown: Sequence[Map] = [what[-1]] * len(iterations)
+        _check_size(shown)
+        places = [*settling(what, iterations, forces_of(forces))]
+        return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps)
+    first = max(0, len(what) - MOST_MAPS)
+    _check_size(what[first:])
+    places = [*placed(what, forces_of(forces))]
+    return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)))
+
+
+def _check_iterations(iterations: Sequence[int]) -> None:
+    """Iterations are counted from 0, and grow."""
+    counted = all(isinstance(one, int) and not isinstance(one, bool) for one in iterations)
+    if not counted or [*iterations] != sorted({*iterations}) or iterations[0] < 0:
+        raise ModelValueError(f"Iterations are whole numbers from 0 on, each greater than the one before, not {iterations!r}")
+    if len(iterations) > MOST_MAPS:
+        raise ModelValueError(f"A picture shows {MOST_MAPS} iterations at most, not {len(iterations)}")
+
+
+def _check_size(maps: Sequence[Map]) -> None:
+    walls = sum(len(found.walls) for found in maps)
     if walls > current().segments:
         raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
                               limit=current().segments, needed=walls, hint="Take fewer steps, or set limits(segments=...).")
-    places = [*placed(what, forces_of(forces))]
-    first = max(0, len(what) - MOST_STEPS)
-    return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], first)
 
 
 def forces_of(choices: dict[str, object]) -> Forces:
@@ -187,11 +211,11 @@ def _lines(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
     yield line
 
 
-def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, step: int) -> str:
+def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: int) -> str:
     """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
     return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame)}"
             f'<text x="{panel.x}" y="{panel.y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
-            f'fill="{QUIET}">{step}</text>')
+            f'fill="{QUIET}">{number}</text>')
 
 
 def cells_svg(cells: Polygons, frame: Frame) -> str:

@@ -9,7 +9,7 @@ import pytest
 
 from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, derive, draw, limits
 from lsys_kit.notation.read_map import read_map
-from lsys_kit.pictures.maps import FILLS, MOST_STEPS, MapPicture
+from lsys_kit.pictures.maps import FILLS, MOST_MAPS, MapPicture
 from lsys_kit.pictures.palette import SERIES
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -47,7 +47,8 @@ def test_cells_of_one_kind_have_one_colour() -> None:
 
 def test_a_long_development_shows_its_last_steps() -> None:
     picture = draw(derive(read_map("map: AAA"), 13))
-    assert (picture.first, len(picture.maps)) == (14 - MOST_STEPS, MOST_STEPS)
+    assert [*picture.numbers] == [*range(14 - MOST_MAPS, 14)]
+    assert len(picture.maps) == MOST_MAPS
     assert str(picture) == "steps 2 to 13; the last: 3 vertices, 3 walls, 1 cell"
 
 
@@ -101,7 +102,21 @@ def test_more_pressure_makes_larger_cells() -> None:
     assert large.scenes[-1].width > 1.1 * small.scenes[-1].width
 
 
+def test_the_cells_of_a_step_come_to_rest_from_picture_to_picture() -> None:
+    picture = draw(K28, 2, iterations=[0, 20, 100])
+    assert str(picture) == "step 2 after 0, 20, 100 iterations; 9 vertices, 12 walls, 4 cells"
+    assert [scene.width for scene in picture.scenes] == sorted(scene.width for scene in picture.scenes)
+    assert [found.text for found in parsed(picture).findall(f"{SVG}text")] == ["0", "20", "100"]
+    at_rest = draw(K28, 2, iterations=[90_000])
+    assert at_rest.scenes[0].box == draw(K28, 2).scenes[-1].box
+    assert draw(derive(K28, 0), iterations=[0]).maps[0].counts == (4, 4, 1)
+
+
 @pytest.mark.parametrize(("choices", "kind", "message"), [
+    ({"iterations": [-1]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
+    ({"iterations": [3, 3]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
+    ({"iterations": ["3"]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
+    ({"iterations": range(13)}, ModelValueError, "A picture shows 12 iterations at most, not 13"),
     ({"angle": 30}, ModelNameError, 'A map has no "angle". Its forces are stiffness, rest, pressure, damping'),
     ({"pressure": -1}, ModelValueError, '"pressure" must lie between 0.001 and 10, not be -1'),
     ({"stiffness": "1e9"}, ModelValueError, '"stiffness" must lie between 0.01 and 100, not be 1e'),
