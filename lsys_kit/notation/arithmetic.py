@@ -20,7 +20,7 @@ SMALL = 2**63
 
 
 def number_text(value: Value) -> str:
-    """A value as the notations write it: decimal where that is exact and short, else a quotient.
+    """A value as the notations write it: decimal where that is exact, else a quotient.
 
     >>> [number_text(v) for v in (3, Fraction(7, 10), Fraction(1, 3), 0.1, 2.0)]
     ['3', '0.7', '1/3', '0.1', '2']
@@ -36,9 +36,9 @@ def number_text(value: Value) -> str:
         rest, twos = rest // 2, twos + 1
     while rest % 5 == 0:
         rest, fives = rest // 5, fives + 1
-    places = max(twos, fives)
-    if rest != 1 or places > 40:
+    if rest != 1:
         return f"{value.numerator}/{value.denominator}"
+    places = max(twos, fives)
     digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
     return ("-" if value < 0 else "") + f"{digits[:-places]}.{digits[-places:]}"
 

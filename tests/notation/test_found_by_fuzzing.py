@@ -13,6 +13,8 @@ FOUND = {
     "a separator that is a blank to Python, and none to the grammar": " \x1c",
     "a roll before a name that LaTeX knows": "\\omega : \\overrightarrow{A}\\overrightarrow B \\over",
     "letters that part a name only after another is parted": "axiom: F\nF -> JJJ+JJF",
+    "a number of many digits": "axiom: A(0)\nA(t) -> A(1." + "4" * 99 + "1)",
+    "a very small number": "axiom: A(0)\nA(t) -> A(t + 3e-99)",
     "an @ before a name": "steps: 15\naxiom: @b@ a a a a a a/a a/!a @b a a a a aa d\nb < a -> V",
 }
 
