@@ -231,11 +231,11 @@ class LSystem:
     alphabet
         Names of several letters that a reader might mistake for a row of symbols. No part of what the system is: equality
         ignores it.
+    cells
+        How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses". Equality ignores it.
     notation
         In which notation it was read and prints itself. Not a part of what the system is: equality ignores it.
     source, notes
-    cells
-        How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses". Equality ignores it.
         The text it was read from, and what the reader found worth telling. Equality ignores them too.
     """
 
@@ -256,10 +256,10 @@ class LSystem:
     seed: int | None = None
     decomposition_depth: int | None = None
     turtle: str = "abop"
+    cells: str = field(default="rectangles", compare=False)
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
-    cells: str = field(default="rectangles", compare=False)
 
     def __hash__(self) -> int:
         return self._hash
