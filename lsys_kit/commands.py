@@ -31,9 +31,9 @@ MOST_NEIGHBOURS = 1_000
 
 def list_systems(_: argparse.Namespace) -> None:
     """Print the ids and titles of the catalogue."""
-    from lsys_kit import systems
+    from lsys_kit import map_systems, systems
 
-    print(repr(systems()))
+    print(f"{systems()!r}\n{map_systems()!r}")
 
 
 def print_words(options: argparse.Namespace) -> None:
@@ -83,10 +83,16 @@ def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
 
 
 def draw_word(options: argparse.Namespace) -> None:
-    """Write a picture of a step's word, or a film of the steps up to it, and say what it shows."""
+    """Write a picture of a step's word, or of maps, or a film of the steps up to a word, and say what it shows."""
+    from lsys_kit.classroom.catalogue import map_system, map_systems
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
+    if options.system.upper() in map_systems():
+        maps = draw(map_system(options.system), options.steps)
+        maps.save(options.output)
+        print(maps)
+        return
     words = _words(_system(options), options)
     if Path(options.output).suffix.lower() in FILMS:
         shown: Picture | Film = animate(words, angle=options.angle, seconds=options.seconds)

@@ -430,9 +430,15 @@ def loaded_by(code: str) -> set[str]:
 
 
 def test_list_names_every_system(shell):
-    from lsys_kit import systems
+    from lsys_kit import map_systems, systems
 
-    assert [line.split()[0] for line in shell("list").out.splitlines()] == list(systems())
+    assert [line.split()[0] for line in shell("list").out.splitlines()] == [*systems(), *map_systems()]
+
+
+def test_draw_draws_maps_too(shell, tmp_path):
+    said = shell("draw", "k30", "-n", "2", "-o", str(tmp_path / "map.svg"))
+    assert said == (0, "steps 0 to 2; the last: 8 vertices, 10 walls, 3 cells\n", "")
+    assert (tmp_path / "map.svg").read_text().startswith("<svg")
 
 
 def test_help_names_every_command(shell):
