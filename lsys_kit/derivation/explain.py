@@ -11,7 +11,9 @@ from lsys_kit.derivation.rules import Rule
 from lsys_kit.derivation.stepping import Old, Stepper, uncut
 from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.expressions import Name, names_in
-from lsys_kit.notation.model import Module, joined
+from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.write import as_written
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,8 @@ class Fate:
         The production that was applied, in words with its number; or why none was.
     refused
         For each production of its symbol that was not applied, why not.
+    notation
+        In which notation the module and its successor are shown.
     """
 
     position: int
@@ -37,10 +41,12 @@ class Fate:
     successor: tuple[Module, ...]
     production: str
     refused: tuple[str, ...]
+    notation: str = "abop"
 
     def __str__(self) -> str:
-        made = joined(map(str, self.successor)) or "ε"
-        lines = [f"{self.position}. {self.module} becomes {made}: {self.production}", *self.refused]
+        own = notation_called(self.notation)
+        made = own.word(self.successor) or "ε"
+        lines = [f"{self.position}. {own.module(self.module)} becomes {made}: {self.production}", *self.refused]
         return "\n     ".join(lines)
 
 
@@ -89,6 +95,7 @@ def explain(derivation: Derivation, step: int) -> Explanation:
 
 
 def _fates(stepper: Stepper, old: Old, successors: dict[int, list[Module]], applied: dict[int, int | None]) -> Iterator[Fate]:
+    system = stepper.states.system
     for position, kept in enumerate(uncut(old.symbols)):
         module = old.modules[position]
         made = tuple(successors.get(position, ()))
@@ -96,10 +103,11 @@ def _fates(stepper: Stepper, old: Old, successors: dict[int, list[Module]], appl
         refusals = [(rule, _refusal(stepper, old, position, rule)) for rule in rules] if kept else []
         matching = [rule for rule, why in refusals if why is None]
         chosen = _chosen(matching, applied.get(position), bool(made))
-        said = _said(chosen) if chosen else "it is cut off" if not kept else \
+        said = _said(system, chosen) if chosen else "it is cut off" if not kept else \
             "no production matches" if rules else f"no production is for {module.symbol}"
-        why_not = tuple(f"{_said(rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals if rule is not chosen)
-        yield Fate(position + 1, module, made, said, why_not)
+        why_not = tuple(f"{_said(system, rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals
+                        if rule is not chosen)
+        yield Fate(position + 1, module, made, said, why_not, system.notation)
 
 
 def _chosen(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
@@ -109,8 +117,8 @@ def _chosen(matching: list[Rule], applied: int | None, left_something: bool) -> 
     return matching[0] if matching else None
 
 
-def _said(rule: Rule) -> str:
-    return f"production {rule.number + 1}, {rule.production}"
+def _said(system: LSystem, rule: Rule) -> str:
+    return f"production {rule.number + 1}, {as_written(system, rule.production)}"
 
 
 def _passed_over(rule: Rule, chosen: Rule | None) -> str:
@@ -121,12 +129,12 @@ def _passed_over(rule: Rule, chosen: Rule | None) -> str:
 
 def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | None:
     """Why a rule does not match a module; None where it does."""
-    module, asked = old.modules[position], rule.production.predecessor
+    system, module, asked = stepper.states.system, old.modules[position], rule.production.predecessor
     if len(module.arguments) != len(asked.arguments):
         return f"is for {asked.symbol} with {len(asked.arguments)} parameters, not {len(module.arguments)}"
     at = stepper.context(rule, old, position)
     if at is None:
-        return _context_missing(old, position, rule)
+        return _context_missing(system, old, position, rule)
     values = values_at(old.modules, at)
     given = values + stepper.states.constants
     arguments = [a for m in rule.production.parameters for a in m.arguments]
@@ -137,20 +145,22 @@ def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | Non
     if not stepper.states.holds(rule, values, module, chance):
         names = names_in(rule.production.condition) if rule.production.condition else frozenset()
         known = {a.name: value for a, value in zip(arguments, values, strict=True) if isinstance(a, Name)}
-        known |= dict(zip((c.name for c in stepper.states.system.constants), stepper.states.constants, strict=True))
+        known |= dict(zip((c.name for c in system.constants), stepper.states.constants, strict=True))
         told = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
-                          *(f"{asked} is {number_text(answer((*given, chance)))}" for asked, answer in rule.questions)])
-        return f"{rule.production.condition} is false{f' where {told}' if told else ''}"
+                          *(f"{as_written(system, question)} is {number_text(answer((*given, chance)))}"
+                            for question, answer in rule.questions)])
+        return f"{as_written(system, rule.production.condition)} is false{f' where {told}' if told else ''}"
     return None
 
 
-def _context_missing(old: Old, position: int, rule: Rule) -> str:
+def _context_missing(system: LSystem, old: Old, position: int, rule: Rule) -> str:
     """Which context a module lacks."""
     assert old.around is not None
+    word = notation_called(system.notation).word
     left = chain(old.around.before, position, len(rule.left))
-    there = joined(str(old.modules[at]) for at in reversed(left)) or "nothing"
+    there = word(old.modules[at] for at in reversed(left)) or "nothing"
     if tuple((old.symbols[at], len(old.modules[at].arguments)) for at in left) != rule.left:
-        return f"needs {joined(map(str, rule.production.left))} on its left, and there is {there}"
+        return f"needs {word(rule.production.left)} on its left, and there is {there}"
     right = chain(old.around.after, position, max(1, len(rule.right)))
-    there = joined(str(old.modules[at]) for at in right) or "nothing"
-    return f"needs {joined(map(str, rule.production.right))} on its right, and there is {there}"
+    there = word(old.modules[at] for at in right) or "nothing"
+    return f"needs {word(rule.production.right)} on its right, and there is {there}"

@@ -21,6 +21,7 @@ from lsys_kit.derivation.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, number_text
 from lsys_kit.notation.model import Module
+from lsys_kit.notation.write import as_written
 
 End: TypeAlias = tuple[Rule, Value] | None
 """The rule by which a module ends, and at which age; None where it lives for ever."""
@@ -95,7 +96,8 @@ def growing_in_steps(states: States) -> Growing:
         for rule in rules:
             if not _lets_time_pass(rule, ageing):
                 start, end = rule.production.at or (None, None)
-                said = f"How long a module lives is not told where {rule.production} does more than let time pass"
+                shown = as_written(states.system, rule.production)
+                said = f"How long a module lives is not told where {shown} does more than let time pass"
                 raise ModelValueError(said, states.system.source or None, start, end,
                                       'It is told by productions such as "a(t) -> a(t+dt)" and decomposition rules such as '
                                       '"a(t) : t > 1 -> b(t-1)"; and by those of timed(system).')

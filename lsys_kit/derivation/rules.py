@@ -95,7 +95,6 @@ Rules: TypeAlias = Mapping[Kind, tuple[Rule, ...]]
 """For each symbol and number of parameters its rules, in the order written."""
 
 
-@lru_cache(maxsize=256)
 def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
     """The rules of a system, by the symbol and the number of parameters that they rewrite.
 
@@ -114,6 +113,12 @@ def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "product
     >>> sorted(rules_of(read("axiom: A(0)\\nA(t) : t < 5 -> A(t+1) B")))
     [('A', 1)]
     """
+    return _rules(system, system.source, arithmetic, section)
+
+
+@lru_cache(maxsize=256)
+def _rules(system: LSystem, source: str, arithmetic: str, section: str) -> Rules:
+    """The rules; a system that is equal, and was written otherwise, has rules of its own, which stand elsewhere in its text."""
     rules: dict[Kind, list[Rule]] = {}
     for number, production in enumerate(getattr(system, section)):
         rules.setdefault(kind_of(production.predecessor), []).append(rule_for(system, number, production, arithmetic))

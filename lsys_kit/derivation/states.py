@@ -17,6 +17,7 @@ from lsys_kit.derivation.rules import Part, Parts, Rule, Rules, constants_of, ki
 from lsys_kit.errors import ModelLimitError, ModelNameError
 from lsys_kit.notation.arithmetic import SMALL, Value, is_symbolic, same, settled_value, sound
 from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.write import as_written
 
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
@@ -254,7 +255,8 @@ class States:
                 found.append(self.number(part.symbol, part.arguments))  # type: ignore[arg-type]
             elif depth == deepest:
                 start, end = rule.production.at or (None, None)
-                raise ModelLimitError(f"{part} is decomposed more than {deepest} times, last by {rule.production}",
+                raise ModelLimitError(f"{part} is decomposed more than {deepest} times, last by "
+                                      f"{as_written(self.system, rule.production)}",
                                       limit=deepest, source=self.system.source or None, start=start, end=end,
                                       hint="A condition before the arrow can bring it to an end.")
             else:

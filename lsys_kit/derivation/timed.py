@@ -26,6 +26,7 @@ from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.arithmetic import Value, is_symbolic, number_text
 from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.write import as_written
 
 if TYPE_CHECKING:
     pass
@@ -160,6 +161,7 @@ def timed(system: LSystem, **constants: object) -> Timed:
         for rule in rules:
             if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:
                 start, end = rule.production.at or (None, None)
-                raise ModelValueError(f"The production {rule.production} does not say at which age it applies",
+                shown = as_written(system, rule.production)
+                raise ModelValueError(f"The production {shown} does not say at which age it applies",
                                       system.source or None, start, end, 'A timed production reads "a(1) -> b(0) a(0)".')
     return Timed(states)

@@ -250,7 +250,7 @@ def follow(turtle: Turtle, word: Word, acts: Mapping[str, Act], ready: Callable[
 
 @contextmanager
 def _no_collection() -> Iterator[None]:
-    """Where nearly all modules are different, Python would look through all orders for cycles, again and again: half the time."""
+    """Where nearly all modules are different, Python would look for cycles among all orders again and again: half the time."""
     enabled = gc.isenabled()
     gc.disable()
     try:

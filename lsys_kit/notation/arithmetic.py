@@ -19,8 +19,12 @@ SMALL = 2**63
 """Whole numbers below this are exact, sound and short without further ado."""
 
 
+SHORT = 40
+"""So many places behind the point are easier to read than a quotient."""
+
+
 def number_text(value: Value) -> str:
-    """A value as the notations write it: decimal where that is exact, else a quotient.
+    """A value as the notations write it: decimal where that is exact and short, else a quotient.
 
     >>> [number_text(v) for v in (3, Fraction(7, 10), Fraction(1, 3), 0.1, 2.0)]
     ['3', '0.7', '1/3', '0.1', '2']
@@ -31,14 +35,31 @@ def number_text(value: Value) -> str:
         return str(value).replace("**", "^")
     if isinstance(value, float):
         return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
+    places = _places(value)
+    return f"{value.numerator}/{value.denominator}" if places is None or places > SHORT else _decimal(value, places)
+
+
+def literal_text(value: Value) -> str:
+    """A literal number: decimal wherever that is exact, however long, so that it reads back as one number.
+
+    >>> literal_text(Fraction(1, 2**41)) == f"{1 / 2**41:.41f}", literal_text(Fraction(1, 3))
+    (True, '1/3')
+    """
+    places = _places(value) if isinstance(value, Fraction) else None
+    return number_text(value) if places is None else _decimal(value, places)  # type: ignore[arg-type]
+
+
+def _places(value: Fraction) -> int | None:
+    """How many decimal places a fraction has; None where they never end."""
     rest, twos, fives = value.denominator, 0, 0
     while rest % 2 == 0:
         rest, twos = rest // 2, twos + 1
     while rest % 5 == 0:
         rest, fives = rest // 5, fives + 1
-    if rest != 1:
-        return f"{value.numerator}/{value.denominator}"
-    places = max(twos, fives)
+    return max(twos, fives) if rest == 1 else None
+
+
+def _decimal(value: Fraction, places: int) -> str:
     digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
     return ("-" if value < 0 else "") + f"{digits[:-places]}.{digits[-places:]}"
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.arithmetic import Value, number_text
+from lsys_kit.notation.arithmetic import Value, literal_text
 from lsys_kit.notation.operators import OPERATORS as OPERATORS
 from lsys_kit.notation.operators import Function as Function
 
@@ -38,7 +38,7 @@ class Number:
     at: Place = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
-        return number_text(self.value)
+        return literal_text(self.value)
 
 
 @dataclass(frozen=True)

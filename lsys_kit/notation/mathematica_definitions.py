@@ -73,7 +73,7 @@ class Definitions:
         elif kind == "printed_axiom":
             self.printed = self._keep(self.systems, self.title, System(record, printed=True))
         elif kind == "printed_rule":
-            self._print(record)
+            self._print(replace(record, at=at))
         else:
             self._define(*record)
 

@@ -13,7 +13,7 @@ from lark.visitors import merge_transformers
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
-from lsys_kit.notation.expressions import Apply, Expression, Name, Place
+from lsys_kit.notation.expressions import Apply, Expression, Name
 from lsys_kit.notation.mathematica_calls import MathematicaExpressions
 from lsys_kit.notation.mathematica_expressions import INSTEAD, meant
 from lsys_kit.notation.model import Constant, Module, Production
@@ -147,12 +147,12 @@ class _Statements(MathematicaExpressions):
     def side(self, _: Token, *patterns: Pattern) -> tuple[Pattern, ...]:
         return patterns
 
-    def succ(self, keyword: Token, *word: Word) -> tuple[Word, Place]:
-        return (word[0] if word else ()), _around(keyword, *word[0] if word else ())
+    def succ(self, _: Token, *word: Word) -> Word:
+        return word[0] if word else ()
 
     def lrule(self, keyword: Token, left: tuple[Pattern, ...], pred: tuple[Pattern, ...], right: tuple[Pattern, ...],
-              succ: tuple[Word, tuple[int, int]]) -> Rule:
-        return _rule(left, pred[0], right, succ[0], (keyword.start_pos or 0, succ[1][1]))
+              succ: Word, closing: Token) -> Rule:
+        return _rule(left, pred[0], right, succ, (keyword.start_pos or 0, closing.end_pos or 0))
 
     def before(self, *patterns: Pattern) -> tuple[str, tuple[Pattern, ...]]:
         return "left", patterns

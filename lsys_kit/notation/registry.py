@@ -25,7 +25,8 @@ def notation_called(name: str) -> Notation:
         There is no such notation.
     """
     if name == "map":
-        raise ModelNameError("Maps are no L-systems", hint="A text that begins with the walls of a cell is read by read_map(text).")
+        hint = "A text that begins with the walls of a cell is read by read_map(text)."
+        raise ModelNameError("Maps are no L-systems", hint=hint)
     if name not in NOTATIONS:
         raise ModelNameError(f'There is no notation called "{name}"', hint=f"Notations are: {', '.join(NOTATIONS)}.")
     return NOTATIONS[name]

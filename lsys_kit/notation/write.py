@@ -1,11 +1,14 @@
-"""Records to text: a whole system, laid out in a notation.
+"""Records to text: a whole system, laid out in a notation; or a part of it, as it was written.
 
 `read(write(system)) == system` for every system that the notation can express.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.checks import span
 from lsys_kit.notation.model import LSystem
 from lsys_kit.notation.registry import notation_called
 
@@ -39,3 +42,15 @@ def write(system: LSystem, notation: str | None = None) -> str:
     if lacking:
         raise ModelValueError(f"The notation {chosen.name} has no {lacking}, which this system needs")
     return chosen.write(system)
+
+
+def as_written(system: LSystem, part: Any) -> str:
+    """A production, a condition or a pattern of a system as its text has it; in the kit's own notation where it has no text.
+
+    >>> from lsys_kit.notation.read import read
+    >>> system = read("* # F a,\\n(t<6)  k(t) # k(t+1)", "grogra")
+    >>> as_written(system, system.productions[1]), as_written(LSystem((), ()), system.productions[1])
+    ('(t<6) k(t) # k(t+1)', 'k(t) : t < 6 -> k(t + 1)')
+    """
+    start, end = span(part)
+    return " ".join(system.source[start:end].split()) if system.source and end else str(part)

@@ -21,15 +21,33 @@ A(t) > Z -> Y
 
 def test_each_module_is_told_what_it_became_and_why_not_something_else() -> None:
     told = repr(explain(derive(read(TEXT), 1), 1))
-    assert "1. A(1) becomes A(2): production 1, A(t) : t < limit -> A(t + 1)" in told
+    assert "1. A(1) becomes A(2): production 1, A(t) : t < limit -> A(t+1)" in told
     assert "production 2, A(3) -> ε: asks for 3, and there is 1" in told
     assert "2. + becomes +: no production is for +" in told
     assert "5. A(3) becomes ε: production 2, A(3) -> ε" in told
-    assert "production 1, A(t) : t < limit -> A(t + 1): t < limit is false where limit = 3, t = 3" in told
-    assert "7. C(1,2) becomes D(3): production 3, B < C(x,y) -> D(x + y)" in told
+    assert "production 1, A(t) : t < limit -> A(t+1): t < limit is false where limit = 3, t = 3" in told
+    assert "7. C(1,2) becomes D(3): production 3, B < C(x,y) -> D(x+y)" in told
     assert "production 4, C(x) -> D(x): is for C with 1 parameters, not 2" in told
     assert "8. A(5) becomes A(5): no production matches" in told
     assert "production 5, A(t) > Z -> Y: needs Z on its right, and there is nothing" in told
+
+
+@pytest.mark.parametrize(("notation", "text", "told"), [
+    ("grogra", "* # L*0.5 k(5),\n(t<6)  k(t) # RU45 k(t+1)",
+     "2. k(5) becomes RU45 k(6): production 2, (t<6) k(t) # RU45 k(t+1)"),
+    ("mathematica", "LSystem[AXIOM[a[1], b], LRULES[LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i+1]]]]]",
+     "1. a[1] becomes a[2]: production 1, LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i+1]]]"),
+    ("cpfg", "Axiom: A(1)\nA(t) : t<3 --> A(t+1)", "1. A(1) becomes A(2): production 1, A(t) : t<3 --> A(t+1)"),
+])
+def test_a_step_is_told_in_the_words_of_the_model(notation: str, text: str, told: str) -> None:
+    step = 2 if notation == "grogra" else 1
+    assert told in repr(explain(derive(read(text, notation), step), step))
+
+
+def test_an_equal_system_that_was_written_otherwise_is_told_as_it_was_written() -> None:
+    for text in ("axiom: A(1)\nA(t) : t<3 -> A(t+1)", "axiom: A(1)\n\n/* grows */  A(t) : t < 3 -> A(t + 1)"):
+        told = repr(explain(derive(read(text), 1), 1))
+        assert told.endswith(text.splitlines()[-1].rpartition("  ")[2])
 
 
 def test_a_lot_and_a_cut_are_told() -> None:

@@ -305,17 +305,17 @@ WITHOUT_VALUE = [
     ("axiom: A(0)\nA(t) -> A(1/t)",
      "A(0) under production 1, A(t) -> A(1/t), has no value: division by zero", 2, 1, KEEP_OUT),
     ("axiom: A(0)\nA(t) -> A(log(t-1))",
-     "A(0) under production 1, A(t) -> A(log(t - 1)), has no value: log(-1) is not a number", 2, 1, KEEP_OUT),
+     "A(0) under production 1, A(t) -> A(log(t-1)), has no value: log(-1) is not a number", 2, 1, KEEP_OUT),
     ("axiom: A(0)\nA(t) -> A(sqrt(t-1))",
-     "A(0) under production 1, A(t) -> A(sqrt(t - 1)), has no value: sqrt(-1) is not a number", 2, 1, KEEP_OUT),
+     "A(0) under production 1, A(t) -> A(sqrt(t-1)), has no value: sqrt(-1) is not a number", 2, 1, KEEP_OUT),
     ("axiom: A(0)\nA(t) -> A((t-1)^0.5)",
-     "A(0) under production 1, A(t) -> A((t - 1)^0.5), has no value: (-1)^(0.5) is not a number", 2, 1, KEEP_OUT),
+     "A(0) under production 1, A(t) -> A((t-1)^0.5), has no value: (-1)^(0.5) is not a number", 2, 1, KEEP_OUT),
     ("axiom: A(0)\nA(t) -> A(0^(t-1))",
-     "A(0) under production 1, A(t) -> A(0^(t - 1)), has no value: division by zero", 2, 1, KEEP_OUT),
+     "A(0) under production 1, A(t) -> A(0^(t-1)), has no value: division by zero", 2, 1, KEEP_OUT),
     ("axiom: A(0)\nA(t) -> A(0.5^0.5^(t-5000))",
-     "A(0) under production 1, A(t) -> A(0.5^0.5^(t - 5000)), has no value: the result is too large", 2, 1, KEEP_OUT),
+     "A(0) under production 1, A(t) -> A(0.5^0.5^(t-5000)), has no value: the result is too large", 2, 1, KEEP_OUT),
     ("axiom: A(0)\nA(t) -> A(exp(t+1000))",
-     "A(0) under production 1, A(t) -> A(exp(t + 1000)), has no value: the result is too large", 2, 1, KEEP_OUT),
+     "A(0) under production 1, A(t) -> A(exp(t+1000)), has no value: the result is too large", 2, 1, KEEP_OUT),
 ]
 """Values that cannot be computed: the module and the production are named."""
 PLANT_STRINGS = [

@@ -31,7 +31,7 @@ def test_a_turtle_draws_the_last_word():
 
 
 def test_the_angle_may_be_given_as_a_person_writes_it():
-    assert str(draw(system("K5"), 2, angle="0")) == str(draw(system("K5"), 2, angle=0.0)) == "25 segments, width 0, height 900"
+    assert str(draw(system("K5"), 2, angle="0")) == str(draw(system("K5"), 2, angle=0.0)) == "25 segments, width 0, height 9"
 
 
 def test_a_picture_is_described_and_the_same_every_time():

@@ -123,7 +123,7 @@ def test_the_explanation_tells_what_was_seen() -> None:
     stopped = [fate for fate in fates if not fate.production.startswith("production")]
     assert len(fates), len(stopped) == (16, 4)
     assert stopped[0].refused == (
-        "production 2, b : sensed(2, 1) > 60 -> RH(180)F(70)[-b]+a: sensed(2, 1) > 60 is false where sensed(2, 1) is 30",)
+        "production 2, (f(1) > 60) b → RH180 F70 [ - b ] + a: f(1) > 60 is false where f is 30",)
 
 
 def test_words_alone_do_not_tell_what_is_seen() -> None:

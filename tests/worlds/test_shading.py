@@ -67,7 +67,7 @@ def test_the_explanation_counts_who_shades() -> None:
     fates = [fate for fate in explain(derive(system("K22"), 12), 12) if fate.module.symbol == "b"]
     shaded = [fate for fate in fates if fate.production == "no production matches"]
     assert shaded
-    assert "sensed(4, 45, 1) == 0 is false where sensed(4, 45, 1) is " in shaded[0].refused[0]
+    assert "c(45, 1) = 0 is false where c is " in shaded[0].refused[0]
 
 
 def test_the_same_seed_gives_the_same_trees() -> None:
