@@ -133,7 +133,7 @@ def _keyword(stumble: Stumble) -> ModelSyntaxError | None:
         said = f'Nothing stands behind "{word[1]}:"', possible(stumble.accepted)
     elif word[2] and not meant and rest[0].isdigit():
         said = f'I do not know "{word[1]}:"', f'A constant is declared with "=", as in "{word[1]} = {printed(rest)}".'
-    elif not word[2] and meant == name and rest[:1] not in ("(", "="):
+    elif not word[2] and meant == name and rest[:1] not in ("(", "=", ":"):
         return without_colon(stumble.source, stumble.start, word[1], rest)
     return stumble.error(*said, stumble.start, len(word[1])) if said else None
 

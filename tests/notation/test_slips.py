@@ -169,6 +169,8 @@ UNREADABLE = [
      "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
     ("angle 60\naxiom: A",
      'A ":" is missing behind "angle"', 1, 1, 'Type "angle: 60".'),
+    ("axiom: F = F\nF -> F",
+     'A single "=" cannot be used here', 1, 10, 'To compare two values, type "==".'),
     ("angle: \naxiom: A",
      'Nothing stands behind "angle:"', 1, 1, 'Possible here: "(", a name or a number.'),
     ("angle: 60°\naxiom: A",
