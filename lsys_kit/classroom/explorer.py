@@ -26,7 +26,7 @@ from lsys_kit.derivation.stages import Stages
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.arithmetic import number_text
 from lsys_kit.notation.model import LSystem
-from lsys_kit.pictures.labels import place_text
+from lsys_kit.pictures.labels import escaped, place_text
 from lsys_kit.pictures.nets import drawn_stages
 from lsys_kit.pictures.palette import INK, QUIET, VERMILION
 
@@ -234,6 +234,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
             self._diagram.value = diagram
         states = sum(count > 0 for count in sight.tokens)
         said = f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.scene}"
+        if sight.scene.passed_over:
+            said += f"; {escaped(sight.scene.passed_over)}"
         self._status.value = f'<span role="status" style="font:14px sans-serif;color:{INK}">{said}</span>'
         self.sight, self._chosen = sight, constants
 

@@ -13,6 +13,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from lsys_kit.errors import quotable
+
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 
@@ -255,6 +257,11 @@ class Scene:
         """From the lowest point to the highest, in the model's units."""
         _, bottom, _, top = self.box
         return top - bottom
+
+    @property
+    def passed_over(self) -> str:
+        """Which commands were passed over, in words; empty where there were none."""
+        return f"passed over, without a meaning here: {quotable(' '.join(self.unknown))}" if self.unknown else ""
 
     def __str__(self) -> str:
         """What there is, in words: the line that stands for a picture where there is none."""

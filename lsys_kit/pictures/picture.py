@@ -119,10 +119,10 @@ class Picture:
              "Films end in .gif or .apng, and are made by animate(...).")
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": self.text}
+        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
 
     def __repr__(self) -> str:
-        return self.text
+        return "; ".join(filter(None, (self.text, self.scene.passed_over)))
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,11 @@ def shown(panel):
     return panel._word.value, panel._diagram.svg, panel._drawing.value
 
 
+def test_commands_that_mean_nothing_are_named_below_the_sliders():
+    panel = explore(read("turtle: plant-string\naxiom: I RH & I"))
+    assert panel._status.value.endswith("passed over, without a meaning here: RH &amp;</span>")
+
+
 def test_the_three_views_show_the_same_step():
     panel = explore("J4", 5)
     panel.step.value = 9

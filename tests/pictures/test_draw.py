@@ -30,6 +30,12 @@ def test_a_turtle_draws_the_last_word():
     assert str(draw(system("T2"), 3)) == "192 segments, width 27, height 31.18"
 
 
+def test_commands_that_mean_nothing_are_named_once():
+    said = "2 segments, width 0, height 2; passed over, without a meaning here: RH &"
+    picture = draw(derive(read("turtle: plant-string\naxiom: I RH & I RH"), 0))
+    assert str(picture) == said
+
+
 def test_the_angle_may_be_given_as_a_person_writes_it():
     assert str(draw(system("K5"), 2, angle="0")) == str(draw(system("K5"), 2, angle=0.0)) == "25 segments, width 0, height 9"
 
