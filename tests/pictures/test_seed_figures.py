@@ -57,10 +57,12 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "003-lychnis": ("Lychnis coronaria", lambda: draw(system("K19"), 15).svg),
     "003-dichotomy": ("Dichotomous branching that does not look around", lambda: draw(system("K20"), 8).svg),
     "003-sensitive-dichotomy": ("Dichotomous branching that keeps its distance", lambda: draw(system("K21"), 8).svg),
+    "003-overshading": ("Overshading in two dimensions", lambda: draw(system("K22")).svg),
     "003-pruning": ("Pruning in two dimensions", lambda: draw(system("K24")).svg),
     "003-topiary": ("Pruning in three dimensions", lambda: draw(system("K25")).svg),
     "003-timed": ("Timed Anabaena", lambda: draw(lineage(system("K27"), 12)).svg),
     **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
+    "003-forces": ("On the way to rest: some iterations", lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80]).svg),
     "003-microsorium": ("Gametophyte of Microsorium linguaeforme", lambda: draw(map_system("K32"), 12).svg),
     **{f"004-{id}": (f"Plant string {id}", lambda id=id: draw(system(id)).svg) for id in ("L1", "L2", "L3", "L4")},
 }
