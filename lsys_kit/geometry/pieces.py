@@ -161,6 +161,8 @@ class Pieces:
             piece = yield state, steps, carried
             parts.append(Placed(piece, at, turned, len(stack)))
             at, turned, carried = at + turned @ piece.end, turned @ piece.turned, piece.carried
+        if len(row) == 1:
+            return parts[0].piece
         return _joined(parts, at, turned, carried)
 
     def _single(self, state: int, carried: tuple[Any, ...]) -> Piece:
@@ -227,11 +229,13 @@ def _moved(parts: Sequence[tuple[Placed, Floats]], size: int) -> Floats:
     whole, last = np.empty((sum(len(points) for _, points in parts), size)), 0
     for part, points in parts:
         turned, at = np.ascontiguousarray(part.turned.T), np.tile(part.at, min(BLOCK, len(points)))
+        straight = np.array_equal(turned, np.eye(size))  # as most of a plant's stem is
         for first in range(0, len(points), BLOCK):
-            block = points[first:first + BLOCK]
-            np.matmul(block, turned, out=whole[last:last + len(block)])
-            there = whole[last:last + len(block)].reshape(-1)
-            there += at[:len(there)]
+            block, there = points[first:first + BLOCK], whole[last:last + BLOCK]
+            there = there[:len(block)]
+            if not straight:
+                block = np.matmul(block, turned, out=there)
+            np.add(block.reshape(-1), at[:block.size], out=there.reshape(-1))
             last += len(block)
     return whole
 

@@ -47,7 +47,6 @@ def test_module_by_module_in_space(benchmark):
     word = derive(BUSH, 6, arithmetic="float")[-1]
     scene = benchmark(lambda: followed(word))
     assert scene.dimension == 3
-    told(benchmark, len(scene.segments), 1e5)
 
 
 def test_every_module_is_different(benchmark):
