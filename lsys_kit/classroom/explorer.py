@@ -21,7 +21,7 @@ from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.controls import Control, Span, control, spans
 from lsys_kit.classroom.study import Sight, Study
 from lsys_kit.classroom.views import word_html
-from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.rules import number_from, real_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.arithmetic import number_text
@@ -114,7 +114,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
             raise ModelValueError(f"The step must be a whole number from 0 on, not {step!r}")
         self._step = control("step", Span(first, 0, most, 1))
         self.step = self._step.slider
-        turn = float(number_from(angle, "angle") if angle is not None else self.system.angle)
+        turn = real_from(angle, "angle") if angle is not None else float(self.system.angle)
         if not 0 <= turn <= 180:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
         self._angle = control("angle", Span(number_from(turn), 0, 180, number_from("0.1")))

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from lsys_kit.derivation.equations import roots
 from lsys_kit.derivation.lengths import functions_of, in_sympy, is_continuous, is_decided, texts_of, the_age
-from lsys_kit.derivation.rules import number_from, unknown
+from lsys_kit.derivation.rules import real_from, unknown
 from lsys_kit.derivation.timed import Timed, timed
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.arithmetic import number_text
@@ -141,7 +141,7 @@ class Continuity:
         jumps = [division for division in self.divisions if division.defect != 0 and not division.defect.free_symbols]
         if jumps:
             raise ModelValueError(f'Whatever "{name}" is, the length jumps: {jumps[0]}')
-        ends = [None if end is None else float(number_from(end, "limit")) for end in (low, high)]
+        ends = [None if end is None else real_from(end, "limit") for end in (low, high)]
         found = [root for root in roots(self._equation(name), *ends) if self._is_solved(name, root)]
         if len(found) == 1:
             return found[0]

@@ -233,6 +233,19 @@ def number_from(given: object, name: str = "value") -> Value:
     raise ModelValueError(f'"{name}" must be a number, not {str(given)[:40]!r}')
 
 
+def real_from(given: object, name: str) -> float:
+    """A number as a person gives it, where it has to be known, as a double.
+
+    >>> real_from("14/10", "angle")
+    1.4
+    """
+    value = number_from(given, name)
+    try:
+        return float(value)
+    except (TypeError, OverflowError):
+        raise ModelValueError(f'"{name}" must be a number that is known and not too large, not {str(given)[:40]!r}') from None
+
+
 def unknown(name: str) -> Any:
     """A constant whose value is not known: a real number with a name."""
     import sympy

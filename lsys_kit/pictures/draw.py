@@ -10,7 +10,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.development import Development
 from lsys_kit.derivation.interpret import is_filament
 from lsys_kit.derivation.lineage import Lineage
-from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.rules import real_from
 from lsys_kit.derivation.stages import Stages
 from lsys_kit.derivation.words import Word
 from lsys_kit.errors import ModelValueError
@@ -99,7 +99,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
     what = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
     if is_filament(what.states.system):
         return _sequence(what, marked, cells)
-    turn = float(number_from(angle, "angle") if angle is not None else what.states.system.angle)
+    turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
     step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)
     return Picture((Row(step, seen(scene)),), state_colours(what), None, marked, scene if scene.dimension == 3 else None)
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.interpret import is_filament
-from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.rules import real_from
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
@@ -118,7 +118,7 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     """
     if not isinstance(what, LSystem | Derivation):
         raise ModelValueError(f"Only systems and derivations can be animated, not {type(what).__name__}")
-    pace = float(number_from(seconds, "seconds"))
+    pace = real_from(seconds, "seconds")
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
     derivation = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
@@ -128,7 +128,7 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
                               limit=MOST_FRAMES, needed=derivation.steps + 1)
     if is_filament(derivation.states.system):
         return _rows(derivation, pace)
-    turn = float(number_from(angle, "angle") if angle is not None else derivation.states.system.angle)
+    turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
     scenes = [seen(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
     frame, colour_of = _common(scenes), state_colours(derivation)
     return Film(_said(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)

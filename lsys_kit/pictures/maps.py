@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from lsys_kit.budget import current
 from lsys_kit.derivation.development import Development, developed
 from lsys_kit.derivation.maps import Map
-from lsys_kit.derivation.rules import number_from
+from lsys_kit.derivation.rules import real_from
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.geometry.maps import placed, scenes, settling
 from lsys_kit.geometry.relaxation import Forces
@@ -154,7 +154,7 @@ def forces_of(choices: dict[str, object]) -> Forces:
     for name, choice in choices.items():
         if name not in RANGES:
             raise ModelNameError(f'A map has no "{name}"', hint=f"Its forces are {', '.join(RANGES)}.")
-        values[name] = float(number_from(choice, name))
+        values[name] = real_from(choice, name)
         least, most = RANGES[name]
         if not least <= values[name] <= most:
             raise ModelValueError(f'"{name}" must lie between {least} and {most}, not be {values[name]:g}')

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 import pytest
 from PIL import Image
 
-from lsys_kit import ModelFileError, ModelValueError, derive, draw, figure, limits, read, system
+from lsys_kit import LSystemError, ModelFileError, ModelValueError, derive, draw, figure, limits, read, system
 from lsys_kit.pictures.palette import colours
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -28,6 +28,12 @@ def test_a_single_word_is_drawn_alone():
 
 def test_a_turtle_draws_the_last_word():
     assert str(draw(system("T2"), 3)) == "192 segments, width 27, height 31.18"
+
+
+@pytest.mark.parametrize("angle", ["angle", "1e400", 10**400, [], "x"])
+def test_an_angle_is_a_number_that_is_known(angle):
+    with pytest.raises(LSystemError):
+        draw(system("K5"), 2, angle=angle)
 
 
 def test_commands_that_mean_nothing_are_named_once():
