@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from lsys_kit import draw, lineage, map_system, stages, system
+from lsys_kit import draw, lineage, map_system, read, stages, system
 
 GOLDEN = Path(__file__).parent / "golden"
 PART = re.compile(r"#[0-9A-Fa-f]{6}|-?\d+(?:\.\d+)?(?:e-?\d+)?|[^-#\d]+|.", re.DOTALL)
@@ -22,6 +22,11 @@ PART = re.compile(r"#[0-9A-Fa-f]{6}|-?\d+(?:\.\d+)?(?:e-?\d+)?|[^-#\d]+|.", re.D
 CLOSE = {True: 1.0, False: 0.011}
 """Places are whole numbers, tenths of a pixel: another processor may round the last one otherwise; so it is with decimals."""
 
+COMMANDS = {
+    "F": "P1 F P4 F50 P2 F", "RH": "P1 F [RU50 P4 F] RH60 F [RU50 P4 F] RH60 F [RU50 P4 F] RH60 F [RU50 P4 F]",
+    "RV": "[RU15 P1 F RV0.25 F RV0.25 F RV0.25 F RV0.25 F] [RU-15 P4 F RV-0.25 F RV-0.25 F RV-0.25 F RV-0.25 F]",
+}
+"""Words of GROGRA that show what a command does."""
 FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "000-figure-1": ("Simulated cell layer growth", lambda: draw(system("J1"), 6).svg),
     "000-figure-2": ("Algae growth with two classes of cells a (big) and b (small)", lambda: draw(system("J4"), 10).svg),
@@ -39,6 +44,8 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
                      lambda: draw(lineage(system("P5"), 6), intervals=[("1.4", "2.1"), ("1.4", "2.8")]).svg),
     "002-figure-6": ("L-system 6: a step, then decomposition", lambda: draw(lineage(system("P6"), 3, dt="1.4")).svg),
     "002-figure-8": ("Explicitly represented cell walls", lambda: draw(system("P9w"), 5).svg),
+    **{f"003-effect-of-{name}": (f"The effect of {name}", lambda word=word: draw(read(f"\\axiom {word},", "grogra"), 0).svg)
+       for name, word in COMMANDS.items()},
     "003-branch": ("a -> F [RU45 b] a, b -> F b", lambda: draw(system("K2"), 4).svg),
     "003-koch": ("Koch curve: the output after 6 steps", lambda: draw(system("K3"), 6).svg),
     "003-sierpinski": ("Sierpinski triangle", lambda: draw(system("K4"), 5).svg),
