@@ -41,13 +41,14 @@ class Points:
     def nearest(self, tip: Floats, near: Sequence[int]) -> float:
         """How far the nearest is from a tip, those of some shoots near by left out; infinite where there is no other.
 
-        What is found among the neighbours in the order bounds the stretch in which a nearer one can be.
+        What is found among the neighbours in the order bounds the stretch in which a nearer one can be; what was found there
+        may lie on the edge of it, or by a rounding error beside it.
         """
         first = self.places[:, 0]
         at = int(np.searchsorted(first, tip[0]))
         reach = self._least(tip, near, max(0, at - WINDOW), at + WINDOW)
         low, high = np.searchsorted(first, tip[0] - reach, "left"), np.searchsorted(first, tip[0] + reach, "right")
-        return self._least(tip, near, int(low), int(high))
+        return min(reach, self._least(tip, near, int(low), int(high)))
 
     def _least(self, tip: Floats, near: Sequence[int], low: int, high: int) -> float:
         distances = np.linalg.norm(self.places[low:high] - tip, axis=1)

@@ -166,6 +166,12 @@ def test_a_wider_cone_shows_nothing_farther(modules: list[Module], tens: int) ->
     assert all_around == asked(sight, 2, 1)
 
 
+def test_the_nearest_point_may_lie_straight_behind() -> None:
+    """The turns are a right angle, but for a rounding error."""
+    word = derive(read("axiom: F(0.5) +(-100) +(-350) F(1) F(0.5) F(1) x\nx -> F(sensed(2, 1))"), 0)[0]
+    assert seen(word).sees(len(word) - 1, 2, 1) == 1.5
+
+
 @given(plants)
 @settings(max_examples=60, deadline=None)
 def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Module]) -> None:
