@@ -70,11 +70,6 @@ class Marker:
     def __str__(self) -> str:
         return f"[{self.side}{self.edge}]"
 
-    @property
-    def partner(self) -> Edge:
-        """What another marker must be to match."""
-        return self.edge.turned
-
 
 Part: TypeAlias = Edge | Marker
 """What stands in a successor."""
