@@ -79,8 +79,8 @@ class Tissue:
         return following
 
 
-def relaxed(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Floats:
-    """The vertices at rest.
+def relaxing(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
+    """The vertices at first, and after each iteration until they are at rest.
 
     Parameters
     ----------
@@ -92,16 +92,10 @@ def relaxed(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Floats:
     Examples
     --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
-    >>> at_rest = relaxed(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
+    >>> *_, at_rest = relaxing(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))
     [0.279 0.279] [0.078]
     """
-    *_, last = relaxing(points, tissue, forces)
-    return last
-
-
-def relaxing(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
-    """The vertices at first, and after each iteration until they are at rest."""
     speeds, following = np.zeros_like(points), tissue.following
     room = areas(points, tissue)
     yield points
