@@ -20,15 +20,15 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lsys_kit.budget import limits
     from lsys_kit.classroom.catalogue import map_system, map_systems, system, systems
-    from lsys_kit.classroom.exercises import check
-    from lsys_kit.classroom.explorer import explore
-    from lsys_kit.derivation.continuity import continuity
+    from lsys_kit.classroom.exercises.check import check
+    from lsys_kit.classroom.panel.explorer import explore
     from lsys_kit.derivation.explain import explain
-    from lsys_kit.derivation.growth import growth
-    from lsys_kit.derivation.lineage import lineage
-    from lsys_kit.derivation.pnml import pnml
-    from lsys_kit.derivation.stages import stages
-    from lsys_kit.derivation.timed import timed
+    from lsys_kit.derivation.growth.growth import growth
+    from lsys_kit.derivation.petri.pnml import pnml
+    from lsys_kit.derivation.petri.stages import stages
+    from lsys_kit.derivation.timed.continuity import continuity
+    from lsys_kit.derivation.timed.lineage import lineage
+    from lsys_kit.derivation.timed.timed import timed
     from lsys_kit.errors import (
         LSystemError,
         ModelFileError,
@@ -37,8 +37,8 @@ if TYPE_CHECKING:
         ModelSyntaxError,
         ModelValueError,
     )
+    from lsys_kit.notation.dialects.map.dialect import read_map
     from lsys_kit.notation.read import read
-    from lsys_kit.notation.read_map import read_map
     from lsys_kit.notation.write import write
     from lsys_kit.pictures.draw import draw, figure
     from lsys_kit.pictures.films import animate
@@ -46,13 +46,15 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
-    "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films", "check": "classroom.exercises",
-    "continuity": "derivation.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
-    "explain": "derivation.explain", "explore": "classroom.explorer", "figure": "pictures.draw",
-    "growth": "derivation.growth", "limits": "budget", "lineage": "derivation.lineage",
-    "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.pnml",
-    "read": "notation.read", "read_map": "notation.read_map", "stages": "derivation.stages",
-    "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed", "write": "notation.write",
+    "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films",
+    "check": "classroom.exercises.check",
+    "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
+    "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
+    "growth": "derivation.growth.growth", "limits": "budget", "lineage": "derivation.timed.lineage",
+    "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
+    "read": "notation.read", "read_map": "notation.dialects.map.dialect", "stages": "derivation.petri.stages",
+    "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
+    "write": "notation.write",
 }
 
 __all__ = [

@@ -17,7 +17,7 @@ from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, Model
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
-    from lsys_kit.notation.model import LSystem
+    from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.films import Film
     from lsys_kit.pictures.picture import Picture
 
@@ -49,8 +49,8 @@ def print_words(options: argparse.Namespace) -> None:
 
 def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     """Each step with its number of modules; a word is built only where neighbours or chance have a say."""
+    from lsys_kit.derivation.core.states import States
     from lsys_kit.derivation.derive import lengths
-    from lsys_kit.derivation.states import States
 
     sys.set_int_max_str_digits(0)
     system = _system(options)
@@ -104,7 +104,7 @@ def draw_word(options: argparse.Namespace) -> None:
 
 def draw_stages(options: argparse.Namespace) -> None:
     """Write a picture of the stage diagram, and say what it shows."""
-    from lsys_kit.derivation.stages import stages
+    from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.pictures.draw import draw
 
     system = _system(options)
@@ -145,8 +145,8 @@ def open_lab(options: argparse.Namespace) -> None:
 
 def _system(options: argparse.Namespace) -> LSystem:
     """The system that the command line names, with its constants set."""
-    from lsys_kit.derivation.rules import constants_of, number_from
-    from lsys_kit.notation.expressions import Number
+    from lsys_kit.derivation.core.rules import constants_of, number_from
+    from lsys_kit.notation.model.expressions import Number
 
     system, values = _found(options.system, options.notation), dict(options.settings)
     constants_of(system, values)
@@ -209,7 +209,7 @@ def _text(file: BinaryIO, name: str) -> str:
 def _likely(name: str) -> str:
     """What was probably meant: a file beside it, a system of the catalogue."""
     from lsys_kit.classroom.catalogue import systems
-    from lsys_kit.notation.checks import suggestion
+    from lsys_kit.notation.analysis.checks import suggestion
 
     folder = Path(name).parent
     beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []

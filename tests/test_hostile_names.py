@@ -22,12 +22,12 @@ from matplotlib.figure import Figure
 from lsys_kit import LSystemError, animate, check, derive, draw, explain, explore, figure, growth, read, stages, system, write
 from lsys_kit.__main__ import main
 from lsys_kit.classroom import magic, typeset
+from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.classroom.magic import underlined
+from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.classroom.typeset import shown
-from lsys_kit.classroom.verdict import Verdict
-from lsys_kit.classroom.views import word_html
-from lsys_kit.notation.expressions import Apply, Name, Number
-from lsys_kit.notation.model import Constant, LSystem, Module, Production
+from lsys_kit.notation.model.expressions import Apply, Name, Number
+from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
 from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import NOTATIONS
 

@@ -18,11 +18,11 @@ from types import MappingProxyType
 from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelValueError
-from lsys_kit.notation.checks import suggestion
-from lsys_kit.notation.maps import MapSystem
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
-from lsys_kit.notation.read_map import read_map
 
 SYSTEMS, MAPS = "systems", "maps"
 """The folders."""

@@ -15,13 +15,13 @@ from typing import Any
 import lsys_kit
 from lsys_kit.classroom.typeset import boxed, shown
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
-from lsys_kit.notation.checks import suggestion
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import NOTATIONS, notation_called
-from lsys_kit.notation.stumble import printed
-from lsys_kit.pictures.labels import escaped
-from lsys_kit.pictures.palette import INK, MARK, PAPER, QUIET, VERMILION
+from lsys_kit.notation.syntax.failure import printed
+from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.pictures.style.palette import INK, MARK, PAPER, QUIET, VERMILION
 
 AROUND, WIDTH = 8, 100
 """How many lines before and behind a mistake are shown, and how many characters of them."""

@@ -10,18 +10,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import islice
 
 from lsys_kit.budget import current, limits
-from lsys_kit.classroom.verdict import PLAIN
-from lsys_kit.classroom.views import word_html
-from lsys_kit.derivation.words import Word, shortened
+from lsys_kit.classroom.exercises.verdict import PLAIN
+from lsys_kit.classroom.panel.word_view import word_html
+from lsys_kit.derivation.core.words import Word, shortened
 from lsys_kit.errors import LSystemError, ModelLimitError
-from lsys_kit.notation.arithmetic import number_text
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.layout import settings
-from lsys_kit.notation.model import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
-from lsys_kit.notation.operators import OPERATORS
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.operators import OPERATORS
+from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
 from lsys_kit.notation.registry import notation_called
-from lsys_kit.pictures.labels import escaped, html_label
-from lsys_kit.pictures.palette import BLUE, INK, PAPER, QUIET
+from lsys_kit.notation.syntax.formatting import settings
+from lsys_kit.pictures.style.labels import escaped, html_label
+from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET
 from lsys_kit.worlds.derive import derive
 
 FIRST_STEPS, FIRST_MODULES = 4, 80

@@ -15,14 +15,24 @@ from typing import Any, overload
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.courses import Counting, Origins, Sight, Stepping, World, check_size, check_time, counted, course_of
-from lsys_kit.derivation.development import Development, developed
-from lsys_kit.derivation.fates import check_settled
-from lsys_kit.derivation.states import States
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.engines.engines import (
+    Counting,
+    Origins,
+    Sight,
+    Stepping,
+    World,
+    check_size,
+    check_time,
+    counted,
+    course_of,
+)
+from lsys_kit.derivation.maps.development import Development, developed
+from lsys_kit.derivation.petri.outcomes import check_settled
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.maps import MapSystem
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
 
 
 @overload

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from lsys_kit.derivation.core.matching import chain, values_at
+from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.matching import chain, values_at
-from lsys_kit.derivation.rules import Rule
-from lsys_kit.derivation.stepping import Old, Stepper, uncut
-from lsys_kit.notation.arithmetic import number_text
-from lsys_kit.notation.expressions import Name, names_in
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.derivation.engines.stepwise import Old, Stepper, uncut
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.expressions import Name, names_in
+from lsys_kit.notation.model.system import LSystem, Module
 from lsys_kit.notation.registry import notation_called
 from lsys_kit.notation.write import as_written
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.model.system import LSystem, Module
 
 
 @dataclass(frozen=True)

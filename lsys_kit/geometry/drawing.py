@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.words import Word
-from lsys_kit.geometry.pieces import drawn_at_once
+from lsys_kit.geometry.instancing import drawn_at_once
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.space import followed, in_plane
 from lsys_kit.geometry.turtle import placed, traced

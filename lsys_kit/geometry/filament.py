@@ -12,12 +12,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.derivation.interpret import images, is_cell
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.core.interpretation import images, is_cell
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.commands import values_of
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
-from lsys_kit.notation.model import CELLS, WALL, Module
+from lsys_kit.notation.model.system import CELLS, WALL, Module
 
 
 def filament(word: Word) -> Scene:

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.geometry.ears import cut
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.geometry.triangulation import cut
 
 Singles: TypeAlias = NDArray[np.float32]
 Numbers: TypeAlias = NDArray[np.uint32]

@@ -18,12 +18,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from lsys_kit.derivation.words import Word
-from lsys_kit.geometry.actions import COMMON, Act, Turtle, follow, left_behind
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Order, first_step
+from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, follow, left_behind
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.notation.expressions import Number
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.system import LSystem, Module
 
 Vector: TypeAlias = tuple[float, float, float]
 Frame: TypeAlias = tuple[Vector, Vector, Vector, int]

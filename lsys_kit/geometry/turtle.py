@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from lsys_kit.derivation.words import Word
-from lsys_kit.geometry.actions import COMMON, Act, Outline, Round, Turtle, follow, left_behind
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.commands import LEFT_SIDE, Order, first_step
+from lsys_kit.geometry.interpreter import COMMON, Act, Outline, Round, Turtle, follow, left_behind
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 
 

@@ -13,18 +13,18 @@ from itertools import islice
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.abop import ABOP
-from lsys_kit.notation.arithmetic import Value
-from lsys_kit.notation.checks import check_expression, check_word, value_of
-from lsys_kit.notation.draft import Draft
-from lsys_kit.notation.expressions import Expression
-from lsys_kit.notation.foresight import check_decomposition, idle
-from lsys_kit.notation.glued import unglued
-from lsys_kit.notation.model import LSystem, Module, flat
-from lsys_kit.notation.parsing import parse
+from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
+from lsys_kit.notation.analysis.lint import check_decomposition, idle
+from lsys_kit.notation.dialects.abop.dialect import ABOP
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.expressions import Expression
+from lsys_kit.notation.model.system import LSystem, Module, flat
 from lsys_kit.notation.registry import NOTATIONS, notation_called, recognised
-from lsys_kit.notation.statements import ARROW
-from lsys_kit.notation.tradition import Notation
+from lsys_kit.notation.syntax.builder import Draft
+from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.parser import parse
+from lsys_kit.notation.syntax.segmentation import unglued
+from lsys_kit.notation.syntax.statements import ARROW
 
 PER_RULE = 64
 """How many characters there may be for each production that a model may have, blanks and comments not counted."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from lsys_kit.errors import ModelNameError
-from lsys_kit.notation.abop import ABOP
-from lsys_kit.notation.cpfg import CPFG
-from lsys_kit.notation.grogra import GROGRA
-from lsys_kit.notation.mathematica import MATHEMATICA
-from lsys_kit.notation.plant_string import PLANT_STRING
-from lsys_kit.notation.tradition import Notation
+from lsys_kit.notation.dialects.abop.dialect import ABOP
+from lsys_kit.notation.dialects.cpfg.dialect import CPFG
+from lsys_kit.notation.dialects.grogra.dialect import GROGRA
+from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
+from lsys_kit.notation.dialects.plant_string.dialect import PLANT_STRING
+from lsys_kit.notation.syntax.dialect import Notation
 
 NOTATIONS: Mapping[str, Notation] = {notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA)}
 """The notations that can be read and written."""

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.checks import span
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.analysis.checks import span
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import notation_called
 
 

@@ -5,25 +5,25 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
-from lsys_kit.derivation.ageing import ageing_of
+from lsys_kit.derivation.core.interpretation import is_filament
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.development import Development
-from lsys_kit.derivation.interpret import is_filament
-from lsys_kit.derivation.lineage import Lineage
-from lsys_kit.derivation.rules import real_from
-from lsys_kit.derivation.stages import Stages
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.maps.development import Development
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.ages import ageing_of
+from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
-from lsys_kit.notation.maps import MapSystem
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.filaments import LOOKS
-from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
+from lsys_kit.pictures.formats.axes import new_axes
+from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
-from lsys_kit.pictures.palette import GREEN, colours
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
-from lsys_kit.pictures.plots import new_axes
+from lsys_kit.pictures.style.palette import GREEN, colours
 from lsys_kit.pictures.svg import Row
 from lsys_kit.pictures.view import seen
 from lsys_kit.worlds.derive import derive

@@ -13,8 +13,8 @@ from html import escape
 from itertools import pairwise
 from typing import NamedTuple
 
-from lsys_kit.notation.arithmetic import Value, number_text, tidy
-from lsys_kit.pictures.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
+from lsys_kit.notation.model.arithmetic import Value, number_text, tidy
+from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
 from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, Row
 
 LOOKS = ("rectangles", "ellipses")

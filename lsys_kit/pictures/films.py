@@ -13,17 +13,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lsys_kit.derivation.core.interpretation import is_filament
+from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.interpret import is_filament
-from lsys_kit.derivation.rules import real_from
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import derived, draw, state_colours
-from lsys_kit.pictures.files import keep
-from lsys_kit.pictures.palette import PAPER
-from lsys_kit.pictures.raster import turtle_image
+from lsys_kit.pictures.formats.files import keep
+from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.svg import MARGIN, Frame, frame_of
 from lsys_kit.pictures.view import seen
 

@@ -15,17 +15,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.development import Development, developed
-from lsys_kit.derivation.maps import Map
-from lsys_kit.derivation.rules import real_from
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.maps.development import Development, developed
+from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.geometry.maps import placed, scenes, settling
+from lsys_kit.geometry.map_layout import placed, scenes, settling
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
-from lsys_kit.notation.maps import MapSystem
-from lsys_kit.pictures.files import keep
-from lsys_kit.pictures.labels import letter_svg
-from lsys_kit.pictures.palette import INK, PAPER, QUIET, SERIES, tinted
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.pictures.formats.files import keep
+from lsys_kit.pictures.style.labels import letter_svg
+from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import MARGIN, Frame, background, described, document
 
 WIDTH, HIGHEST = 760, 400

@@ -12,17 +12,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.pnml import pnml
-from lsys_kit.derivation.stages import Stages
+from lsys_kit.derivation.petri.pnml import pnml
+from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.notation.arithmetic import Value
-from lsys_kit.pictures import raster
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.filaments import LOOKS, rows_svg, sheet_of
-from lsys_kit.pictures.files import keep, keep_beside
-from lsys_kit.pictures.nets import drawn_stages
-from lsys_kit.pictures.plots import new_axes, plot_rows, plot_turtle
-from lsys_kit.pictures.solids import glb, mtl, obj
+from lsys_kit.pictures.formats import raster
+from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
+from lsys_kit.pictures.formats.files import keep, keep_beside
+from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
+from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.svg import WIDTH, Row, background, described, document, frame_of, turtle_svg
 
 if TYPE_CHECKING:

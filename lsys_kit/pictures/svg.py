@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import CIRCLE, OWN, Discs, Floats, Integers, Polygons, Scene, Segments
-from lsys_kit.pictures.palette import CHOSEN, GREEN, MARK_EDGE, PAPER, tinted
+from lsys_kit.pictures.style.palette import CHOSEN, GREEN, MARK_EDGE, PAPER, tinted
 
 WIDTH, HEIGHT = 600, 400
 """The largest picture, in pixels."""

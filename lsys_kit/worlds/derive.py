@@ -11,9 +11,9 @@ from typing import Any, overload
 
 from lsys_kit.derivation import derive as words_alone
 from lsys_kit.derivation.derive import Derivation, derived
-from lsys_kit.derivation.development import Development
-from lsys_kit.notation.maps import MapSystem
-from lsys_kit.notation.model import LSystem
+from lsys_kit.derivation.maps.development import Development
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.sight import seen
 
 

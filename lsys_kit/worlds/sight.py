@@ -17,16 +17,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lsys_kit.derivation.rules import kind_of, number_from
-from lsys_kit.derivation.states import QUERIES, States
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.core.rules import kind_of, number_from
+from lsys_kit.derivation.core.states import QUERIES, States
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.actions import told_by
 from lsys_kit.geometry.commands import first_step
+from lsys_kit.geometry.interpreter import told_by
 from lsys_kit.geometry.space import ACTS, Flyer, Frame, Vector, first_frame, ready, strokes_of
-from lsys_kit.notation.arithmetic import Value, brief
-from lsys_kit.notation.model import Module
-from lsys_kit.worlds.senses import SENSES, Shoots, Stand
+from lsys_kit.notation.model.arithmetic import Value, brief
+from lsys_kit.notation.model.system import Module
+from lsys_kit.worlds.sensitive_functions import SENSES, Shoots, Stand
 
 DECIMALS = 9
 """To so many decimals is told what is measured."""

@@ -12,7 +12,7 @@ import pytest
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.space import followed
-from lsys_kit.pictures.raster import turtle_png
+from lsys_kit.pictures.formats.raster import turtle_png
 from lsys_kit.pictures.svg import frame_of, turtle_svg
 
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")

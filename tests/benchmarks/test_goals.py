@@ -18,9 +18,9 @@ import numpy as np
 import pytest
 
 from lsys_kit import ModelLimitError, derive, growth, limits, read, system
-from lsys_kit.derivation.columns import ColumnWord
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import lengths
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.engines.columnar import ColumnWord
 from tests.benchmarks.test_engine import FIBONACCI, PLANT, TEN_RULES
 
 P4, CHANCE = system("P4"), system("K7")

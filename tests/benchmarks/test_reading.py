@@ -15,11 +15,11 @@ import pytest
 
 from lsys_kit import system, systems
 from lsys_kit.errors import LSystemError
-from lsys_kit.notation.expressions import Expression, is_random
-from lsys_kit.notation.model import LSystem, Module, flat
-from lsys_kit.notation.parsing import parse
+from lsys_kit.notation.model.expressions import Expression, is_random
+from lsys_kit.notation.model.system import LSystem, Module, flat
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import NOTATIONS, recognised
+from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write
 
 MOST_MS, MOST_SECONDS = 0.3, 2.0

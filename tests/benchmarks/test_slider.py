@@ -12,7 +12,7 @@ import statistics
 import pytest
 
 from lsys_kit import draw, explore, read, system
-from lsys_kit.classroom.study import Study
+from lsys_kit.classroom.panel.view_model import Study
 
 WATCH = """async ([panel, canvas]) => {
     window.latencies = [];

@@ -9,7 +9,7 @@ CELLS = (
     "from IPython.display import HTML\nHTML('<p>$x$</p>')",  # once this is a formula, the others would be formulas too
     "check('1.1', r'$\\frac{1}{0}$ cost $5 and $6')",
     "check('1.1', '<img src=x onerror=alert(1)> $x$')",
-    "from lsys_kit.classroom.verdict import Verdict\nVerdict('Not yet', 'cost $5 and $x$')",
+    "from lsys_kit.classroom.exercises.verdict import Verdict\nVerdict('Not yet', 'cost $5 and $x$')",
     "%%lsystem\naxiom: $ A $ B $\nA -> $ A $",
     "%%lsystem\naxiom: $A$ <script>alert(1)</script>",
     "explore(read('dollars = 1 in 1 .. 5\\naxiom: $ A(dollars) $ B $\\nA(t) -> $ A(t + dollars) $'))",

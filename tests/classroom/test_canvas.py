@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import derive, read, system
-from lsys_kit.classroom.canvas import packed
+from lsys_kit.classroom.panel.canvas import packed
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import CIRCLE
 from lsys_kit.geometry.space import in_plane

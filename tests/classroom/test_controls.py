@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from lsys_kit import read, system
-from lsys_kit.classroom.controls import control, spans
+from lsys_kit.classroom.panel.controls import control, spans
 
 
 def of(text, **changes):

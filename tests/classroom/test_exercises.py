@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import ModelNameError, ModelValueError, check, derive, read, system
-from lsys_kit.classroom.answers import KINDS, leftmost_only, one_after_another
-from lsys_kit.classroom.differences import proved_equal
-from lsys_kit.classroom.exercises import exercise_of, lessons
-from lsys_kit.classroom.sheets import sheet, write_sheets
-from lsys_kit.classroom.verdict import Verdict
-from lsys_kit.derivation.states import States
+from lsys_kit.classroom.exercises.answers import KINDS, leftmost_only, one_after_another
+from lsys_kit.classroom.exercises.check import exercise_of, lessons
+from lsys_kit.classroom.exercises.differences import proved_equal
+from lsys_kit.classroom.exercises.notebooks import sheet, write_sheets
+from lsys_kit.classroom.exercises.verdict import Verdict
+from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.read import read_expression
 
 EXERCISES = [exercise for lesson in lessons() for exercise in lesson.exercises]

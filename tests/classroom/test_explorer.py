@@ -9,10 +9,10 @@ import pytest
 from PIL import Image
 
 from lsys_kit import LSystemError, ModelValueError, derive, draw, explore, limits, read, system
-from lsys_kit.classroom import study
-from lsys_kit.classroom.canvas import widget_classes
-from lsys_kit.classroom.views import SHOWN, word_html
-from lsys_kit.derivation.states import States
+from lsys_kit.classroom.panel import view_model as study
+from lsys_kit.classroom.panel.canvas import widget_classes
+from lsys_kit.classroom.panel.word_view import SHOWN, word_html
+from lsys_kit.derivation.core.states import States
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
 

@@ -9,7 +9,7 @@ import pytest
 from lsys_kit import ModelNameError, ModelValueError, derive, draw, map_system, map_systems, read_map, system, systems
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.catalogue import entry
-from lsys_kit.derivation.maps import cell_words
+from lsys_kit.derivation.maps.map import cell_words
 
 COUNTS = {
     "K28": [(4, 4, 1), (6, 7, 2), (9, 12, 4)], "K29": [(4, 4, 1), (8, 9, 2), (14, 17, 4)],

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from lsys_kit.notation.maps import OTHER_SIDE, Edge, EdgeProduction, MapSystem, Marker, Part
+from lsys_kit.notation.model.maps import OTHER_SIDE, Edge, EdgeProduction, MapSystem, Marker, Part
 
 LABELS = ("A", "B", "C", "x1")
 

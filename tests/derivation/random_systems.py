@@ -12,9 +12,9 @@ from itertools import chain
 
 from hypothesis import strategies as st
 
-from lsys_kit.notation.arithmetic import Value, tidy
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.arithmetic import Value, tidy
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
 
 SYMBOLS = ("A", "B", "al", "u_1")
 """Symbols that productions rewrite; each has as many parameters as `ARITY` says."""

@@ -10,9 +10,9 @@ import operator as op
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
-from lsys_kit.derivation.chance import Chance
-from lsys_kit.notation.expressions import Apply, Expression, Name
-from lsys_kit.notation.model import CLOSING, END, OPENING, Item, LSystem, Module, Production, Repeat
+from lsys_kit.derivation.core.chance import Chance
+from lsys_kit.notation.model.expressions import Apply, Expression, Name
+from lsys_kit.notation.model.system import CLOSING, END, OPENING, Item, LSystem, Module, Production, Repeat
 
 PlainModule = tuple[str, tuple[float | Fraction, ...]]
 OPERATIONS = {"+": op.add, "-": op.sub, "*": op.mul, "/": op.truediv, "^": op.pow, "-x": op.neg, "abs": abs, "min": min,

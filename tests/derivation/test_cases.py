@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 
+from lsys_kit.derivation.core.interpretation import images
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.interpret import images
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 from tests.derivation import reference

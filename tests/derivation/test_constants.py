@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 import sympy
 
+from lsys_kit.derivation.core.rules import constants_of, number_from
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.growth import growth
-from lsys_kit.derivation.rules import constants_of, number_from
-from lsys_kit.derivation.stages import stages
+from lsys_kit.derivation.growth.growth import growth
+from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError
-from lsys_kit.notation.arithmetic import Value
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 
 TIMED = read("dt = 0.7 in 0.1 .. 2 by 0.1\nhalf = dt/2\naxiom: A(0)\nA(t) -> A(t+dt)")

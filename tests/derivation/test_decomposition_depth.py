@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from tests.derivation import reference
 from tests.derivation.random_systems import CHANCE, DECOMPOSITION, systems_with

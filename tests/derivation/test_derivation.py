@@ -13,7 +13,7 @@ import pytest
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import Derivation, derive, lengths
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 
 FIBONACCI = read("axiom: a\na -> ab\nb -> a")
@@ -259,8 +259,8 @@ def test_a_double_that_is_no_number_is_refused() -> None:
 
 PRINT = """
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.growth import growth
-from lsys_kit.derivation.stages import stages
+from lsys_kit.derivation.growth.growth import growth
+from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.notation.read import read
 system = read('''k = 3
 axiom: A(0) B

@@ -11,9 +11,9 @@ from statistics import mean, stdev
 
 import pytest
 
+from lsys_kit.derivation.core.interpretation import images
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.interpret import images
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.model.system import LSystem, Module
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference

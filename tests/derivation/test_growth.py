@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from lsys_kit import derive, system
 from lsys_kit.budget import limits
-from lsys_kit.derivation.equations import growth_base
-from lsys_kit.derivation.growth import Growth, growth
-from lsys_kit.derivation.sequences import shortest_recurrence
+from lsys_kit.derivation.growth.growth import Growth, growth
+from lsys_kit.derivation.growth.recurrences import shortest_recurrence
+from lsys_kit.derivation.timed.equations import growth_base
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.read import read
 

@@ -14,19 +14,19 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-import lsys_kit.derivation.courses as engine
-import lsys_kit.derivation.expand as expansion
+import lsys_kit.derivation.engines.engines as engine
+import lsys_kit.derivation.engines.expansion as expansion
 from lsys_kit.budget import limits
-from lsys_kit.derivation.chance import Chance
+from lsys_kit.derivation.core.chance import Chance
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive, lengths
-from lsys_kit.derivation.fates import closure
-from lsys_kit.derivation.growth import growth
-from lsys_kit.derivation.stages import stages
-from lsys_kit.derivation.states import States
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.growth.growth import growth
+from lsys_kit.derivation.petri.outcomes import closure
+from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.expressions import Number, is_random
-from lsys_kit.notation.model import LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.expressions import Number, is_random
+from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat, flat
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference
@@ -125,7 +125,7 @@ def test_parts_of_a_word_derive_on_their_own(system: LSystem, other: LSystem) ->
 
 
 def reference_names(module: Module) -> set[str]:
-    from lsys_kit.notation.expressions import names_in
+    from lsys_kit.notation.model.expressions import names_in
 
     return {name for argument in module.arguments for name in names_in(argument)}  # type: ignore[arg-type]
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, lineage, read, system, timed
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.lineage import Lineage
+from lsys_kit.derivation.timed.lineage import Lineage
 from tests.derivation.random_systems import systems, systems_with
 
 TIMED = read("t_div = 1\nt_s = 0\nt_l = 0.2\naxiom: R(0)\nL(t_div) -> L(t_s) R(t_l)\nR(t_div) -> L(t_l) R(t_s)")

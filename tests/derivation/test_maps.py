@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.development import Development, developed
-from lsys_kit.derivation.divisions import stepped
-from lsys_kit.derivation.maps import Map, cell_words, least_rotation
+from lsys_kit.derivation.maps.development import Development, developed
+from lsys_kit.derivation.maps.divisions import stepped
+from lsys_kit.derivation.maps.map import Map, cell_words, least_rotation
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.maps import Edge, EdgeProduction, MapSystem
-from lsys_kit.notation.read_map import read_map
+from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
 from tests.derivation.random_maps import map_systems
 
 STEPS = 4

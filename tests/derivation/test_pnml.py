@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, derive, pnml, read, stages, system, systems, timed
-from lsys_kit.derivation.stages import Stages
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.notation.model.system import LSystem, Module, Production
 from tests.derivation.random_systems import systems as random_systems
 from tests.derivation.test_laws import ends
 

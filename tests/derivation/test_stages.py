@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 from lsys_kit import derive
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.catalogue import systems as catalogue
-from lsys_kit.derivation.chance import Chance
-from lsys_kit.derivation.stages import Stages, stages
-from lsys_kit.derivation.timed import timed
+from lsys_kit.derivation.core.chance import Chance
+from lsys_kit.derivation.petri.stages import Stages, stages
+from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.expressions import Number
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.read import read
 
 FILAMENT = """

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from lsys_kit.derivation.fates import closure
-from lsys_kit.derivation.interpret import images, is_filament
-from lsys_kit.derivation.states import States
+from lsys_kit.derivation.core.interpretation import images, is_filament
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.petri.outcomes import closure
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.read import read
 
 AGES = read("k = 2\naxiom: A(k) B\nA(t) : t < 3 -> A(t+1)\nA(3) -> A(1) A(1)\nA(k) -> C\nC ->  ε\nA(t) -> ε")

@@ -11,8 +11,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, read, system
-from lsys_kit.derivation.equations import growth_base, positive_root, roots
-from lsys_kit.derivation.timed import timed
+from lsys_kit.derivation.timed.equations import growth_base, positive_root, roots
+from lsys_kit.derivation.timed.timed import timed
 
 ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"))
 TIMES = st.fractions(0, 4, max_denominator=12)

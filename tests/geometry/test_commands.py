@@ -12,8 +12,8 @@ from lsys_kit import ModelValueError, derive, read
 from lsys_kit.geometry import space, turtle
 from lsys_kit.geometry.commands import COMMANDS, TABLE, orders, unknown
 from lsys_kit.geometry.space import followed, in_plane
-from lsys_kit.notation.expressions import Number
-from lsys_kit.notation.model import LSystem, Module
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.system import LSystem, Module
 
 README = Path(__file__).parents[2] / "README.md"
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, draw, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.ears import cut
 from lsys_kit.geometry.meshes import SIDES, mesh_of
+from lsys_kit.geometry.triangulation import cut
 
 BUSH = """angle: 22.5
 axiom: A

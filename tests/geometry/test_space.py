@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read, system
-from lsys_kit.derivation.words import Word
-from lsys_kit.geometry.actions import follow
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.interpreter import follow
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
 from lsys_kit.geometry.space import ACTS, OFTEN, Flyer, followed, in_plane, ready
 from lsys_kit.geometry.turtle import placed, traced
-from lsys_kit.notation.expressions import Number
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.system import LSystem, Module, Production
 
 LISTINGS = Path(__file__).parents[1] / "listings"
 

@@ -16,13 +16,13 @@ from typing import Any, TypeAlias
 import pytest
 
 from lsys_kit.classroom.catalogue import map_system
-from lsys_kit.derivation.timed import timed
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import LSystemError
 from lsys_kit.geometry.filament import filament
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read, read_word
-from lsys_kit.notation.read_map import read_map
 from lsys_kit.notation.registry import NOTATIONS
 from lsys_kit.worlds.derive import derive
 

@@ -15,8 +15,18 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.arithmetic import Value, brief, exact, number_text, power, reason, sound, tidy
-from lsys_kit.notation.expressions import OPERATORS, Apply, Expression, Name, Number, function_of, gives, names_in, to_sympy
+from lsys_kit.notation.model.arithmetic import Value, brief, exact, number_text, power, reason, sound, tidy
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    function_of,
+    gives,
+    names_in,
+    to_sympy,
+)
 from lsys_kit.notation.read import read, read_expression
 from tests.derivation.reference import value
 

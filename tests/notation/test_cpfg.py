@@ -9,8 +9,8 @@ import pytest
 
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.derivation.derive import derive
-from lsys_kit.notation.cpfg import CPFG
-from lsys_kit.notation.model import Production
+from lsys_kit.notation.dialects.cpfg.dialect import CPFG
+from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 

@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.cpfg import CPFG
-from lsys_kit.notation.cpfg_expressions import lacking, text_of
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number, is_random
-from lsys_kit.notation.model import END, LSystem, Module, Production
+from lsys_kit.notation.dialects.cpfg.dialect import CPFG
+from lsys_kit.notation.dialects.cpfg.expressions import lacking, text_of
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, is_random
+from lsys_kit.notation.model.system import END, LSystem, Module, Production
 from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, systems, systems_with

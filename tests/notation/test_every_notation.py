@@ -11,9 +11,9 @@ import pytest
 
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.layout import FEATURES
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.syntax.formatting import FEATURES
 from lsys_kit.notation.write import write
 from lsys_kit.worlds.derive import derive
 

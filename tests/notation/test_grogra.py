@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number, function_of
-from lsys_kit.notation.grogra_conditions import apart
-from lsys_kit.notation.model import LSystem, Module, Production, Repeat
+from lsys_kit.notation.dialects.grogra.conditions import apart
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of
+from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.registry import notation_called, recognised
 from lsys_kit.notation.write import write

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.maps import Edge, EdgeProduction, MapSystem, Marker
+from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker
 from lsys_kit.notation.read import read
-from lsys_kit.notation.read_map import read_map
 from tests.derivation.random_maps import map_systems
 
 MARKER = 'A marker reads "[-A]" or "[+A]": the side of the wall, the letter of a wall to come.'

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from lsys_kit.derivation.derive import derive
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.mathematica import MATHEMATICA
-from lsys_kit.notation.mathematica_expressions import KNOWN
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
+from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import recognised
 from lsys_kit.notation.write import write

@@ -16,11 +16,11 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.mathematica import MATHEMATICA
-from lsys_kit.notation.model import LSystem, Module, Production
-from lsys_kit.notation.parsing import parse
+from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.read import read, read_word
+from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, conditions, systems, systems_with
 

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import pytest
 
 from lsys_kit.classroom.catalogue import system, systems
-from lsys_kit.derivation.timed import timed
+from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.abop import printed
-from lsys_kit.notation.expressions import Number
-from lsys_kit.notation.model import Module, symbols
+from lsys_kit.notation.dialects.abop.dialect import printed
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.system import Module, symbols
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.notation.test_slips import A_VALUE, NO_NAMES, PRODUCTION

@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 
 from lsys_kit.errors import ModelNameError, ModelValueError
-from lsys_kit.notation.expressions import Apply, Name, Number
-from lsys_kit.notation.model import Constant, LSystem, Module, Production
+from lsys_kit.notation.model.expressions import Apply, Name, Number
+from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import notation_called
 from lsys_kit.notation.write import write

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model import Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.system import Item, LSystem, MetaRule, Module, Production, Repeat
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import conditions, expressions

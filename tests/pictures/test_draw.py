@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from lsys_kit import LSystemError, ModelFileError, ModelValueError, derive, draw, figure, limits, read, system
-from lsys_kit.pictures.palette import colours
+from lsys_kit.pictures.style.palette import colours
 
 SVG = "{http://www.w3.org/2000/svg}"
 

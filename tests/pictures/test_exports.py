@@ -16,8 +16,8 @@ from PIL import Image, ImageSequence
 from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, animate, derive, draw, figure, read, stages, system
 from lsys_kit.__main__ import main
 from lsys_kit.geometry.meshes import mesh_of
-from lsys_kit.pictures.palette import CHOSEN, colours
-from lsys_kit.pictures.solids import channels
+from lsys_kit.pictures.formats.mesh_files import channels
+from lsys_kit.pictures.style.palette import CHOSEN, colours
 
 BUSH = read("""angle: 22.5
 axiom: !(0.4)A
@@ -101,7 +101,7 @@ def test_a_stroke_kept_is_closed(tmp_path):
 
 def test_a_glb_is_laid_out_as_its_standard_says():
     """glTF 2.0, section 4.4: a head of 12 bytes, then chunks of whole words; 3.6.2.4: numbers lie at whole words."""
-    from lsys_kit.pictures.solids import glb
+    from lsys_kit.pictures.formats.mesh_files import glb
 
     picture = draw(BUSH, 3)
     content = glb(picture.mesh, picture.colour_of)

@@ -11,8 +11,8 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, figure, lineage, read, system, timed
-from lsys_kit.pictures.lineages import LineagePicture
-from lsys_kit.pictures.trees import tree_of
+from lsys_kit.pictures.lineages.picture import LineagePicture
+from lsys_kit.pictures.lineages.tree import tree_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"))

@@ -8,9 +8,9 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, derive, draw, limits
-from lsys_kit.notation.read_map import read_map
+from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.pictures.maps import FILLS, MOST_MAPS, MapPicture
-from lsys_kit.pictures.palette import SERIES
+from lsys_kit.pictures.style.palette import SERIES
 
 SVG = "{http://www.w3.org/2000/svg}"
 K28 = read_map("map: ABAB\nA -> B[-A][+A]B\nB -> A")

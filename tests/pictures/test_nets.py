@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, derive, read, stages, system, systems, timed
-from lsys_kit.derivation.stages import Stages
-from lsys_kit.pictures import nets
-from lsys_kit.pictures.captions import short, width_of
-from lsys_kit.pictures.nets import drawn_stages, steering_of
-from lsys_kit.pictures.palette import MARK
-from lsys_kit.pictures.routes import rows_of, shown_places
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.pictures.nets import diagram as nets
+from lsys_kit.pictures.nets.captions import short, width_of
+from lsys_kit.pictures.nets.diagram import drawn_stages, steering_of
+from lsys_kit.pictures.nets.routes import rows_of, shown_places
+from lsys_kit.pictures.style.palette import MARK
 
 NAMED = ("J1", "J4", "J5", "P1", "P2", "P3", "P4", "P5", "T2", "K2", "K5", "L1")
 CASES = [(name, {}) for name in systems()] + [("P5", {"dt": "1.4"}), ("P5", {"dt": "0.35"}), ("P5", {"dt": "0.1"})]
@@ -214,7 +214,7 @@ def test_a_marked_stage_is_not_told_by_colour_alone() -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_names_are_escaped(name: str) -> None:
-    from lsys_kit.notation.model import LSystem, Module, Production
+    from lsys_kit.notation.model.system import LSystem, Module, Production
 
     hostile = LSystem((Module(name),), (Production(Module(name), (Module(name), Module(name + "2"))),))
     root = svg_of(stages(hostile), positions=True, marked=0)

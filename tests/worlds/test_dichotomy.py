@@ -12,7 +12,7 @@ import pytest
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, draw, explain, explore, growth, limits, read, write
 from lsys_kit.classroom.typeset import shown
 from lsys_kit.derivation.derive import derive as words_alone
-from lsys_kit.notation.model import LSystem
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.sight import seen
 
 LISTING = (Path(__file__).parents[1] / "listings" / "003-sensitive-dichotomy.grogra.txt").read_text(encoding="utf-8")

@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read
-from lsys_kit.derivation.courses import Stepping
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.states import States
-from lsys_kit.derivation.words import Word
+from lsys_kit.derivation.engines.engines import Stepping
 from lsys_kit.geometry.space import followed
-from lsys_kit.notation.expressions import Apply, Number
-from lsys_kit.notation.model import LSystem, Module, Production
+from lsys_kit.notation.model.expressions import Apply, Number
+from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.worlds.sight import Seen, seen
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 

@@ -1,0 +1,107 @@
+"""Sheets: the notebooks in the folder `exercises`, made from the declarations and never edited by hand.
+
+What a cell shows is what `check` answers here and now, so that a sheet is written without a kernel, the same on every
+machine. `python -m lsys_kit.classroom.exercises.notebooks exercises` writes them all.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from lsys_kit.classroom.exercises.answers import Exercise
+from lsys_kit.classroom.exercises.check import Lesson, check, lessons
+from lsys_kit.classroom.exercises.verdict import Verdict
+
+Cell: TypeAlias = dict[str, Any]
+
+_HOW = """\
+Replace the `...` of an answer and run its cell: the reply says whether the answer is right, or how it differs. A cell for
+hints stands below each answer: take away its first `#` and run it. After a try, `check("{id}", answer, solution=True)`
+shows the solution.
+
+The answers come with the kit, and whoever looks for them finds them. This is a check of your own, and no examination."""
+
+
+def sheet(lesson: Lesson) -> str:
+    """The notebook of a lesson's exercises, as the text of its file.
+
+    >>> from lsys_kit.classroom.exercises.check import lessons
+    >>> json.loads(sheet(lessons()[0]))["cells"][1]["source"]
+    ['from lsys_kit import check']
+    """
+    notebook = {
+        "cells": list(_numbered(_cells(lesson))),
+        "metadata": {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+                     "language_info": {"name": "python"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    return json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
+
+
+def write_sheets(folder: str | Path) -> list[Path]:
+    """Write the notebooks of all lessons into a folder."""
+    paths = []
+    for lesson in lessons():
+        paths.append(Path(folder) / f"{lesson.name}.ipynb")
+        paths[-1].write_text(sheet(lesson), encoding="utf-8", newline="\n")
+    return paths
+
+
+def _cells(lesson: Lesson) -> Iterator[Cell]:
+    yield _markdown("head", _head(lesson))
+    yield _code("import", "from lsys_kit import check")
+    for exercise in lesson.exercises:
+        yield from _exercise_cells(exercise)
+    yield _markdown("summary", f"## Summary\n\n{lesson.summary}\n\n[Back to the lesson](../notebooks/{lesson.name}.ipynb)")
+
+
+def _head(lesson: Lesson) -> str:
+    objectives = "\n".join(f"- {objective}" for objective in lesson.objectives)
+    return (f"# Exercises: {lesson.title}\n\n{lesson.introduction} They go with the lesson "
+            f"[{lesson.title}](../notebooks/{lesson.name}.ipynb).\n\n**After these exercises you can**\n\n{objectives}\n\n"
+            f"{_HOW.format(id=lesson.exercises[0].id)}")
+
+
+def _exercise_cells(exercise: Exercise) -> Iterator[Cell]:
+    name = f"exercise-{exercise.id.replace('.', '-')}"
+    yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}")
+    yield _code(f"{name}-answer", f'answer = ...\ncheck("{exercise.id}", answer)', check(exercise.id))
+    yield _code(f"{name}-hints", f'# check("{exercise.id}", hint=1)   # hints 1 to {len(exercise.hints)}')
+
+
+def _markdown(name: str, text: str) -> Cell:
+    return {"cell_type": "markdown", "id": name, "metadata": {}, "source": _lines(text)}
+
+
+def _code(name: str, text: str, shown: Verdict | None = None) -> Cell:
+    outputs = [] if shown is None else [{
+        "data": {"text/html": _lines(shown._repr_html_()), "text/plain": _lines(repr(shown))},
+        "execution_count": None, "metadata": {}, "output_type": "execute_result"}]
+    return {"cell_type": "code", "execution_count": None, "id": name, "metadata": {}, "outputs": outputs,
+            "source": _lines(text)}
+
+
+def _numbered(cells: Iterable[Cell]) -> Iterator[Cell]:
+    """The cells with the numbers that a first run from top to bottom gives them."""
+    number = 0
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            number += 1
+            cell["execution_count"] = number
+            for output in cell["outputs"]:
+                output["execution_count"] = number
+        yield cell
+
+
+def _lines(text: str) -> list[str]:
+    return text.splitlines(keepends=True)
+
+
+if __name__ == "__main__":
+    for path in write_sheets(sys.argv[1] if len(sys.argv) > 1 else "exercises"):
+        print(path)

@@ -1,0 +1,80 @@
+"""Verdicts: what a check says, as a sentence, as a box in a notebook, and as a score."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
+
+_SIGNS: Mapping[str, tuple[str, str]] = {
+    "Correct": ("✓", GREEN),
+    "Almost": ("≈", ORANGE),
+    "Not yet": ("✗", ORANGE),
+    "Not readable yet": ("?", ORANGE),
+    "Not answered yet": ("○", QUIET),
+    "Hint": ("→", BLUE),
+}
+"""For each verdict its sign and its colour: what it says never hangs on the colour."""
+
+
+PLAIN = "mathjax_ignore tex2jax_ignore"
+"""The classes of HTML in which dollar signs begin no formula: those of MathJax 3, which notebooks use, and of its version 2,
+which web pages made of notebooks use."""
+
+
+class Verdict(float):
+    """A score from 0 to 1 that shows itself as what it means.
+
+    Attributes
+    ----------
+    said
+        "Correct", "Almost", "Not yet", "Not readable yet", "Not answered yet" or "Hint".
+    message
+        What there is to say about the answer; lines that begin with two blanks quote it.
+
+    Examples
+    --------
+    >>> Verdict("Almost", "You counted one step too few: step 0 is the axiom itself.")
+    Almost. You counted one step too few: step 0 is the axiom itself.
+    >>> Verdict("Correct") + 0
+    1.0
+    """
+
+    __slots__ = ("message", "said")
+    said: str
+    message: str
+
+    def __new__(cls, said: str, message: str = "", score: float | None = None) -> Verdict:
+        """A verdict; without a score it is 1 where the answer is correct, else 0."""
+        verdict = super().__new__(cls, (said == "Correct") if score is None else score)
+        verdict.said, verdict.message = said, message
+        return verdict
+
+    def __repr__(self) -> str:
+        return f"{self.said}. {self.message}".rstrip()
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """The box: a sign, a word and the message, all text escaped."""
+        sign, colour = _SIGNS[self.said]
+        return (f'<div class="{PLAIN}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
+                'padding:6px 12px">'
+                f'<span aria-hidden="true">{sign}</span> <b>{escaped(self.said)}.</b> {_html(self.message)}</div>')
+
+
+def _html(message: str) -> str:
+    """A message as HTML: quoted lines keep their blanks, so that a caret stands under its place.
+
+    >>> _html("This is wrong.\\n  a < b\\n    ^")
+    'This is wrong.<pre style="margin:4px 0">  a &lt; b\\n    ^</pre>'
+    """
+    lines = message.split("\n")
+    quoted = next((i for i, line in enumerate(lines) if line.startswith("  ")), len(lines))
+    last = next((i for i in range(quoted, len(lines)) if not lines[i].startswith("  ")), len(lines))
+    html = "<br>".join(map(escaped, lines[:quoted]))
+    if quoted < len(lines):
+        html += '<pre style="margin:4px 0">' + "\n".join(map(escaped, lines[quoted:last])) + "</pre>"
+        html += _html("\n".join(lines[last:]))
+    return html

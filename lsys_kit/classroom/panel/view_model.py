@@ -1,0 +1,164 @@
+"""What a system looks like at a step, for given constants: computed once and kept.
+
+The part of the explorer that knows no widgets: it turns settings into a word, a net with its tokens, and a picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from lsys_kit.derivation.core.interpretation import is_filament
+from lsys_kit.derivation.core.words import Word, shortened
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.petri.stages import Stages, stages
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.space import in_plane
+from lsys_kit.geometry.turtle import Path, placed, traced
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
+from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.style.labels import place_text
+from lsys_kit.pictures.svg import Row
+from lsys_kit.pictures.view import seen
+from lsys_kit.worlds.derive import derive
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What there is to see at one step.
+
+    Attributes
+    ----------
+    step, word
+        The step and its word.
+    net, tokens
+        The stage diagram, and how many modules lie in each place.
+    marked
+        The states that are marked in the word and in the drawing.
+    scene
+        What is drawn, in the plane or in space.
+    picture
+        The drawing; of a scene in space as it is seen from one side.
+    path
+        The turtle's path in the plane; None for a filament, and in space.
+    """
+
+    step: int
+    word: Word
+    net: Stages
+    tokens: tuple[int, ...]
+    marked: frozenset[int]
+    scene: Scene
+    picture: Picture
+    path: Path | None
+
+    @property
+    def modules(self) -> str:
+        """How many modules the word has, in words."""
+        return f"{len(self.word):,} module{'s' * (len(self.word) != 1)}"
+
+    def __str__(self) -> str:
+        """The sight in words."""
+        places = [f"{place_text(place, self.net.system)}: {count:,}"
+                  for place, count in zip(self.net.places, self.tokens, strict=True) if place.symbol[0].isalpha()]
+        return (f"Step {self.step}: {self.modules}. {shortened(self.word, 160)}. Stages {', '.join(places)}. "
+                f"{self.scene}.")
+
+
+class Study:
+    """A system under changing constants: its derivations, nets, scenes and paths, each computed once.
+
+    Parameters
+    ----------
+    system
+        Any L-system.
+    seed
+        Where chance begins.
+
+    Examples
+    --------
+    >>> from lsys_kit.classroom.catalogue import system
+    >>> print(Study(system("J4")).sight(3, {"lifeTimeB": 5}))
+    Step 3: 2 modules. Al(1)Br(1). Stages A(1): 1, A(2): 0, A(3): 0, B(1): 1, B(2): 0, B(3): 0, B(4): 0, B(5): 0. \
+2 cells, width 3, height 1.
+    """
+
+    def __init__(self, system: LSystem, seed: int | None = None) -> None:
+        self.system, self.seed, self.is_filament = system, seed, is_filament(system)
+        self.in_space = not self.is_filament and not in_plane(system)
+        self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
+        self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}
+        self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
+        self._scenes: dict[tuple[tuple[Value, ...], int], tuple[float, Scene]] = {}
+
+    def known(self, constants: Mapping[str, object]) -> tuple[Derivation, Stages]:
+        """The derivation and the net for given constants."""
+        key = tuple(constants.items())
+        if key not in self._known:
+            given: dict[str, Any] = dict(constants)
+            self._known[key] = derive(self.system, 0, seed=self.seed, **given), stages(self.system, **given)
+        return self._known[key]
+
+    def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1,
+              around: float = 0.0, above: float = 0.0) -> Sight:
+        """What there is to see at a step.
+
+        Parameters
+        ----------
+        step
+            The step.
+        constants
+            New values for declared constants.
+        angle
+            Degrees by which the turtle turns; by default the system's.
+        place
+            The stage that is marked; -1 for none.
+        around, above
+            From where a scene in space is seen, as `seen` counts.
+
+        Raises
+        ------
+        LSystemError
+            The step is too large, or a value cannot be computed.
+        """
+        derivation, net = self.known(constants)
+        derivation = derivation.to(step)
+        word = derivation[step]
+        marked = frozenset(s for s, module in enumerate(word.states.modules) if net.place_of(module) == place)
+        turn = float(self.system.angle) if angle is None else angle
+        path = None if self.is_filament or self.in_space else self._path(derivation, step)
+        if self.is_filament:
+            rows = self._sequence(derivation, step)
+            scene = rows[-1].scene
+            picture = filament_picture(derivation, rows, step, marked)
+        else:
+            scene = placed(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
+            picture = Picture((Row(step, seen(scene, around, above)),), state_colours(derivation), None, marked)
+        return Sight(step, word, net, net.tokens(word), marked, scene, picture, path)
+
+    def _sequence(self, derivation: Derivation, last: int) -> tuple[Row, ...]:
+        """The rows of a filament's steps, each made once."""
+        constants = derivation.states.constants
+        steps = range(max(0, last + 1 - MOST_ROWS), last + 1)
+        for step in steps:
+            if (constants, step) not in self._rows:
+                self._rows[constants, step] = Row(step, filament(derivation[step]))
+        return tuple(self._rows[constants, step] for step in steps)
+
+    def _path(self, derivation: Derivation, step: int) -> Path:
+        key = derivation.states.constants, step
+        if key not in self._paths:
+            self._paths[key] = traced(derivation[step])
+        return self._paths[key]
+
+    def _scene(self, derivation: Derivation, angle: float) -> Scene:
+        """The scene in space of a derivation's last word, kept for the angle that was asked last."""
+        key = derivation.states.constants, derivation.steps
+        if key not in self._scenes or self._scenes[key][0] != angle:
+            self._scenes[key] = angle, scene_of(derivation, angle)
+        return self._scenes[key][1]

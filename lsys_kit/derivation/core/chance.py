@@ -1,0 +1,158 @@
+"""Chance that can be repeated: every random number is a function of the seed, the step, the module's position, and how many
+numbers it has drawn before.
+
+So a plant is the same on every machine, whatever is computed first or at once. The numbers are those of the generator
+splitmix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014), used as a hash.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.notation.model.arithmetic import Value, tidy
+
+_GOLDEN, _FIRST, _SECOND, _MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
+_UNIT = 2.0**-53
+
+
+def mixed(number: int) -> int:
+    """splitmix64's output for a state.
+
+    >>> hex(mixed(0)), hex(mixed(0x9E3779B97F4A7C15))
+    ('0xe220a8397b1dcdaf', '0x6e789e6aa1b965f4')
+    """
+    number = (number + _GOLDEN) & _MASK
+    number = (number ^ number >> 30) * _FIRST & _MASK
+    number = (number ^ number >> 27) * _SECOND & _MASK
+    return number ^ number >> 31
+
+
+def mixed_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarray[Any, np.dtype[np.uint64]]:
+    """The same for many states at once."""
+    numbers = numbers + np.uint64(_GOLDEN)
+    numbers = (numbers ^ numbers >> np.uint64(30)) * np.uint64(_FIRST)
+    numbers = (numbers ^ numbers >> np.uint64(27)) * np.uint64(_SECOND)
+    return numbers ^ numbers >> np.uint64(31)
+
+
+def units(seed: int, step: int, positions: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """The first random number, from 0 up to 1, of the modules at some positions of a step's word.
+
+    >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]
+    True
+    """
+    keys = mixed_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
+    return (mixed_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
+
+
+def _stem(seed: int, step: int) -> int:
+    return mixed(mixed(seed & _MASK) ^ step)
+
+
+@dataclass
+class Chance:
+    """The random numbers of one module at one step.
+
+    Parameters
+    ----------
+    seed
+        Any whole number.
+    step, position
+        Which module: its place in the word of which step.
+    sees
+        What answers the module's questions to the turtle, given a function's number and values; None where nobody looks.
+
+    Examples
+    --------
+    >>> one, again = Chance(7, 3, 12), Chance(7, 3, 12)
+    >>> one.unit() == again.unit(), 0 <= one.uniform(0, 360) < 360
+    (True, True)
+    """
+
+    seed: int
+    step: int
+    position: int
+    sees: Callable[..., Value] | None = None
+    drawn: int = 0
+
+    def unit(self) -> float:
+        """A number from 0 up to, but not, 1."""
+        key = mixed(_stem(self.seed, self.step) ^ self.position)
+        self.drawn += 1
+        return (mixed((key + (self.drawn - 1) * _GOLDEN) & _MASK) >> 11) * _UNIT
+
+    def uniform(self, low: float, high: float) -> float:
+        """A number from `low` up to `high`, each equally likely."""
+        return float(low) + (float(high) - float(low)) * self.unit()
+
+    def normal(self, mean: float, deviation: float) -> float:
+        """A number of a bell curve with a standard deviation, of which 0 gives the mean."""
+        if deviation < 0:
+            raise ValueError("a standard deviation is not negative")
+        unit = self.unit() + _UNIT / 2
+        return float(mean) + float(deviation) * NormalDist().inv_cdf(unit)
+
+    def binomial(self, trials: float, probability: float) -> int:
+        """How many of some trials succeed."""
+        if trials != int(trials) or not 0 <= trials <= 100_000:
+            raise ValueError("trials are counted: a whole number from 0 to 100,000")
+        _check_probability(probability)
+        return sum(self.unit() < probability for _ in range(int(trials)))
+
+    def poisson(self, mean: float) -> int:
+        """How many rare events happen, on average `mean`."""
+        if not 0 <= mean <= 500:
+            raise ValueError("the mean of a Poisson distribution is from 0 to 500 here")
+        product, count, least = self.unit(), 0, math.exp(-float(mean))
+        while product > least:
+            product, count = product * self.unit(), count + 1
+        return count
+
+    def table(self, *weights: float) -> int:
+        """A number 0, 1, 2, ..., each as likely as its weight says."""
+        return chosen(weights, self.unit())
+
+
+def chosen(weights: Sequence[Value], unit: float) -> int:
+    """Which of some weighted things a random number from 0 up to 1 chooses; the weights need not sum to one.
+
+    >>> chosen((1, 1, 2), 0.49), chosen((1, 1, 2), 0.5)
+    (1, 2)
+    """
+    total = _total(weights)
+    mark, below = unit * float(total), 0.0
+    for number, weight in enumerate(weights):
+        below += float(weight)
+        if mark < below:
+            return number
+    return max(number for number, weight in enumerate(weights) if weight)
+
+
+def shares(weights: Sequence[Value]) -> list[Value]:
+    """How likely each of some weighted things is; exact where the weights are.
+
+    >>> shares((1, 1, 2))
+    [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]
+    """
+    total = _total(weights)
+    exact = all(isinstance(weight, int | Fraction) for weight in weights)
+    return [tidy(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
+
+
+def _total(weights: Sequence[Value]) -> Value:
+    total = sum(weights)
+    if min(weights) < 0 or not total > 0:
+        raise ValueError("probabilities are not negative, and one of them is greater than 0")
+    return total
+
+
+def _check_probability(probability: float) -> None:
+    if not 0 <= probability <= 1:
+        raise ValueError("a probability is from 0 to 1")

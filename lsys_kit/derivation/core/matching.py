@@ -1,0 +1,164 @@
+"""Contexts: who stands to the left and to the right of a module, across brackets (ABOP, section 1.8; seed 003).
+
+The left context of a module goes back along its branch: it passes finished side branches and crosses an opening bracket to the
+parent. The right context goes on along its branch and passes side branches, unless the pattern names one: a named branch must
+match the beginning of a branch that stands there, or all of it, where the pattern says that the branch ends. Ignored symbols
+are passed on both sides. Nothing lies beyond the ends of the word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass
+
+from lsys_kit.derivation.core.rules import Branch, Rule, is_branch
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import CLOSING, END, OPENING, Module
+
+NOBODY = -1
+"""The position of a neighbour that is not there."""
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """For each position of a word its neighbours' positions, or `NOBODY`.
+
+    Attributes
+    ----------
+    before
+        The module that the left context begins with.
+    after
+        The module that the right context begins with, side branches passed; for an opening bracket the module behind its
+        branch.
+    inside
+        For an opening bracket the first module of its branch.
+    closing
+        For an opening bracket the position of its closing one.
+
+    Examples
+    --------
+    >>> found = neighbours("ABC[DE][SG[HI]M]", ())
+    >>> "ABC[DE][SG[HI]M]"[found.before[8]], "ABC[DE][SG[HI]M]"[found.after[9]]
+    ('C', 'M')
+    """
+
+    before: Sequence[int]
+    after: Sequence[int]
+    inside: Sequence[int]
+    closing: Sequence[int]
+
+
+def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
+    """The neighbours of all positions of a word, in one pass in each direction."""
+    size = len(symbols)
+    before, after, inside, closing = ([NOBODY] * size for _ in range(4))
+    last, stack = NOBODY, []
+    for position, symbol in enumerate(symbols):
+        before[position] = last
+        if symbol in OPENING:
+            stack.append((last, position))
+        elif symbol in CLOSING:
+            if stack:
+                last, opened = stack.pop()
+                closing[opened] = position
+        elif symbol not in ignored:
+            last = position
+    following = NOBODY
+    behind: list[int] = []
+    for position in range(size - 1, -1, -1):
+        symbol = symbols[position]
+        if symbol in OPENING:
+            inside[position] = following
+            following = behind.pop() if behind else NOBODY
+        after[position] = following
+        if symbol in CLOSING:
+            behind.append(following)
+            following = NOBODY
+        elif symbol not in OPENING and symbol not in ignored:
+            following = position
+    return Neighbours(before, after, inside, closing)
+
+
+def chain(links: Sequence[int], position: int, length: int) -> tuple[int, ...]:
+    """The first so many neighbours of a position, following `before` or `after`; fewer where the branch ends.
+
+    >>> chain([-1, 0, 1, 2], 3, 2)
+    (2, 1)
+    """
+    found: list[int] = []
+    while len(found) < length:
+        position = links[position]
+        if position == NOBODY:
+            break
+        found.append(position)
+    return tuple(found)
+
+
+def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored: Container[str]) -> Iterator[int]:
+    """The opening brackets of the side branches that stand right behind a position, before the next module."""
+    position += 1
+    while position < len(symbols):
+        if symbols[position] in OPENING:
+            yield position
+            position = around.closing[position]
+            if position == NOBODY:
+                return
+        elif symbols[position] in CLOSING or symbols[position] not in ignored:
+            return
+        position += 1
+
+
+def context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
+            ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of the modules that a rule names, in the order written, where its contexts match; else None."""
+    left = chain(around.before, position, len(rule.left))
+    if len(left) < len(rule.left) or any(_kind(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
+        return None
+    right = _followed(rule.right, word, symbols, around, position, ignored)
+    return None if right is None else (*reversed(left), position, *right)
+
+
+def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
+    """The values of the modules at some positions, one after another."""
+    return tuple(value for at in positions for value in word[at].arguments)  # type: ignore[misc]
+
+
+def _kind(module: Module) -> tuple[str, int]:
+    return module.symbol, len(module.arguments)
+
+
+def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
+              ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of a row of modules and branches that begins behind a position, or None."""
+    if not row:
+        return ()
+    first, rest = row[0], row[1:]
+    if is_branch(first):
+        return _branched(row, word, symbols, around, position, position, ignored)
+    at = around.inside[position] if symbols[position] in OPENING else around.after[position]
+    if first[0] == END:
+        return () if at == NOBODY else None
+    if at == NOBODY or _kind(word[at]) != first:
+        return None
+    found = _followed(rest, word, symbols, around, at, ignored)
+    return None if found is None else (at, *found)
+
+
+def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int, behind: int,
+              ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of a row that begins with branches, which stand behind a position and behind the branches named already."""
+    first = next((index for index, item in enumerate(row) if not is_branch(item)), len(row))
+    named = [item for item in row[:first] if is_branch(item)]
+    there = list(branches(symbols, around, position, ignored))
+    found: list[int] = []
+    for branch in named:
+        for opened in there:
+            inside = _followed(branch, word, symbols, around, opened, ignored) if opened > behind else None
+            if inside is not None:
+                found += inside
+                behind = around.closing[opened]
+                break
+        else:
+            return None
+    rest = _followed(row[len(named):], word, symbols, around, position, ignored)
+    return None if rest is None else (*found, *rest)

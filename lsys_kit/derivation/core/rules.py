@@ -1,0 +1,260 @@
+"""Productions made ready to run: for each kind of module the rules that may rewrite it, as functions of its values.
+
+A rule's functions take one tuple: the values of the module's parameters, then those of the declared constants. So a
+constant that a slider moves changes a tuple, and nothing is read or put together again.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from typing import Any, TypeAlias, TypeGuard
+
+from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.dialects.grogra.variables import expressions_of
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, reason, settled_value, sound, tidy
+from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, questions_in
+from lsys_kit.notation.model.system import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.read import read_number
+
+Kind: TypeAlias = tuple[str, int]
+"""What a rule asks of a module first: its symbol and the number of its parameters."""
+Branch: TypeAlias = tuple["Kind | Branch", ...]
+"""A row of modules, some of them branches: what a right context asks for."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A module of a successor: its symbol and the functions of its arguments."""
+
+    symbol: str
+    arguments: tuple[Function, ...]
+
+
+@dataclass(frozen=True)
+class Parts:
+    """A repeated part of a successor: the function that counts, and what is written each time."""
+
+    count: Function
+    body: tuple[Part | Parts, ...]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One production, ready to run.
+
+    Attributes
+    ----------
+    number
+        The production's place in the order written, from 0.
+    left, right
+        What must stand to the left, the nearest first, and to the right, the nearest first.
+    equalities
+        Pairs of a parameter's index and a function whose value it must have.
+    condition, probability
+        A truth and a weight, or None.
+    successor
+        What it makes.
+    random
+        Whether what it makes is left to chance.
+    looks
+        Whether it asks for what the turtle sees.
+    questions
+        What its condition asks, each with the function of the answer.
+    """
+
+    number: int
+    production: Production
+    left: tuple[Kind, ...]
+    right: Branch
+    equalities: tuple[tuple[int, Function], ...]
+    condition: Function | None
+    probability: Function | None
+    successor: tuple[Part | Parts, ...]
+    random: bool
+    looks: bool
+    questions: tuple[tuple[Apply, Function], ...]
+
+    @cached_property
+    def least(self) -> int:
+        """How many modules it makes at least, before any decomposition."""
+        return sum(isinstance(part, Part) for part in self.successor)
+
+    @cached_property
+    def settled(self) -> bool:
+        """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that is seen."""
+        return not (self.left or self.right or self.random or self.looks or self.probability is not None)
+
+
+Rules: TypeAlias = Mapping[Kind, tuple[Rule, ...]]
+"""For each symbol and number of parameters its rules, in the order written."""
+
+
+def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
+    """The rules of a system, by the symbol and the number of parameters that they rewrite.
+
+    Parameters
+    ----------
+    system
+        Any L-system.
+    arithmetic
+        "exact" or "float".
+    section
+        "productions", "decomposition" or "interpretation".
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> sorted(rules_of(read("axiom: A(0)\\nA(t) : t < 5 -> A(t+1) B")))
+    [('A', 1)]
+    """
+    return _rules(system, system.source, arithmetic, section)
+
+
+@lru_cache(maxsize=256)
+def _rules(system: LSystem, source: str, arithmetic: str, section: str) -> Rules:
+    """The rules; a system that is equal, and was written otherwise, has rules of its own, which stand elsewhere in its text."""
+    rules: dict[Kind, list[Rule]] = {}
+    for number, production in enumerate(getattr(system, section)):
+        rules.setdefault(kind_of(production.predecessor), []).append(rule_for(system, number, production, arithmetic))
+    return {kind: tuple(found) for kind, found in rules.items()}
+
+
+def kind_of(module: Module) -> Kind:
+    """A module's symbol and the number of its parameters."""
+    return module.symbol, len(module.arguments)
+
+
+def rule_for(system: LSystem, number: int, production: Production, arithmetic: str) -> Rule:
+    """A production made ready; its functions take the values of all its parameters, then those of the system's constants."""
+    constants = [constant.name for constant in system.constants]
+    arguments = [argument for module in production.parameters for argument in module.arguments]
+    order = {name: len(arguments) + index for index, name in enumerate(constants)}
+    formal = [isinstance(a, Name) and a.name not in order for a in arguments]
+    order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
+
+    def ready(expression: Any) -> Function:
+        return function_of(expression, order, arithmetic)
+
+    made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
+    asked = [part for part in (production.condition, production.probability, *made) if part is not None]
+    return Rule(
+        number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
+        tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
+        None if production.condition is None else ready(production.condition),
+        None if production.probability is None else ready(production.probability),
+        _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
+        any(map(is_random, made)), any(question for part in asked for question in questions_in(part)),
+        tuple((question, ready(question)) for question in questions_in(production.condition)) if production.condition else ())
+
+
+def _parts(items: Sequence[Item], order: Mapping[str, int], size: int, arithmetic: str) -> tuple[Part | Parts, ...]:
+    """A successor's functions; those of a repeated part take one value more, what counts in it."""
+    found: list[Part | Parts] = []
+    for item in items:
+        if isinstance(item, Repeat):
+            inner = {**order, item.index: size} if item.index else order
+            found.append(Parts(function_of(item.count, order, arithmetic), _parts(item.body, inner, size + 1, arithmetic)))
+        else:
+            found.append(Part(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
+    return tuple(found)
+
+
+def is_branch(item: Kind | Branch) -> TypeGuard[Branch]:
+    """Whether an item of what a right context asks for is a branch, perhaps an empty one, and no module."""
+    return not item or not isinstance(item[0], str)
+
+
+def _nested(modules: Sequence[Module]) -> Branch:
+    """A right context with its branches as rows of their own."""
+    rows: list[list[Any]] = [[]]
+    for module in modules:
+        if module.symbol in OPENING:
+            rows.append([])
+        elif module.symbol in CLOSING:
+            branch = tuple(rows.pop())
+            rows[-1].append(branch)
+        else:
+            rows[-1].append(kind_of(module))
+    return tuple(rows[0])
+
+
+def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> tuple[Value, ...]:
+    """The values of the declared constants, in their order, with some of them changed.
+
+    >>> from lsys_kit.notation.read import read
+    >>> constants_of(read("dt = 7/10\\nhalf = dt/2\\naxiom: A"), {"dt": "14/10"})
+    (Fraction(7, 5), Fraction(7, 10))
+    """
+    names = [constant.name for constant in system.constants]
+    for name in changes:
+        if name not in names:
+            hint = suggestion(name, names) or (f"Its constants are: {', '.join(names)}." if names else "It has none.")
+            raise ModelNameError(f'The system declares no constant "{name}"', hint=hint)
+    order = {name: index for index, name in enumerate(names)}
+    values: list[Value] = []
+    for constant in system.constants:
+        try:
+            value = (number_from(changes[constant.name], constant.name) if constant.name in changes
+                     else sound(function_of(constant.value, order, arithmetic)(tuple(values))))
+        except (ArithmeticError, ValueError) as fault:
+            raise ModelValueError(f'The constant "{constant.name}" has no value: {reason(fault)}', system.source or None,
+                                  *(constant.at or (None, None))) from None
+        except TypeError:
+            if not any(map(is_symbolic, values)):
+                raise
+            raise ModelValueError(f'The constant "{constant.name}" has no value: it depends on an unknown constant',
+                                  system.source or None, *(constant.at or (None, None))) from None
+        values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
+    return tuple(values)
+
+
+def number_from(given: object, name: str = "value") -> Value:
+    """A number as a person gives it, exactly: 1.4 and "1.4" and "14/10" are all 7/5.
+
+    A name that stands for itself, or a sympy expression, stays unknown.
+
+    >>> number_from(1.4), number_from("14/10"), number_from(Fraction(4, 2)), number_from("dt", "dt")
+    (Fraction(7, 5), Fraction(7, 5), 2, dt)
+    """
+    if isinstance(given, str):
+        return unknown(name) if given == name else read_number(given)
+    if hasattr(given, "free_symbols") and given.free_symbols:
+        return settled_value(given)
+    if isinstance(given, numbers.Real) and not isinstance(given, bool) and _finite(given):
+        if isinstance(given, numbers.Rational):
+            return tidy(Fraction(int(given.numerator), int(given.denominator)))
+        return tidy(Fraction(repr(float(given))))
+    raise ModelValueError(f'"{name}" must be a number, not {str(given)[:40]!r}')
+
+
+def real_from(given: object, name: str) -> float:
+    """A number as a person gives it, where it has to be known, as a double.
+
+    >>> real_from("14/10", "angle")
+    1.4
+    """
+    value = number_from(given, name)
+    try:
+        return float(value)
+    except (TypeError, OverflowError):
+        raise ModelValueError(f'"{name}" must be a number that is known and not too large, not {str(given)[:40]!r}') from None
+
+
+def unknown(name: str) -> Any:
+    """A constant whose value is not known: a real number with a name."""
+    import sympy
+
+    return sympy.Symbol(name, real=True)
+
+
+def _finite(given: numbers.Real) -> bool:
+    try:
+        return math.isfinite(given)
+    except OverflowError:
+        return False

@@ -1,0 +1,302 @@
+"""The table of states: each distinct module that a derivation meets, numbered in the order in which it is met.
+
+Where a module's fate depends on its symbol and values alone, its successor is computed once, here, however often the module
+occurs. A word is then an array of states, the growth matrix counts states in successors, and the stage diagram is this
+table drawn. Where neighbours or chance have a say, the table still numbers the modules, and what they become is computed
+for each combination that occurs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.core.chance import Chance, chosen
+from lsys_kit.derivation.core.rule_errors import AXIOM, fault_in, undecided
+from lsys_kit.derivation.core.rules import Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
+from lsys_kit.errors import ModelLimitError, ModelNameError
+from lsys_kit.notation.model.arithmetic import SMALL, Value, is_symbolic, same, settled_value, sound
+from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.write import as_written
+
+EXACT_BITS = 128
+"""A rational value with more bits than this becomes a double."""
+CUT = "%"
+"""The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
+QUERIES = frozenset(("?P", "?H", "?U", "?L"))
+"""The symbols whose values are the turtle's: its position, its heading, its up and its left."""
+
+
+class Successors(dict[int, tuple[int, ...]]):
+    """What replaces each settled state in one step, found when it is first asked for."""
+
+    def __init__(self, states: States) -> None:
+        self.states = states
+
+    def __missing__(self, state: int) -> tuple[int, ...]:
+        states, module, rule = self.states, self.states.modules[state], self.states.fate(state)
+        found = self[state] = states.parts(module) if rule is None else states.replaced(rule, module)
+        return found
+
+
+class States:
+    """The states of a system under given constants.
+
+    Parameters
+    ----------
+    system
+        Any L-system.
+    constants
+        Values for some of its declared constants.
+    arithmetic
+        "exact", or "float" to compute in doubles as cpfg and L-Py do.
+
+    Attributes
+    ----------
+    modules
+        The module of each state.
+    settled
+        Whether every module's fate depends on itself alone: no contexts, no chance, no cut, no meta-rules, no questions.
+    asks
+        Whether it asks for what the turtle sees, by a rule or by a query module such as `?P(x,y)`.
+    successors
+        The successor of each settled state.
+    parts_settled
+        Whether decomposition leaves nothing to chance.
+    inexact
+        The first module that was met with a value that had outgrown 128 bits and become a double, or None.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: A(4)\\nA(t) : t < 5 -> A(t+1)\\nA(t) -> A(1) B"))
+    >>> states.axiom, states.successor(0), states.successor(1), states.successor(3)
+    ((0,), (1,), (2, 3), (3,))
+    >>> print(*states.modules)
+    A(4) A(5) A(1) B
+    """
+
+    def __init__(self, system: LSystem, constants: dict[str, object] | None = None, arithmetic: str = "exact") -> None:
+        if arithmetic not in ("exact", "float"):
+            raise ModelNameError(f'There is no arithmetic called "{arithmetic}"', hint='Choose "exact" or "float".')
+        self.system, self.arithmetic = system, arithmetic
+        self.constants = constants_of(system, constants or {}, arithmetic)
+        self.modules: list[Module] = []
+        self.inexact: Module | None = None
+        self._outgrown = False
+        self._numbers: dict[tuple[object, ...], int] = {}
+        self.successors = Successors(self)
+        self._fates: dict[int, Rule | None] = {}
+        self._parts: dict[tuple[object, ...], tuple[int, ...]] = {}
+        self.rules = rules_of(system, arithmetic)
+        self.decomposition = rules_of(system, arithmetic, "decomposition")
+        self.parts_settled = all(rule.settled for rules in self.decomposition.values() for rule in rules)
+        rules = [rule for table in (self.rules, self.decomposition) for found in table.values() for rule in found]
+        self.asks = any(rule.looks for rule in rules) or not _symbols(system).isdisjoint(QUERIES)
+        self.settled = not (system.meta or self.asks or CUT in _symbols(system)) and all(rule.settled for rule in rules)
+        self.axiom = tuple(self._axiom())
+
+    def __len__(self) -> int:
+        return len(self.modules)
+
+    def number(self, symbol: str, values: tuple[Value, ...] = ()) -> int:
+        """The state of a module, a new one where it has not been met."""
+        key = (symbol, values, *map(type, values))
+        found = self._numbers.get(key)
+        if found is None:
+            found = len(self.modules)
+            self.modules.append(Module(symbol, values))
+            self._numbers[key] = found  # last, so that an interrupt leaves no number without its module
+        return found
+
+    def candidates(self, state: int) -> tuple[Rule, ...]:
+        """The productions for modules of a state's symbol and number of parameters, in the order written."""
+        return self.rules.get(kind_of(self.modules[state]), ())
+
+    def is_settled(self, state: int) -> bool:
+        """Whether the state alone decides what becomes of it."""
+        return self.parts_settled and all(rule.settled for rule in self.candidates(state))
+
+    def successor(self, state: int) -> tuple[int, ...]:
+        """The states that replace a settled state in one step: itself, where no production matches."""
+        return self.successors[state]
+
+    def width(self, state: int) -> int:
+        """How many modules at least replace a settled state in one step, known before any of them is made."""
+        rule = self.fate(state)
+        return 1 if rule is None or self.decomposition else rule.least
+
+    def production(self, state: int) -> int | None:
+        """Which production rewrites a settled state: its place in the order written, from 0, or None."""
+        rule = self.fate(state)
+        return None if rule is None else rule.number
+
+    def fate(self, state: int) -> Rule | None:
+        """The rule that rewrites a settled state, or None."""
+        if state not in self._fates:
+            self._fates[state] = self.matching(self.modules[state], self.rules)
+        return self._fates[state]
+
+    def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
+        """The rule that rewrites a module, of rules that need no context."""
+        return self.drawn(self.matched(module, rules, chance), chance)
+
+    def matched(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[tuple[Rule, tuple[Value, ...]]]:
+        """The rules that match a module, up to a first that leaves nothing to chance, each with the module's values."""
+        values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
+        found: list[tuple[Rule, tuple[Value, ...]]] = []
+        for rule in rules.get(kind_of(module), ()):
+            if self.holds(rule, values, module, chance):
+                found.append((rule, values))
+                if found[0][0].probability is None:
+                    break
+        return found
+
+    def holds(self, rule: Rule, values: tuple[Value, ...], module: Module, chance: Chance | None = None) -> bool:
+        """Whether a rule's values are what it asks for and its condition is true."""
+        given = (*values, *self.constants, chance)
+        try:
+            return (all(same(values[i], wanted(given)) for i, wanted in rule.equalities)
+                    and (rule.condition is None or bool(rule.condition(given))))
+        except TypeError:
+            raise undecided(self.system, self.constants, module, rule) from None
+        except (ArithmeticError, ValueError) as fault:
+            raise fault_in(self.system, module, rule, fault) from None
+
+    def drawn(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None) -> Rule | None:
+        """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
+        if not matched or matched[0][0].probability is None:
+            return matched[0][0] if matched else None
+        lots = self.lots(matched, chance)
+        unit = chance.unit() if chance else 0.0
+        try:
+            return lots[chosen([weight for _, weight in lots], unit)][0]
+        except ValueError as fault:
+            raise fault_in(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
+
+    def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
+        """Of the rules that match those that are chosen by lot, each with its weight."""
+        return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
+
+    def weight(self, rule: Rule, values: tuple[Value, ...], chance: Chance | None = None) -> Value:
+        """How likely a rule that is left to chance is chosen, beside others."""
+        assert rule.probability
+        try:
+            return sound(rule.probability((*values, *self.constants, chance)))
+        except (ArithmeticError, ValueError) as fault:
+            raise fault_in(self.system, rule.production.predecessor, rule, fault) from None
+
+    def made(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
+             chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
+        given = (*(module.arguments if values is None else values), *self.constants)
+        try:
+            yield from self._written(rule.successor, given, chance)
+        except (ArithmeticError, ValueError) as fault:
+            raise fault_in(self.system, module, rule, fault) from None
+        except TypeError:
+            if not any(map(is_symbolic, given)):
+                raise
+            raise fault_in(self.system, module, rule, ValueError("it depends on an unknown constant")) from None
+
+    def _written(self, parts: Iterable[Part | Parts], given: tuple[object, ...],
+                 chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        values: tuple[object, ...] = (*given, chance)
+        for part in parts:
+            if isinstance(part, Part):
+                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
+            else:
+                for index in range(_times(part.count(values))):
+                    yield from self._written(part.body, (*given, index), chance)
+
+    def made_numbers(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
+                     chance: Chance | None = None) -> tuple[int, ...]:
+        """The states that a rule makes of a module, before any decomposition."""
+        return tuple(self.number(made.symbol, made.arguments) for made in self._made(rule, module, values, chance))  # type: ignore[arg-type]
+
+    def replaced(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
+                 chance: Chance | None = None) -> tuple[int, ...]:
+        """The states that replace a module by a rule, after decomposition."""
+        if not self.decomposition:
+            return self.made_numbers(rule, module, values, chance)
+        return tuple(state for made in self._made(rule, module, values, chance) for state in self.parts(made, chance))
+
+    def _made(self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None) -> list[Module]:
+        """The modules that a rule makes; no more of them than a word may have."""
+        found, most = [], current().modules
+        self._outgrown = False
+        for symbol, made in self.made(rule, module, values, chance):  # type: ignore[arg-type]
+            if self._outgrown and self.inexact is None:
+                self.inexact = Module(symbol, made)
+            found.append(Module(symbol, made))
+            if len(found) > most and module is not AXIOM:  # the axiom is step 0, which is checked like any step
+                start, end = rule.production.at or (None, None)
+                raise ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
+                                      source=self.system.source or None, start=start, end=end)
+        return found
+
+    def parts(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
+        """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
+        if not self.parts_settled:
+            return self._taken_apart(module, chance)
+        key = (module.symbol, module.arguments, *map(type, module.arguments))
+        if key not in self._parts:
+            self._parts[key] = self._taken_apart(module, chance)
+        return self._parts[key]
+
+    def _taken_apart(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
+        found: list[int] = []
+        deepest, most, asked = current().decomposition, current().modules, self.system.decomposition_depth
+        todo = [(module, 0)]
+        while todo:
+            part, depth = todo.pop()
+            rule = self.matching(part, self.decomposition, chance) if depth != asked else None
+            if rule is None:
+                found.append(self.number(part.symbol, part.arguments))  # type: ignore[arg-type]
+            elif depth == deepest:
+                start, end = rule.production.at or (None, None)
+                raise ModelLimitError(f"{part} is decomposed more than {deepest} times, last by "
+                                      f"{as_written(self.system, rule.production)}",
+                                      limit=deepest, source=self.system.source or None, start=start, end=end,
+                                      hint="A condition before the arrow can bring it to an end.")
+            else:
+                todo += [(made, depth + 1) for made in reversed(self._made(rule, part, None, chance))]
+            if len(found) + len(todo) > most:
+                raise ModelLimitError(f"{module} is decomposed into more than {most:,} modules", limit=most)
+        return tuple(found)
+
+    def _axiom(self) -> Iterable[int]:
+        """The axiom's states: its arguments may use the constants, so it is made like a successor."""
+        places = [module.at for module in self.system.axiom if module.at]
+        start = Production(AXIOM, self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
+        return self.made_numbers(rule_for(self.system, 0, start, self.arithmetic), AXIOM)
+
+    def _kept(self, value: Value) -> Value:
+        """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
+        if value.__class__ is int and -SMALL < value < SMALL:
+            return value
+        sound(value)
+        if is_symbolic(value):
+            value = settled_value(value)
+        if isinstance(value, float) or is_symbolic(value):
+            return value
+        if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:
+            return value
+        self._outgrown = True
+        return float(value)
+
+
+def _symbols(system: LSystem) -> set[str]:
+    """The symbols that words of a system may hold."""
+    return {m.symbol for m in system.axiom} | {m.symbol for rule in (*system.productions, *system.decomposition)
+                                               for m in rule.modules}
+
+
+def _times(count: Value) -> int:
+    """How often something is repeated."""
+    most = current().repetitions
+    if count != int(count) or count < 0:
+        raise ValueError(f"it is repeated {float(count):g} times, which is no whole number from 0 on")
+    if count > most:
+        raise ValueError(f"it is repeated {int(count):,} times; the limit is {most:,}")
+    return int(count)

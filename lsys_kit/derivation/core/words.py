@@ -1,0 +1,130 @@
+"""Words: rows of modules, held as the numbers of their states, printed in the notation of their system."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, overload
+
+import numpy as np
+
+from lsys_kit.derivation.core.states import States
+from lsys_kit.notation.model.system import Module, joined
+from lsys_kit.notation.registry import notation_called
+
+SHOWN = 2_000
+"""How many characters `repr` shows of a long word."""
+
+
+class Word(Sequence[Module]):
+    """A word of a derivation.
+
+    Attributes
+    ----------
+    states
+        The table that says what each number stands for.
+    codes
+        The numbers: a list, or an array of the smallest unsigned type that holds them.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.notation.read import read
+    >>> word = derive(read("axiom: A(1)\\nA(t) -> A(t+1) [B]"), 2)[-1]
+    >>> print(word), len(word), word[0].symbol, word[0].arguments
+    A(3)[B][B]
+    (None, 7, 'A', (3,))
+    """
+
+    __slots__ = ("codes", "states")
+
+    def __init__(self, states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> None:
+        self.states, self.codes = states, codes
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    @overload
+    def __getitem__(self, index: int) -> Module: ...
+    @overload
+    def __getitem__(self, index: slice) -> Word: ...
+    def __getitem__(self, index: int | slice) -> Module | Word:
+        if isinstance(index, slice):
+            return Word(self.states, self.codes[index])
+        return self.states.modules[self.codes[index]]
+
+    def __iter__(self) -> Iterator[Module]:
+        return map(self.states.modules.__getitem__, self.numbers())
+
+    def __eq__(self, other: object) -> bool:
+        """Equal words have equal modules, whatever system they come from."""
+        if not isinstance(other, Word):
+            return NotImplemented
+        return len(self) == len(other) and all(a == b for a, b in zip(self, other, strict=True))
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __str__(self) -> str:
+        return text_of(self.states, self.codes)
+
+    def __repr__(self) -> str:
+        return shortened(self, SHOWN)
+
+    def numbers(self) -> list[int]:
+        """The states' numbers as a plain list."""
+        return self.codes.tolist() if isinstance(self.codes, np.ndarray) else list(self.codes)
+
+    def coded(self, coding: Mapping[str, str]) -> str:
+        """The word's text with some of its modules replaced: a coding (Rozenberg and Salomaa 1980).
+
+        >>> from lsys_kit.derivation.derive import derive
+        >>> from lsys_kit.notation.read import read
+        >>> derive(read("axiom: S L(1)"), 0)[0].coded({"S": "M(1)"})
+        'M(1)L(1)'
+        """
+        return joined(coding.get(text, text) for text in map(str, self))
+
+    def counts(self) -> Mapping[str, int]:
+        """How often each symbol occurs.
+
+        >>> from lsys_kit.derivation.derive import derive
+        >>> from lsys_kit.notation.read import read
+        >>> dict(derive(read("axiom: a\\na -> ab\\nb -> a"), 5)[-1].counts())
+        {'a': 8, 'b': 5}
+        """
+        found: Counter[str] = Counter()
+        for state, count in state_counts(self).items():
+            found[self.states.modules[state].symbol] += count
+        return found
+
+
+def state_counts(word: Word) -> Counter[int]:
+    """How often each state occurs in a word."""
+    if isinstance(word.codes, np.ndarray):
+        counts = np.bincount(word.codes, minlength=1)
+        return Counter({state: int(counts[state]) for state in np.flatnonzero(counts).tolist()})
+    return Counter(word.codes)
+
+
+def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
+    """The text of a row of states, in their system's notation."""
+    numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
+    notation = notation_called(states.system.notation)
+    texts = {state: notation.module(states.modules[state]) for state in set(numbers)}
+    return notation.joined(map(texts.__getitem__, numbers))
+
+
+def shortened(word: Word, characters: int) -> str:
+    """The text of a word, with its middle left out where it is long.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.notation.read import read
+    >>> shortened(derive(read("axiom: F\\nF -> F+F"), 9)[-1], 40)
+    'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
+    """
+    half = max(1, characters // 2)
+    if len(word) <= characters and len(str(word)) <= characters:
+        return str(word)
+    front, back = str(word[:half]), str(word[-half:])
+    return f"{front[:half]} ... {back[-half:]} ({len(word):,} modules)"

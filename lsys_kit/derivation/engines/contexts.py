@@ -1,0 +1,260 @@
+"""A step of a long word, all modules at once.
+
+Where rules look at no more than one neighbour on each side and leave nothing but the choice of a rule to chance, a module's
+case is three states. The cases that occur are looked up once each, and the new word is gathered from what they become.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from lsys_kit.derivation.core.chance import units
+from lsys_kit.derivation.core.matching import NOBODY
+from lsys_kit.derivation.core.rules import is_branch
+from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.engines.expansion import Letters, code_type
+from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
+from lsys_kit.notation.model.system import CLOSING, OPENING
+
+Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
+"""What a module is to contexts: `PASSED` is passed over but has a context itself, `SKIPPED` has none."""
+TABLE = 2**22
+"""The largest table of cases that is looked up directly."""
+FEW = 12
+"""So many kinds of replacements are counted one after another."""
+
+
+def possible(stepper: Stepper) -> bool:
+    """Whether a system's words can be stepped in bulk."""
+    rules = [rule for found in stepper.states.rules.values() for rule in found]
+    near = all(len(rule.left) <= 1 and len(rule.right) <= 1 and not any(map(is_branch, rule.right))
+               for rule in rules)
+    symbols = {module.symbol for rule in stepper.states.system.rules for module in rule.modules}
+    cuts = CUT in symbols or any(module.symbol == CUT for module in stepper.states.system.axiom)
+    return near and stepper.states.parts_settled and not cuts and not any(rule.random or rule.looks for rule in rules)
+
+
+class Fates:
+    """What modules may become, numbered, and how a word is made of it."""
+
+    def __init__(self, states: States) -> None:
+        self.states = states
+        self.replacements: list[Replacement] = []
+        self._numbers: dict[Replacement, int] = {}
+        self._letters = Letters(states)
+
+    def number(self, replacement: Replacement) -> int:
+        """The number of a replacement, a new one where it has not been met."""
+        found = self._numbers.get(replacement)
+        if found is None:
+            found = self._numbers[replacement] = len(self.replacements)
+            self.replacements.append(replacement)
+        return found
+
+    def sizes(self) -> Integers:
+        """How many modules each replacement has."""
+        return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
+
+    def size(self, chosen: Integers) -> int:
+        """How many modules the replacements of some numbers have together."""
+        sizes = [len(replacement.states) for replacement in self.replacements]
+        others = [(number, size) for number, size in enumerate(sizes) if size != 1]
+        if len(others) > FEW:
+            return int(np.dot(np.bincount(chosen, minlength=len(sizes)), sizes))
+        return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
+
+    def replaced(self, chosen: Integers) -> Integers:
+        """The replacements of some numbers, one after another."""
+        if chosen.dtype == np.uint8 and all(self._letters.learnt(number, replacement.states)
+                                            for number, replacement in enumerate(self.replacements)):
+            return self._letters.replaced(chosen.tobytes())
+        sizes = self.sizes()
+        lengths = sizes[chosen]
+        places = np.repeat((np.cumsum(sizes) - sizes)[chosen] - np.cumsum(lengths) + lengths, lengths)
+        places += np.arange(len(places))
+        everything = [state for replacement in self.replacements for state in replacement.states]
+        gathered: Integers = np.array(everything, dtype=code_type(len(self.states)))[places]
+        return gathered
+
+
+class Bulk:
+    """The bulk steps of one system under one seed.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.core.states import States
+    >>> from lsys_kit.notation.read import read
+    >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
+    >>> bulk = Bulk(stepper)
+    >>> bulk.fates.replaced(bulk.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
+    [0, 0, 1]
+    """
+
+    def __init__(self, stepper: Stepper) -> None:
+        self.stepper, self.fates = stepper, Fates(stepper.states)
+        self._roles: list[int] = []
+        self._fixed: list[int] = []
+        self._numbers: dict[tuple[int, int, int], int] = {}
+        self._lots: list[tuple[list[int], Integers]] = []
+        self._table: Integers = np.zeros(0, dtype=np.int64)
+
+    def chosen(self, codes: Integers, step: int) -> Integers:
+        """For each module of a word the number of the replacement that it gets."""
+        size = len(self.stepper.states)
+        if not self.stepper.in_context:
+            return self._drawn(self._cases(codes, size, lambda key: (NOBODY, key, NOBODY)), None, step)
+        for state in range(len(self._roles), size):
+            self._meet(state)
+        roles = np.zeros(len(codes), dtype=np.uint8)
+        if any(self._roles):
+            roles = np.array(self._roles, dtype=np.uint8).take(codes)
+        where = np.flatnonzero(roles != SKIPPED)
+        if len(where) == len(codes):
+            return self._drawn(self._in_context(codes, roles, size), None, step)
+        found = self._drawn(self._in_context(codes.take(where), roles.take(where), size), where, step)
+        chosen = np.array(self._fixed, dtype=code_type(len(self.fates.replacements))).take(codes)
+        chosen[where] = found
+        return chosen
+
+    def _meet(self, state: int) -> None:
+        """The role of a state in contexts; of one that is passed over and asks for no context, what becomes of it, too."""
+        states = self.stepper.states
+        symbol = states.modules[state].symbol
+        role, fixed = ORDINARY, 0
+        if symbol in OPENING or symbol in CLOSING:
+            role = OPENS if symbol in OPENING else CLOSES
+        elif symbol in self.stepper.passed:
+            role = PASSED
+            if states.is_settled(state):
+                role, fixed = SKIPPED, self.fates.number(Replacement(states.successor(state), states.production(state)))
+        self._roles.append(role)
+        self._fixed.append(fixed)
+
+    def _in_context(self, codes: Integers, roles: Integers, size: int) -> Integers:
+        """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
+        left, right = beside(codes.astype(code_type(size + 1), copy=False), roles, size)
+        kind = code_type(size * (size + 1) ** 2)
+        keys = (left.astype(kind) * kind.type(size + 1) + right) * kind.type(size) + codes
+
+        def case(key: int) -> tuple[int, int, int]:
+            rest, code = divmod(key, size)
+            before, after = divmod(rest, size + 1)
+            return before if before < size else NOBODY, code, after if after < size else NOBODY
+
+        return self._cases(keys, size * (size + 1) ** 2, case)
+
+    def _cases(self, keys: Integers, bound: int, case: Callable[[int], tuple[int, int, int]]) -> Integers:
+        """For each module, whose case is told by a key below a bound, the number of what becomes of it, from 1 on.
+
+        Where lots are drawn it is below zero. What a key stands for is asked when it is met first.
+        """
+        if bound > TABLE:
+            distinct, which = np.unique(keys, return_inverse=True)
+            return np.array([self._number(case(key)) for key in distinct.tolist()])[which]
+        if len(self._table) != bound:
+            self._table = np.zeros(bound, dtype=np.int32)  # 0 for a case that has not been met
+        if not (found := self._table.take(keys)).all():
+            there = np.zeros(bound, dtype=bool)
+            there[keys] = True
+            for key in np.flatnonzero(there & (self._table == 0)).tolist():
+                self._table[key] = self._number(case(key))
+            found = self._table.take(keys)
+        return found
+
+    def _number(self, case: tuple[int, int, int]) -> int:
+        """The number of what becomes of a module in a case; where lots are drawn, that of the lots, below zero."""
+        if case not in self._numbers:
+            fates, weights = self._found(*case)
+            if len(fates) > 1:
+                self._lots.append((fates, np.cumsum(weights)))
+            self._numbers[case] = fates[0] + 1 if len(fates) == 1 else -len(self._lots)
+        return self._numbers[case]
+
+    def _drawn(self, numbers: Integers, where: Integers | None, step: int) -> Integers:
+        """For each module the number of its replacement, after lots are drawn; `where` it stands, if not at its own place."""
+        kind = code_type(len(self.fates.replacements))
+        result = (numbers - 1).astype(kind)
+        for number, (fates, marks) in enumerate(self._lots, 1):
+            ours = np.flatnonzero(numbers == -number)
+            lots = units(self.stepper.seed, step, ours if where is None else where[ours]) * marks[-1]
+            drawn = np.searchsorted(marks, lots, side="right").clip(max=len(fates) - 1)
+            result[ours] = np.array(fates, dtype=kind)[drawn]
+        return result
+
+    def _found(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
+        """The same, tried on a word of just these modules: the possible replacements, and their weights."""
+        states = self.stepper.states
+        if states.is_settled(code):
+            return [self.fates.number(Replacement(states.successor(code), states.production(code)))], [1.0]
+        word = [state for state in (left, code, right) if state != NOBODY]
+        matched = self.stepper.matched(self.stepper.old(word), int(left != NOBODY))
+        if not matched:
+            return [self.fates.number(Replacement(states.parts(states.modules[code]), None))], [1.0]
+        states.drawn(matched, None)  # refuses weights that are none
+        weights = [float(states.weight(rule, values)) for rule, values in matched if rule.probability]
+        made = [Replacement(states.replaced(rule, states.modules[code], values), rule.number)
+                for rule, values in (matched if weights else matched[:1])]
+        return [self.fates.number(replacement) for replacement in made], weights or [1.0]
+
+
+def beside(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:
+    """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
+
+    Parameters
+    ----------
+    codes
+        The word's states, of a type that holds `nobody` too.
+    roles
+        For each module `ORDINARY`, `OPENS`, `CLOSES` or `PASSED`.
+    nobody
+        What stands for a neighbour that is not there. What is found for brackets means nothing.
+
+    Examples
+    --------
+    >>> word, roles = np.array([10, 1, 11, 2, 1, 12, 2, 13]), np.array([0, 1, 0, 2, 1, 0, 2, 0])  # A[B][C]D
+    >>> left, right = beside(word, roles, 99)
+    >>> left[[0, 2, 5, 7]].tolist(), right[[0, 2, 5, 7]].tolist()
+    ([99, 10, 10, 10], [13, 99, 99, 99])
+    """
+    size = len(codes)
+    behind = np.append(codes, codes.dtype.type(nobody))  # whom one meets at each place, from the right; at the end nobody
+    ahead = behind
+    hanging = np.flatnonzero(roles)
+    if len(hanging):
+        back, forth = _looked_at(roles, hanging, size)
+        ahead = behind.copy()
+        behind[hanging], ahead[hanging] = behind[back], ahead[forth]
+    return np.roll(behind, 1)[:size], ahead[1:]
+
+
+def _looked_at(roles: Integers, hanging: Integers, size: int) -> tuple[Integers, Integers]:
+    """For the places of brackets and of what is passed over whom one meets who comes to them, from the right and the left.
+
+    Whoever comes to a branch from outside looks past it, from its inside at what is before it; behind its end is nobody.
+    """
+    role, last = roles[hanging], len(hanging)
+    closing, opening = _pairs(role)
+    before, after = np.arange(last), np.arange(last + 1)  # beside which of them one looks; beside number `last` is nobody
+    before[closing], after[opening], after[closing] = opening, closing, last
+    near = np.flatnonzero(np.diff(hanging) == 1)  # the next of them stands right behind it
+    for pointers, step, there in ((before, -1, near + 1), (after, 1, near)):
+        another = np.zeros(last + 1, dtype=bool)
+        another[there] = True
+        left = np.flatnonzero(another[pointers])
+        while len(left):
+            pointers[left] = pointers[pointers[left] + step]
+            left = left[another[pointers[left]]]
+    return hanging[before] - 1, np.append(hanging, size - 1)[after[:last]] + 1
+
+
+def _pairs(role: Integers) -> tuple[Integers, Integers]:
+    """Among brackets and others the ranks of those that close, and of those that open them: on one level they take turns."""
+    brackets = np.flatnonzero(role != PASSED)
+    opens = role[brackets] == OPENS
+    level = np.cumsum(np.where(opens, 1, -1), dtype=np.int32) + ~opens
+    order = brackets[np.argsort(level.astype(code_type(int(level.max(initial=0)) + 1)), kind="stable")]
+    return order[1::2], order[::2]

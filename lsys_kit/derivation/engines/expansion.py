@@ -1,0 +1,134 @@
+"""The word of a step, built at once.
+
+The length of what a state becomes in so many steps is known, so each piece has its place in one array: what a state becomes
+in k steps is written where it is first needed, and every later occurrence is a copy of that stretch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.derivation.core.states import States
+
+LETTERS = 256
+"""How many letters a string of bytes has."""
+PIECE = 64
+"""Pieces up to this length, at least 1, are put together as tuples and written at once."""
+
+
+@lru_cache(maxsize=1_024)
+def code_type(states: int) -> np.dtype[Any]:
+    """The smallest unsigned type that numbers so many states."""
+    return np.min_scalar_type(max(states - 1, 0))
+
+
+class Letters:
+    """A string of bytes in which each letter is replaced by a row of states: a step of a word, if letters are states.
+
+    Attributes
+    ----------
+    known
+        The letters that have been learnt.
+
+    Notes
+    -----
+    A letter that becomes one state is translated. One that becomes several, or none, is translated into a letter that stands
+    for no state, and that letter is replaced: so what is put in is never replaced itself.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
+    >>> letters = Letters(states)
+    >>> [letters.learnt(state, states.successor(state)) for state in (0, 1)]
+    [True, True]
+    >>> letters.replaced(bytes([0, 1, 0])).tolist()
+    [0, 1, 0, 0, 1]
+    """
+
+    def __init__(self, states: States) -> None:
+        self.states = states
+        self.known: set[int] = set()
+        self._table = bytearray(range(LETTERS))
+        self._several: list[tuple[bytes, bytes]] = []
+
+    def learnt(self, letter: int, row: Sequence[int]) -> bool:
+        """Learn what a letter becomes; not where letters run out."""
+        if letter in self.known:
+            return True
+        free = LETTERS - 1 - len(self._several)
+        if letter >= LETTERS or free < len(self.states):
+            return False
+        if len(row) != 1:
+            self._several.append((bytes((free,)), bytes(row)))
+        self._table[letter] = row[0] if len(row) == 1 else free
+        self.known.add(letter)
+        return True
+
+    def replaced(self, word: bytes) -> np.ndarray[Any, np.dtype[np.uint8]]:
+        """The states that replace a row of letters."""
+        word = word.translate(self._table)
+        for letter, row in self._several:
+            word = word.replace(letter, row)
+        return np.frombuffer(word, np.uint8)
+
+
+def expanded(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any, Any]:
+    """The word of the last step, as an array of states.
+
+    Parameters
+    ----------
+    states
+        The table.
+    present
+        For each step the states that occur in its word.
+
+    Returns
+    -------
+    numpy.ndarray
+        The codes, of the smallest unsigned integer type that holds them.
+    """
+    sizes = _sizes(states, present)
+    pieces = _pieces(states, present, sizes)
+    word = np.empty(sum(sizes[0][state] for state in states.axiom), dtype=code_type(len(states)))
+    written: dict[tuple[int, int], int] = {}
+    todo = [(state, 0) for state in reversed(states.axiom)]
+    at = 0
+    while todo:
+        state, step = todo.pop()
+        size = sizes[step][state]
+        if size <= PIECE:
+            word[at:at + size] = pieces[step][state]
+        elif (state, step) in written:
+            start = written[state, step]
+            word[at:at + size] = word[start:start + size]
+        else:
+            written[state, step] = at
+            todo += [(successor, step + 1) for successor in reversed(states.successor(state))]
+            continue
+        at += size
+    return word
+
+
+def _sizes(states: States, present: Sequence[Collection[int]]) -> list[dict[int, int]]:
+    """For each step and state the length of what the state becomes by the last step."""
+    sizes = [dict.fromkeys(present[-1], 1)]
+    for here in reversed(present[:-1]):
+        after = sizes[-1]
+        sizes.append({state: sum(after[s] for s in states.successor(state)) for state in here})
+    return sizes[::-1]
+
+
+def _pieces(states: States, present: Sequence[Collection[int]],
+            sizes: Sequence[dict[int, int]]) -> list[dict[int, tuple[int, ...]]]:
+    """For each step and state whose size is small, what the state becomes by the last step."""
+    pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]
+    for step in range(len(present) - 2, -1, -1):
+        after = pieces[-1]
+        pieces.append({state: tuple([code for s in states.successor(state) for code in after[s]])
+                       for state in present[step] if sizes[step][state] <= PIECE})
+    return pieces[::-1]

@@ -1,0 +1,205 @@
+"""One step of a system in which neighbours or chance have a say: every module of the old word is replaced at once.
+
+What a module becomes depends on its state, on the states that its rules' contexts name, and on the lot that it draws. Equal
+cases have equal results, which are computed once and kept; where a rule makes random values, every module is a case of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TypeAlias
+
+from lsys_kit.derivation.core.chance import Chance
+from lsys_kit.derivation.core.matching import Neighbours, chain, context, neighbours, values_at
+from lsys_kit.derivation.core.rules import Rule, is_branch
+from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import CLOSING, OPENING, LSystem, Module
+
+Matches = list[tuple[Rule, tuple[Value, ...]]]
+"""The rules that match a module, in the order written, with the values of the parameters that they name."""
+Sees: TypeAlias = Callable[..., Value]
+"""What a module sees that asks the turtle: from its position, a function's number and the values that it is asked with."""
+
+
+@dataclass(frozen=True)
+class Replacement:
+    """What one module becomes.
+
+    Attributes
+    ----------
+    states
+        The states that replace it.
+    production
+        The place of the production in the order written, or None where none was applied.
+    """
+
+    states: tuple[int, ...]
+    production: int | None
+
+
+@dataclass(frozen=True)
+class Old:
+    """The word before a step: its states, modules and symbols, who stands beside whom, and what each module sees."""
+
+    codes: Sequence[int]
+    modules: Sequence[Module]
+    symbols: Sequence[str]
+    around: Neighbours | None
+    sees: Sees | None
+
+    def chance(self, seed: int, step: int, position: int) -> Chance:
+        """What a module is given besides its neighbours: random numbers, and what it sees."""
+        return Chance(seed, step, position, self.sees and partial(self.sees, position))
+
+
+class Stepper:
+    """The steps of one system under one seed; equal cases are computed once.
+
+    Parameters
+    ----------
+    states
+        The table of states.
+    seed
+        Where chance begins.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: b a a\\nb < a -> b"))
+    >>> stepper = Stepper(states, 0)
+    >>> [replaced.states for replaced in stepper.replacements(list(states.axiom), 0)]
+    [(0,), (0,), (1,)]
+    """
+
+    def __init__(self, states: States, seed: int) -> None:
+        self.states, self.seed = states, seed
+        self.passed = passed_symbols(states.system)
+        self.in_context = any(rule.left or rule.right for rules in states.rules.values() for rule in rules)
+        self._settled: dict[int, Replacement] = {}
+        self._matched: dict[tuple[object, ...], Matches] = {}
+        self._made: dict[tuple[object, ...], Replacement] = {}
+
+    def old(self, codes: Sequence[int], sees: Sees | None = None) -> Old:
+        """A word as a step needs it."""
+        modules = [self.states.modules[code] for code in codes]
+        symbols = [module.symbol for module in modules]
+        return Old(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
+
+    def replacements(self, codes: Sequence[int], step: int, sees: Sees | None = None) -> Iterator[Replacement]:
+        """What each module of a word becomes; what is cut off becomes nothing.
+
+        Parameters
+        ----------
+        codes
+            The word's states.
+        step
+            The word's step, from which chance is drawn.
+        sees
+            What answers the modules' questions to the turtle.
+        """
+        old, nothing = self.old(codes, sees), Replacement((), None)
+        for position, (code, kept) in enumerate(zip(codes, uncut(old.symbols), strict=True)):
+            if not kept:
+                yield nothing
+            elif code in self._settled:
+                yield self._settled[code]
+            elif self.states.is_settled(code):
+                yield self._settled.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
+            else:
+                yield self._open(old, position, old.chance(self.seed, step, position))
+
+    def _open(self, old: Old, position: int, chance: Chance) -> Replacement:
+        """What becomes of a module whose fate is not settled by itself."""
+        matched = self.matched(old, position, chance)
+        rule = self.states.drawn(matched, chance)
+        if rule is None:
+            return Replacement(self.states.parts(old.modules[position], chance), None)
+        values = next(values for found, values in matched if found is rule)
+        key = old.codes[position], values, rule.number
+        settled = not (rule.random or rule.looks) and self.states.parts_settled
+        if settled and key in self._made:
+            return self._made[key]
+        replacement = Replacement(self.states.replaced(rule, old.modules[position], values, chance), rule.number)
+        if settled:
+            self._made[key] = replacement
+        return replacement
+
+    def matched(self, old: Old, position: int, chance: Chance | None = None) -> Matches:
+        """The rules that match the module at a position."""
+        rules = self.states.candidates(old.codes[position])
+        case = self._case(rules, old, position)
+        if case is None:
+            return self._matching(rules, old, position, chance)
+        if case not in self._matched:
+            self._matched[case] = self._matching(rules, old, position, chance)
+        return self._matched[case]
+
+    def _case(self, rules: Sequence[Rule], old: Old, position: int) -> tuple[object, ...] | None:
+        """The states on which the matching depends; None where that is what is seen, or a branch, which may hold any number."""
+        if any(rule.looks for rule in rules):
+            return None
+        if old.around is None:
+            return (old.codes[position],)
+        if any(is_branch(item) for rule in rules for item in rule.right):
+            return None
+        left = chain(old.around.before, position, max((len(rule.left) for rule in rules), default=0))
+        right = chain(old.around.after, position, max((len(rule.right) for rule in rules), default=0))
+        return (old.codes[position], *(old.codes[at] for at in left), None, *(old.codes[at] for at in right))
+
+    def context(self, rule: Rule, old: Old, position: int) -> tuple[int, ...] | None:
+        """The positions of the modules that a rule names, where its contexts match; else None."""
+        if old.around is None:
+            return (position,)
+        return context(rule, old.modules, old.symbols, old.around, position, self.passed)
+
+    def _matching(self, rules: Sequence[Rule], old: Old, position: int, chance: Chance | None) -> Matches:
+        found: Matches = []
+        for rule in rules:
+            at = self.context(rule, old, position)
+            if at is None:
+                continue
+            values = values_at(old.modules, at)
+            if self.states.holds(rule, values, old.modules[position], chance):
+                if not found and rule.probability is None:
+                    return [(rule, values)]
+                if rule.probability is not None:
+                    found.append((rule, values))
+        return found
+
+
+@dataclass(frozen=True)
+class _AllBut:
+    """All symbols but some."""
+
+    those: frozenset[str]
+
+    def __contains__(self, symbol: object) -> bool:
+        return symbol not in self.those
+
+
+def passed_symbols(system: LSystem) -> Container[str]:
+    """The symbols that contexts pass over.
+
+    >>> from lsys_kit.notation.read import read
+    >>> "+" in passed_symbols(read("ignore: + -\\naxiom: A")), "B" in passed_symbols(read("consider: A\\naxiom: A"))
+    (True, True)
+    """
+    return _AllBut(frozenset(system.considered)) if system.considered else frozenset(system.ignored)
+
+
+def uncut(symbols: Sequence[str]) -> Iterator[bool]:
+    """For each position whether it is kept: a cut takes itself away and all behind it, up to the end of its branch.
+
+    >>> [symbol for symbol, kept in zip("A[B%C[D]]E", uncut("A[B%C[D]]E")) if kept]
+    ['A', '[', 'B', ']', 'E']
+    """
+    depth = 0  # of the brackets inside what is cut off, from 1 on
+    for symbol in symbols:
+        if depth:
+            depth += (symbol in OPENING) - (symbol in CLOSING)
+        elif symbol == CUT:
+            depth = 1
+        yield not depth

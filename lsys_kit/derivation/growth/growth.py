@@ -1,0 +1,300 @@
+"""Growth: how many modules a system has at any step, from the table of its states alone.
+
+Entry (i, j) of the growth matrix says how many modules of state j the successor of state i holds. The counts at step n are
+the axiom's counts times the n-th power of that matrix (Rozenberg and Salomaa, The Mathematical Theory of L Systems, 1980).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import count, islice
+from typing import TYPE_CHECKING
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.core.chance import mixed
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.engines.engines import counted
+from lsys_kit.derivation.growth.recurrences import (
+    closed_form,
+    generating_function,
+    greatest_root,
+    leading_weights,
+    polynomial,
+    remainder_of_power,
+    shortest_recurrence,
+    shortest_rule,
+)
+from lsys_kit.derivation.growth.slicing import lumped
+from lsys_kit.derivation.petri.outcomes import check_settled, closure
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.model.system import LSystem, Module
+
+if TYPE_CHECKING:
+    import sympy
+
+DIGITS = 3_000_000
+"""The most digits of a count."""
+
+
+@dataclass(frozen=True)
+class Growth:
+    """The growth of a system whose states come to an end.
+
+    Attributes
+    ----------
+    table
+        The table of all states.
+    """
+
+    table: States
+
+    @property
+    def states(self) -> tuple[Module, ...]:
+        """The module of each state, in the order of the rows and columns of the matrix."""
+        return tuple(self.table.modules)
+
+    @property
+    def matrix(self) -> sympy.Matrix:
+        """The growth matrix: entry (i, j) is how many j the successor of i holds.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).matrix
+        Matrix([
+        [1, 1],
+        [1, 0]])
+        """
+        import sympy
+
+        size = len(self.table)
+        rows = [Counter(self.table.successor(state)) for state in range(size)]
+        return sympy.Matrix(size, size, lambda i, j: rows[i][j])
+
+    def counts(self, step: int) -> tuple[int, ...]:
+        """How often each state occurs at a step, exactly, however late that is.
+
+        >>> from lsys_kit.notation.read import read
+        >>> found = growth(read("axiom: a\\na -> ab\\nb -> a"))
+        >>> found.counts(10), found.counts(1_000_000)[0].bit_length()
+        ((89, 55), 694242)
+        """
+        self._check(step)
+        if step <= 4 * len(self.table):
+            return self._vector(next(islice(self._followed(), step, None)))
+        rule, first = self._orbit
+        weights = remainder_of_power(rule, step)
+        return tuple(sum(c * n for c, n in zip(weights, column, strict=True) if n) for column in zip(*first, strict=True))
+
+    def lengths(self, steps: int) -> list[int]:
+        """The number of modules at steps 0 to `steps`, exactly, however large.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).lengths(10)
+        [1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144]
+        """
+        return self._summed(steps, range(len(self.table)))
+
+    def counts_of(self, symbol: str, steps: int) -> list[int]:
+        """The number of modules with a symbol at steps 0 to `steps`.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).counts_of("b", 6)
+        [0, 1, 1, 2, 3, 5, 8]
+        """
+        return self._summed(steps, [state for state, module in enumerate(self.states) if module.symbol == symbol])
+
+    def _summed(self, steps: int, states: Sequence[int]) -> list[int]:
+        return [sum(counts.get(state, 0) for state in states) for counts in islice(self._followed(), steps + 1)]
+
+    def _followed(self) -> Iterator[Mapping[int, int]]:
+        """How often each state occurs at step 0, 1, 2, ..."""
+        counts: Mapping[int, int] = Counter(self.table.axiom)
+        while True:
+            yield counts
+            counts = counted(self.table, counts)
+
+    def _vector(self, counts: Mapping[int, int]) -> tuple[int, ...]:
+        return tuple(counts.get(state, 0) for state in range(len(self.table)))
+
+    def _check(self, step: int) -> None:
+        """Refuse a step that is none, or so late that its numbers are past all use."""
+        if isinstance(step, bool) or not isinstance(step, int) or step < 0:
+            raise ModelValueError(f"The step must be a whole number from 0 on, not {step!r}")
+        digits = step * math.log10(max(greatest_root(self.recurrence, exact=False), 1)) if step > DIGITS else 0
+        if digits > DIGITS:
+            raise ModelLimitError(f"The numbers of step {step:,} would have about {digits:,.0f} digits; "
+                                  f"the limit is {DIGITS:,}", limit=DIGITS, needed=digits, hint="Take fewer steps.")
+
+    def length(self, step: int) -> int:
+        """The number of modules at a step, exactly, without the steps before.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).length(100)
+        927372692193078999176
+        """
+        self._check(step)
+        rule, terms = self._rule
+        return sum(c * term for c, term in zip(remainder_of_power(rule, step), terms, strict=True))
+
+    def recurrence_of(self, symbol: str) -> tuple[int, ...]:
+        """The shortest rule for the number of modules with a symbol, in the long run.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: A\\nA -> A B\\nB -> B C")).recurrence_of("B")
+        (2, -1)
+        """
+        return tuple(map(int, shortest_recurrence(self.counts_of(symbol, 2 * len(self.table) + 1))))
+
+    @cached_property
+    def recurrence(self) -> tuple[int, ...]:
+        """The shortest rule for the lengths in the long run: coefficients c of N(t) = c1 N(t-1) + c2 N(t-2) + ...
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).recurrence
+        (1, 1)
+        """
+        return tuple(map(int, shortest_recurrence(self._terms)))
+
+    @cached_property
+    def _rule(self) -> tuple[tuple[int, ...], list[int]]:
+        """The shortest rule that the lengths obey from the first on, and as many lengths."""
+        rule = tuple(map(int, shortest_rule(self._terms)))
+        return rule, self._terms[:len(rule)]
+
+    @cached_property
+    def _terms(self) -> list[int]:
+        """So many lengths that they have one shortest rule (Massey 1969)."""
+        return self.lengths(2 * len(self.table) + 1)
+
+    @cached_property
+    def _orbit(self) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
+        """The shortest rule that the counts of all states obey together, and as many rows of counts.
+
+        It is that of a sum of the counts with weights, unless the weights are unlucky: so it is tried on the counts.
+        """
+        rows = [self._vector(counts) for counts in islice(self._followed(), 2 * len(self.table) + 2)]
+        for trial in count():
+            weights = [mixed(mixed(trial) ^ state) % 2**20 for state in range(len(self.table))]
+            rule = tuple(map(int, shortest_rule([sum(map(int.__mul__, weights, row)) for row in rows])))
+            size = len(rule)
+            if all(column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c)
+                   for column in zip(*rows, strict=True)):
+                return rule, rows[:size]
+        raise AssertionError("every trial failed")
+
+    @property
+    def characteristic(self) -> sympy.Poly:
+        """The characteristic polynomial of the growth matrix: a multiple of `polynomial`.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).characteristic.as_expr()
+        x**2 - x - 1
+        """
+        import sympy
+
+        return self.matrix.charpoly(sympy.Symbol("x"))
+
+    @property
+    def polynomial(self) -> sympy.Poly:
+        """The polynomial of the recurrence, whose largest root is the growth per step."""
+        return polynomial(self.recurrence)
+
+    @property
+    def generating_function(self) -> sympy.Expr:
+        """The function whose power series in x has the lengths as coefficients.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: a\\na -> ab\\nb -> a")).generating_function
+        (x + 1)/(-x**2 - x + 1)
+        """
+        return generating_function(*self._rule)
+
+    @property
+    def closed_form(self) -> sympy.Expr | None:
+        """A formula for the length at step t; None where it would need a multiple root of a polynomial past degree two.
+
+        >>> from lsys_kit.notation.read import read
+        >>> growth(read("axiom: b\\na -> ab\\nb -> a")).closed_form
+        (1/2 - sqrt(5)/2)**t*(1/2 - sqrt(5)/10) + (1/2 + sqrt(5)/2)**t*(sqrt(5)/10 + 1/2)
+        >>> growth(read("axiom: F\\nF -> F+F")).closed_form
+        2*2**t - 1
+        """
+        return closed_form(*self._rule)
+
+    @property
+    def rate(self) -> float:
+        """By what factor the word grows in one step, in the long run: the largest root of the recurrence's polynomial.
+
+        Where the lengths swing, as those of A -> BB, B -> A do, it is the factor of a whole swing, spread over its steps.
+
+        >>> from lsys_kit.notation.read import read
+        >>> round(growth(read("axiom: A\\nA -> BB\\nB -> A")).rate**2, 9)
+        2.0
+        """
+        return greatest_root(self.recurrence)
+
+    @property
+    def frequencies(self) -> tuple[float, ...] | None:
+        """What share of the word each state has in the long run; None where the shares go on changing, or nothing is left.
+
+        >>> from lsys_kit.notation.read import read
+        >>> [round(share, 6) for share in growth(read("axiom: a\\na -> ab\\nb -> a")).frequencies]
+        [0.618034, 0.381966]
+        >>> growth(read("axiom: A\\nA -> BB\\nB -> A")).frequencies is None
+        True
+        """
+        rule, first = self._orbit
+        weights = leading_weights(rule, max((n for row in first for n in row), default=0).bit_length())
+        if weights is None:
+            return None
+        parts = [max(0, sum(w * n for w, n in zip(weights, column, strict=True))) for column in zip(*first, strict=True)]
+        whole = sum(parts)
+        return tuple(round(part / whole, 15) for part in parts)
+
+    def __repr__(self) -> str:
+        rule = " + ".join(f"{'' if c == 1 else f'{c} '}N(t-{k})" for k, c in enumerate(self.recurrence, 1) if c)
+        rule = rule.replace("+ -1 ", "- ").replace("+ -", "- ")
+        return (f"{len(self.table)} states; lengths {', '.join(map(str, self.lengths(9)))}, ...; "
+                f"N(t) = {rule or 0}; growth per step {self.rate:.4f}")
+
+
+def growth(system: LSystem, **constants: object) -> Growth:
+    """The growth of a system.
+
+    Parameters
+    ----------
+    system
+        A system whose states come to an end: following it from the axiom, no new module appears after a while. Where they
+        do not, modules that differ only in parameters that decide nothing are counted as one (see `lumped`).
+    **constants
+        New values for declared constants.
+
+    Raises
+    ------
+    ModelLimitError
+        The states do not end.
+    ModelValueError
+        A module's fate depends on its neighbours or on chance.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> growth(read("axiom: a\\na -> ab\\nb -> a"))
+    2 states; lengths 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, ...; N(t) = N(t-1) + N(t-2); growth per step 1.6180
+    """
+    with suppress(ModelValueError):  # chance, or a value that cannot be computed, may be where nothing is decided
+        states = States(system, constants)
+        if states.settled and closure(states, current().states) is not None:
+            return Growth(states)
+    states = States(lumped(system), constants)
+    check_settled(states, "Growth")
+    if closure(states, current().states) is None:
+        raise ModelLimitError(f"The states of this system do not end: more than {current().states:,} were met",
+                              limit=current().states, needed=len(states),
+                              hint=f"The last one was {states.modules[-1]}; a parameter that grows for ever, and on which a "
+                                   "condition depends, has no growth matrix.")
+    return Growth(states)

@@ -1,0 +1,125 @@
+"""Lumping: modules that differ only in parameters that decide nothing are counted as one.
+
+A leaf L(t) whose age t grows for ever never comes to an end as a state; but where no condition asks for t, and nothing that
+is asked for is made of it, all leaves behave alike, and counting needs `L` only.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Set
+from dataclasses import replace
+from typing import TypeAlias
+
+from lsys_kit.notation.model.expressions import Expression, Name, names_in
+from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
+
+Position: TypeAlias = tuple[str, int, int]
+"""A parameter: the symbol of its module, how many parameters that has, and which of them it is, from 0."""
+
+
+def lumped(system: LSystem) -> LSystem:
+    """The system with only those parameters that have a say in which production rewrites any module, or how much it makes.
+
+    How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
+    Interpretation rules, which only draw, are left out.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> print(lumped(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(t+1,x+t)\\nA(t,x) -> A(0,1) L(x)\\nL(x) -> L(x+1)")))
+    axiom: A(0)
+    A(t) : t < 7 -> A(t + 1)
+    A(t) -> A(0)L
+    L -> L
+    """
+    kept = deciding(system)
+    return replace(
+        system, axiom=tuple(shorn(module, kept) for module in system.axiom),
+        productions=tuple(_production(rule, kept) for rule in system.productions),
+        decomposition=tuple(_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
+
+
+def deciding(system: LSystem) -> frozenset[Position]:
+    """The parameters that have a say: those that a rule asks for, and those of which such a parameter is made.
+
+    Where two kinds of module would become the same, because their symbol is the same, they keep all their parameters.
+
+    >>> from lsys_kit.notation.read import read
+    >>> sorted(deciding(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))
+    [('A', 2, 0), ('A', 2, 1)]
+    """
+    rules = (*system.productions, *system.decomposition)
+    constants = frozenset(constant.name for constant in system.constants)
+    found = {position for rule in rules for position in _asked(rule, constants)} | {
+        (module.symbol, len(module.arguments), i) for rule in system.meta
+        for module in (*rule.predecessors, *flat(rule.successor)) for i in range(len(module.arguments))}
+    while True:
+        more = {position for rule in rules for position in _sources(rule, found)} | _clashes(system, found)
+        if more <= found:
+            return frozenset(found)
+        found |= more
+
+
+def _asked(rule: Production, constants: Set[str]) -> Iterator[Position]:
+    """The parameters in a rule's condition, its probability and its counts of repetition, and those of a given value."""
+    asked = [expression for expression in (rule.condition, rule.probability) if expression is not None]
+    yield from _named(rule, (*asked, *_repetitions(rule.successor)))
+    for module in rule.parameters:
+        for i, argument in enumerate(module.arguments):
+            if not isinstance(argument, Name) or argument.name in constants:
+                yield module.symbol, len(module.arguments), i
+
+
+def _sources(rule: Production, found: Set[Position]) -> Iterator[Position]:
+    """The parameters of which a rule makes some that are found already."""
+    for module in flat(rule.successor):
+        size = len(module.arguments)
+        made = [argument for i, argument in enumerate(module.arguments) if (module.symbol, size, i) in found]
+        yield from _named(rule, made)  # type: ignore[arg-type]  # a production's arguments are expressions
+
+
+def _named(rule: Production, expressions: Iterable[Expression]) -> Iterator[Position]:
+    names = frozenset().union(*map(names_in, expressions))
+    for module in rule.parameters:
+        for i, argument in enumerate(module.arguments):
+            if isinstance(argument, Name) and argument.name in names:
+                yield module.symbol, len(module.arguments), i
+
+
+def _repetitions(items: Iterable[Item]) -> Iterator[Expression]:
+    for item in items:
+        if isinstance(item, Repeat):
+            yield item.count
+            yield from _repetitions(item.body)
+
+
+def _clashes(system: LSystem, found: Set[Position]) -> set[Position]:
+    """All parameters of the modules that share a symbol, and would have equally many parameters left."""
+    sizes: dict[str, set[int]] = defaultdict(set)
+    for module in (*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)):
+        sizes[module.symbol].add(len(module.arguments))
+    return {(symbol, size, i) for symbol, all_sizes in sizes.items()
+            if len({sum((symbol, size, i) in found for i in range(size)) for size in all_sizes}) < len(all_sizes)
+            for size in all_sizes for i in range(size)}
+
+
+def _production(rule: Production, kept: Set[Position]) -> Production:
+    return replace(rule, predecessor=shorn(rule.predecessor, kept), successor=_items(rule.successor, kept),
+                   left=tuple(shorn(module, kept) for module in rule.left),
+                   right=tuple(shorn(module, kept) for module in rule.right))
+
+
+def _items(items: Iterable[Item], kept: Set[Position]) -> tuple[Item, ...]:
+    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else shorn(item, kept)
+                 for item in items)
+
+
+def shorn(module: Module, kept: Set[Position]) -> Module:
+    """A module without those of its parameters that decide nothing.
+
+    >>> print(shorn(Module("A", (1, 2)), {("A", 2, 0)}))
+    A(1)
+    """
+    size = len(module.arguments)
+    return replace(module, arguments=tuple(a for i, a in enumerate(module.arguments) if (module.symbol, size, i) in kept))

@@ -1,0 +1,100 @@
+"""Deriving maps: from the first cell to the cells of any step."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import overload
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.maps.divisions import stepped
+from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.model.maps import MapSystem
+
+SHOWN = 400
+"""How many characters of a map `repr` shows."""
+
+
+class Development(Sequence[Map]):
+    """The maps of steps 0, 1, 2, ...
+
+    Attributes
+    ----------
+    system
+        The map system.
+    """
+
+    def __init__(self, system: MapSystem, maps: Sequence[Map]) -> None:
+        self.system, self._maps = system, tuple(maps)
+
+    @property
+    def steps(self) -> int:
+        """The last step."""
+        return len(self._maps) - 1
+
+    @property
+    def counts(self) -> list[tuple[int, int, int]]:
+        """For each step how many vertices, walls and cells there are."""
+        return [found.counts for found in self._maps]
+
+    def __len__(self) -> int:
+        return len(self._maps)
+
+    @overload
+    def __getitem__(self, index: int) -> Map: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Map]: ...
+    def __getitem__(self, index: int | slice) -> Map | Sequence[Map]:
+        return self._maps[index]
+
+    def __repr__(self) -> str:
+        lines = (f"{step} {found}" for step, found in enumerate(self._maps))
+        return "\n".join(line if len(line) <= SHOWN else f"{line[:SHOWN]}..." for line in lines)
+
+
+def developed(system: MapSystem, steps: int) -> Development:
+    """The maps of a map system, from the first cell on; `derive` does the same for every kind of system.
+
+    Parameters
+    ----------
+    system
+        A map system.
+    steps
+        How many steps.
+
+    Raises
+    ------
+    ModelLimitError
+        A map would be too large; the error has the step and, in `partial`, the maps before.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> developed(read_map("map: A>B>C>D>\\nA> -> D>[-A>]B>\\nC> -> B>[-A<]B>\\nD> -> C>"), 2)
+    0 A>B>C>D>
+    1 D>A>B>C> | B>B>B>A<
+    2 C>D>A>B> | B>B>B>A< | B>B>B>B<D<
+    """
+    if isinstance(steps, bool) or not isinstance(steps, int) or steps < 0:
+        raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
+    maps, until = [first_map(system)], time.monotonic() + current().seconds
+    productions = {production.predecessor: production for production in system.productions}
+    for step in range(1, steps + 1):
+        try:
+            maps.append(stepped(maps[-1], productions, step, until))
+        except ModelLimitError as error:
+            error.partial = Development(system, maps)
+            raise error.with_hint(f"{'Step 0 is' if step == 1 else f'Steps 0-{step - 1} are'} kept. {error.hint}") from None
+    return Development(system, maps)
+
+
+def first_map(system: MapSystem) -> Map:
+    """The first cell of a map system."""
+    size = len(system.axiom)
+    walls, sides = [], []
+    for number, edge in enumerate(system.axiom):
+        forward, ends = edge.arrow != "<", (number, (number + 1) % size)
+        walls.append(Wall(edge.label, *(ends if forward else ends[::-1]), bool(edge.arrow)))
+        sides.append(Side(number, forward))
+    return Map((Vertex(),) * size, tuple(walls), (tuple(sides),), tuple(sides))

@@ -1,0 +1,152 @@
+"""One step of a map: walls are replaced, then cells divided (The Algorithmic Beauty of Plants, section 7.1.2).
+
+Each wall is replaced by its successor, and the markers between the new walls are handed to the cells on their sides; then each
+cell joins two markers that match, at most once. Nothing else changes, so that a step is as quick as its walls are many.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, Marker
+
+WALL_BYTES = 420
+"""About what a wall takes in memory, with its share of vertices and cells."""
+OFTEN = 1_000
+"""After so many cells the time is looked at."""
+
+
+class Parting(NamedTuple):
+    """What a wall has become: its new walls, one after another, and between them vertices with their markers."""
+
+    walls: range
+    turned: Sequence[bool]
+    vertices: Sequence[int]
+    marked: Sequence[Sequence[Marker]]
+
+
+class Mark(NamedTuple):
+    """A marker as a cell has it: behind how many of its sides it stands, on which wall of the map before, at which vertex."""
+
+    place: int
+    wall: int
+    vertex: int
+    edge: Edge
+
+
+def stepped(found: Map, productions: Mapping[Edge, EdgeProduction], step: int, until: float) -> Map:
+    """The map of the next step."""
+    check_walls(sum(len(_successor(wall, productions)) for wall in found.walls), step)
+    vertices, walls = [*found.vertices], list[Wall]()
+    partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in found.walls]
+    cells, mothers = [], []
+    for number, cell in enumerate(found.cells):
+        if number % OFTEN == 0:
+            _check_time(step, until)
+        daughters = _divided(*_replaced(cell, partings), walls)
+        cells += daughters
+        mothers += [number] * len(daughters)
+    check_walls(len(walls), step)
+    return Map(tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]), tuple(mothers))
+
+
+def _predecessor(wall: Wall) -> Edge:
+    return Edge(wall.label, ">" if wall.directed else "")
+
+
+def _successor(wall: Wall, productions: Mapping[Edge, EdgeProduction]) -> tuple[Edge, ...]:
+    """The walls that a wall becomes; itself, where it has no production."""
+    predecessor = _predecessor(wall)
+    return productions[predecessor].walls if predecessor in productions else (predecessor,)
+
+
+def _parted(wall: Wall, production: EdgeProduction | None, vertices: list[Vertex], walls: list[Wall]) -> Parting:
+    """Replace a wall, in its own direction: its vertices and walls are put behind those that there are."""
+    edges = production.walls if production else (_predecessor(wall),)
+    between = range(len(vertices), len(vertices) + len(edges) - 1)
+    vertices += (Vertex((wall.start, wall.end), Fraction(part, len(edges))) for part in range(1, len(edges)))
+    ends = [wall.start, *between, wall.end]
+    first = len(walls)
+    walls += (Wall(edge.label, *((b, a) if edge.arrow == "<" else (a, b)), bool(edge.arrow))
+              for edge, a, b in zip(edges, ends, ends[1:], strict=False))
+    return Parting(range(first, len(walls)), [edge.arrow == "<" for edge in edges], between,
+                   _marked(production) if production else ())
+
+
+def _marked(production: EdgeProduction) -> list[list[Marker]]:
+    """The markers of a production, behind each wall of its successor but the last."""
+    marked: list[list[Marker]] = []
+    for part in production.successor:
+        if isinstance(part, Marker):
+            marked[-1].append(part)
+        else:
+            marked.append([])
+    return marked[:-1]
+
+
+def _replaced(sides: Sequence[Side], partings: Sequence[Parting]) -> tuple[list[Side], list[Mark]]:
+    """The sides of a cell after the replacement of its walls, and the markers that point into it."""
+    made: list[Side] = []
+    marks: list[Mark] = []
+    for wall, forward in sides:
+        parting = partings[wall]
+        way, inside = (1, RIGHT) if forward else (-1, LEFT)
+        before = len(made)
+        made += (Side(new, turned != forward)
+                 for new, turned in zip(parting.walls[::way], parting.turned[::way], strict=True))
+        meetings = zip(parting.vertices[::way], parting.marked[::way], strict=False)
+        for place, (vertex, markers) in enumerate(meetings, before + 1):
+            marks += (Mark(place, wall, vertex, marker.edge) for marker in markers[::way] if marker.side == inside)
+    return made, marks
+
+
+def _divided(sides: list[Side], marks: Sequence[Mark], walls: list[Wall]) -> list[tuple[Side, ...]]:
+    """A cell divided by a new wall between two markers that match; the cell alone, where none do."""
+    pair = matching(marks)
+    if pair is None:
+        return [tuple(sides)]
+    first, second = pair
+    forward = first.edge.arrow != "<"
+    ends = (first.vertex, second.vertex) if forward else (second.vertex, first.vertex)
+    new = len(walls)
+    walls.append(Wall(first.edge.label, *ends, bool(first.edge.arrow)))
+    return [(*sides[:first.place], Side(new, forward), *sides[second.place:]),
+            (*sides[first.place:second.place], Side(new, not forward))]
+
+
+def matching(marks: Sequence[Mark]) -> tuple[Mark, Mark] | None:
+    """The first two markers that match: the first one, walking around the cell, that matches one passed before.
+
+    Markers match that have the same label, come from different walls, and point one away from its wall, one toward it; or both
+    nowhere.
+    """
+    passed: dict[Edge, Mark] = {}  # the first of a kind is enough: the markers of one wall stand side by side
+    for mark in marks:
+        other = passed.get(mark.edge.turned)
+        if other and other.wall != mark.wall:
+            return other, mark
+        passed.setdefault(mark.edge, mark)
+    return None
+
+
+def check_walls(size: int, step: int) -> None:
+    """Refuse a step whose map would be past a limit."""
+    most = current()
+    if size > most.modules:
+        raise ModelLimitError(f"Step {step} would have {size:,} walls or more; the limit is {most.modules:,}",
+                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
+    if size * WALL_BYTES > most.bytes:
+        raise ModelLimitError(f"Step {step} would take about {size * WALL_BYTES:,} bytes; the limit is {most.bytes:,}",
+                              limit=most.bytes, needed=size * WALL_BYTES, hint="Take fewer steps, or set limits(bytes=...).")
+
+
+def _check_time(step: int, until: float) -> None:
+    if time.monotonic() > until:
+        raise ModelLimitError(f"Step {step} was not reached in {current().seconds:g} seconds", limit=current().seconds,
+                              hint="Take fewer steps, or set limits(seconds=...).")

@@ -1,0 +1,105 @@
+"""Fates: what may become of a state in one step, and how likely that is.
+
+Where a module alone decides what becomes of it, it has one fate; where it is left to chance which production rewrites it, one
+for each of them. All fates of all states together are a system's growth, and its stage diagram.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lsys_kit.derivation.core.chance import shares
+from lsys_kit.derivation.core.rule_errors import fault_in
+from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import symbols
+
+
+@dataclass(frozen=True)
+class Fate:
+    """What may become of a state.
+
+    Attributes
+    ----------
+    production
+        The place of the production in the order written, from 0; None where a module only grows older.
+    successor
+        The states that replace it.
+    chance
+        How likely that is: 1 where it is certain.
+    span
+        How long it takes; None where it takes a step.
+    """
+
+    production: int | None
+    successor: tuple[int, ...]
+    chance: Value = 1
+    span: Value | None = None
+
+
+def fates_of(states: States, state: int) -> tuple[Fate, ...]:
+    """What may become of a state of a system without contexts; nothing where no production matches.
+
+    >>> from lsys_kit.notation.read import read
+    >>> for fate in fates_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
+    ...     print(fate.production, fate.successor, fate.chance)
+    0 (0, 0) 1/3
+    1 (0,) 2/3
+    """
+    module = states.modules[state]
+    matched = states.matched(module, states.rules)
+    if not matched or matched[0][0].probability is None:
+        return tuple(Fate(rule.number, states.replaced(rule, module)) for rule, _ in matched)
+    lots = [(rule, weight) for rule, weight in states.lots(matched) if weight != 0]
+    try:
+        likely = shares([weight for _, weight in lots] or [0])
+    except ValueError as fault:
+        raise fault_in(states.system, module, matched[0][0], fault) from None
+    except TypeError:
+        raise fault_in(states.system, module, matched[0][0], ValueError("it depends on an unknown constant")) from None
+    return tuple(Fate(rule.number, states.replaced(rule, module), chance)
+                 for (rule, _), chance in zip(lots, likely, strict=True))
+
+
+def all_fates(states: States, limit: int) -> list[tuple[Fate, ...]] | None:
+    """The fates of all states that may be met from the axiom on; None where they are more than `limit`."""
+    found: list[tuple[Fate, ...]] = []
+    while len(found) < len(states):
+        if len(states) > limit:
+            return None
+        found.append(fates_of(states, len(found)))
+    return found
+
+
+def has_fates(states: States) -> bool:
+    """Whether only a module itself, and a lot among its productions, decide what becomes of it."""
+    return (states.parts_settled and not (states.asks or states.system.meta or CUT in symbols(states.system))
+            and not any(rule.left or rule.right or rule.random for rules in states.rules.values() for rule in rules))
+
+
+def check_settled(states: States, what: str) -> None:
+    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
+    if not states.settled:
+        raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
+                              hint="Derive this system, and look at its words; where it leaves its productions to chance, "
+                                   "stages(system).expected(n) counts on average.")
+
+
+def closure(states: States, limit: int) -> Sequence[int] | None:
+    """All states that are met from the axiom on, in the order of their numbers; None where they are more than `limit`.
+
+    >>> from lsys_kit.notation.read import read
+    >>> closure(States(read("axiom: A\\nA -> A B")), 100)
+    range(0, 2)
+    >>> closure(States(read("axiom: A(0)\\nA(t) -> A(t+1)")), 100) is None
+    True
+    """
+    done = 0
+    while done < len(states):
+        if len(states) > limit:
+            return None
+        states.successor(done)
+        done += 1
+    return range(done)

@@ -1,0 +1,133 @@
+"""PNML: a stage diagram as Petri-net tools read it (ISO/IEC 15909-2, place/transition nets).
+
+Those tools fire one transition at a time. A step of the system is each transition fired as often as its place had tokens at the
+beginning of the step; where several leave a place, they share its tokens. What a plain net cannot say stands in `toolspecific`
+elements: a transition's probability, how long it takes, and on which condition.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from lsys_kit.derivation.petri.net import Arc, Stages, Transition, likelihood
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.arithmetic import number_text
+
+GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
+"""Where the standard's names are at home: `pnml` is the language, `ptnet` the type of a place/transition net."""
+TOOL = {"tool": "lsys-kit", "version": "1"}
+
+
+def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
+    """A stage diagram as PNML.
+
+    Parameters
+    ----------
+    net
+        The stages of a system.
+    tokens
+        How many tokens lie in each place at first; by default those of the axiom.
+
+    Returns
+    -------
+    str
+        An XML document. A control character in a name is replaced by its picture (U+2400 and on), as XML has none.
+
+    Raises
+    ------
+    ModelValueError
+        The tokens are not one number for each place.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.petri.stages import stages
+    >>> from lsys_kit.notation.read import read
+    >>> print(pnml(stages(read("axiom: a\\na -> a a"))))
+    <?xml version="1.0" encoding="UTF-8"?>
+    <pnml xmlns="http://www.pnml.org/version-2009/grammar/pnml">
+      <net id="net" type="http://www.pnml.org/version-2009/grammar/ptnet">
+        <name>
+          <text>stages</text>
+        </name>
+        <page id="page">
+          <place id="p0">
+            <name>
+              <text>a</text>
+            </name>
+            <initialMarking>
+              <text>1</text>
+            </initialMarking>
+          </place>
+          <transition id="t0">
+            <name>
+              <text>a -&gt; 2 a</text>
+            </name>
+          </transition>
+          <arc id="f0" source="p0" target="t0" />
+          <arc id="a0" source="t0" target="p0">
+            <inscription>
+              <text>2</text>
+            </inscription>
+          </arc>
+        </page>
+      </net>
+    </pnml>
+    """
+    marking = net.start if tokens is None else tokens
+    if len(marking) != len(net.places):
+        raise ModelValueError(f"The net has {len(net.places)} places; {len(marking)} numbers of tokens do not fit it")
+    root = Element("pnml", xmlns=f"{GRAMMAR}pnml")
+    whole = SubElement(root, "net", id="net", type=f"{GRAMMAR}ptnet")
+    _labelled(whole, "name", "stages")
+    page = SubElement(whole, "page", id="page")
+    for number, place in enumerate(net.places):
+        node = SubElement(page, "place", id=f"p{number}")
+        _labelled(node, "name", "/".join(dict.fromkeys(map(str, place.modules))) or place.symbol)
+        if marking[number]:
+            _labelled(node, "initialMarking", str(marking[number]))
+    for number, transition in enumerate(net.transitions):
+        node = SubElement(page, "transition", id=f"t{number}")
+        _labelled(node, "name", net.told(number))
+        _told(node, _terms(transition))
+    for number, transition in enumerate(net.transitions):
+        SubElement(page, "arc", id=f"f{number}", source=f"p{transition.place}", target=f"t{number}")
+    for number, arc in enumerate(net.arcs):
+        _arc(page, number, arc)
+    _told(whole, {"besides": "; ".join(net.besides)})
+    indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode")
+
+
+def _arc(page: Element, number: int, arc: Arc) -> None:
+    node = SubElement(page, "arc", id=f"a{number}", source=f"t{arc.transition}", target=f"p{arc.place}")
+    if arc.copies != 1:
+        _labelled(node, "inscription", str(arc.copies))
+    _told(node, {"factor": arc.factor})
+
+
+def _terms(transition: Transition) -> Mapping[str, str]:
+    """What a plain net cannot say of a transition; empty where there is nothing to say."""
+    return {"probability": "" if transition.chance is None else likelihood(transition.chance),
+            "duration": "0" if transition.at_once else "" if transition.span is None else number_text(transition.span),
+            "condition": transition.condition}
+
+
+def _labelled(node: Element, tag: str, text: str) -> None:
+    """Give an element a label: a child with a text."""
+    SubElement(SubElement(node, tag), "text").text = _legal(text)
+
+
+def _told(node: Element, terms: Mapping[str, str]) -> None:
+    """Give an element what only this kit understands."""
+    if any(terms.values()):
+        own = SubElement(node, "toolspecific", TOOL)
+        for tag, text in terms.items():
+            if text:
+                SubElement(own, tag).text = _legal(text)
+
+
+def _legal(text: str) -> str:
+    """A text that XML can hold: control characters as their pictures, what is no character as U+FFFD."""
+    return re.sub("[\ud800-\udfff\ufffe\uffff]", "\ufffd", "".join(chr(0x2400 + ord(c)) if c < " " else c for c in text))

@@ -1,0 +1,200 @@
+"""Stage diagrams: the Petri net of a system (seed 002, figure 2; Peterson 1981).
+
+A place stands for one state. Cells that differ in their polarity only share a place, as in the paper, where tokens ignore
+order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where a
+parameter that decides nothing keeps the states from ending, it is left out (see `lumping`); where they do not end all the
+same, or hang on their neighbours, a place stands for all modules of one symbol (see `grouping`).
+
+In a timed system a place is a stretch of a module's life (see `lives`), and its transition says how long that is.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence, Set
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+
+from lsys_kit.derivation.core.interpretation import images
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.growth.slicing import Position, deciding, lumped, shorn
+from lsys_kit.derivation.petri.by_symbol import by_symbol
+from lsys_kit.derivation.petri.life_stages import Growing, growing_in_steps, growing_in_time, lives
+from lsys_kit.derivation.petri.net import Arc as Arc
+from lsys_kit.derivation.petri.net import Place as Place
+from lsys_kit.derivation.petri.net import Stages as Stages
+from lsys_kit.derivation.petri.net import Transition as Transition
+from lsys_kit.derivation.petri.outcomes import Fate, all_fates, has_fates
+from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import CELLS, LSystem, Module
+
+MOST_PLACES = 40
+"""A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""
+MOST_LUMPED = 16
+"""So is one that leaves out parameters, and has more transitions than this all the same: its few symbols tell more."""
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Modules, what may become of each, in which row a module of a word stands, and how many transitions can be read."""
+
+    states: States
+    modules: Sequence[Module]
+    fates: Sequence[tuple[Fate, ...]]
+    row: Callable[[Module], int | None]
+    most: int = 10 * MOST_PLACES
+
+
+def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False, **constants: object) -> Stages:
+    """The stage diagram of a system.
+
+    Parameters
+    ----------
+    system
+        A system; or a timed one (see `timed`), whose transitions then say how long they take.
+    polarity
+        Whether cells that point left and right have places of their own.
+    durations
+        Whether transitions take the time for which a module lives, whatever a step is. A timed system's always do.
+    **constants
+        New values for declared constants.
+
+    Raises
+    ------
+    ModelValueError
+        A value cannot be computed, a timed system is given new constants, or the productions of a system whose durations are
+        asked for do more than let time pass.
+    ModelLimitError
+        The modules of a timed system begin at too many different ages.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.timed.timed import timed
+    >>> from lsys_kit.notation.read import read
+    >>> stages(read("axiom: A(1)\\nA(t) : t < 3 -> A(t+1)\\nA(t) -> A(1) A(2)"))
+    A(1) -> A(2)
+    A(2) -> A(3)
+    A(3) -> A(1) + A(2)
+    >>> stages(read("axiom: F\\nF -> F [F] F : 0.65\\nF -> L : 0.35"), polarity=True)
+    F -> 3 F + [ + ] with probability 0.65
+    F -> L with probability 0.35
+    >>> stages(timed(read("axiom: a(0)\\na(2) -> a(0) b(0)\\nb(1) -> a(0)")))
+    a(0) -> a(0) + b(0) after 2
+    b(0) -> a(0) after 1
+    """
+    if isinstance(system, Timed):
+        if constants:
+            raise ModelValueError("The constants of a timed system are chosen when it is made",
+                                  hint="Write stages(timed(system, name=value)).")
+        return _in_time(growing_in_time(system), polarity)
+    states = States(system, constants)
+    if durations:
+        return _in_time(growing_in_steps(states), polarity)
+    nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
+    return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
+                None) or by_symbol(states)
+
+
+def _in_time(growing: Growing, polarity: bool) -> Stages:
+    """The net whose transitions take as long as a stretch of life."""
+    found = lives(growing, MOST_PLACES)
+    return _net(_Table(growing.states, found.modules, found.fates, found.stretch), growing.states, polarity)
+
+
+def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
+    """The states of a system, then those without the parameters that decide nothing; only where they end."""
+    for fates in _ended(states):
+        yield _Table(states, states.modules, fates, {module: row for row, module in enumerate(states.modules)}.get)
+    system, kept = states.system, deciding(states.system)
+    model = lumped(system)
+    if (model.axiom, model.productions, model.decomposition) == (system.axiom, system.productions, system.decomposition):
+        return
+    whole = tuple(rule for rule in system.interpretation if shorn(rule.predecessor, kept) == rule.predecessor)
+    fewer = States(replace(model, interpretation=whole), constants)
+    for fates in _ended(fewer):
+        rows = {module: row for row, module in enumerate(fewer.modules)}
+        yield _Table(fewer, fewer.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
+
+
+def _ended(states: States) -> Iterator[list[tuple[Fate, ...]]]:
+    """The fates of all states, if these come to an end and no neighbour decides."""
+    with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
+        fates = all_fates(states, 4 * MOST_PLACES) if has_fates(states) else None
+        if fates is not None:
+            yield fates
+
+
+def _row(rows: Mapping[Module, int], kept: Set[Position], module: Module) -> int | None:
+    return rows.get(shorn(module, kept))
+
+
+def _net(table: _Table, states: States, polarity: bool) -> Stages:
+    """The net whose places are classes of a table's rows."""
+    classes = list(range(len(table.modules))) if polarity else _merged(table)
+    members = [[row for row, found in enumerate(classes) if found == number] for number in range(max(classes, default=-1) + 1)]
+    transitions: list[Transition] = []
+    arcs: list[Arc] = []
+    for number, group in enumerate(members):
+        for ways in _side_by_side(table, group, classes):
+            arcs += [Arc(len(transitions), target, copies, spots)
+                     for target, copies, spots in _targets([[classes[row] for row in way.successor] for way in ways])]
+            chance = None if ways[0].chance == 1 else ways[0].chance
+            transitions.append(Transition(number, ways[0].production, "", chance, ways[0].span))
+    start = Counter(_place_of(classes, table.row, states.modules[state]) for state in states.axiom)
+    places = tuple(Place(table.modules[group[0]].symbol, tuple(table.modules[row] for row in group)) for group in members)
+    return Stages(states.system, places, tuple(transitions), tuple(arcs), tuple(start[number] for number in range(len(places))),
+                  _where=partial(_place_of, classes, table.row))
+
+
+def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], module: Module) -> int | None:
+    """The class of a module's row."""
+    row = row_of(module)
+    return None if row is None else classes[row]
+
+
+def _side_by_side(table: _Table, group: Sequence[int], classes: Sequence[int]) -> Iterator[tuple[Fate, ...]]:
+    """The fates of the rows of one class, those together that lead to the same classes, in the order of the productions."""
+    ways = zip(*(sorted(table.fates[row], key=lambda fate: _likeness(fate, classes)) for row in group), strict=True)
+    return iter(sorted(ways, key=lambda way: way[0].production or 0))
+
+
+def _targets(rows: Sequence[Sequence[int]]) -> Iterator[tuple[int, int, tuple[int, ...]]]:
+    """For each class that successors hold how many, and where they stand if that is the same in all of them."""
+    for target, copies in Counter(rows[0]).items():
+        spots = {tuple(i for i, place in enumerate(row, 1) if place == target) for row in rows}
+        yield target, copies, spots.pop() if len(spots) == 1 else ()
+
+
+def _merged(table: _Table) -> list[int]:
+    """For each row its class: rows that look alike but for their polarity and become alike are one class.
+
+    The coarsest partition that is finer than the looks and under which fates are alike, found by refinement.
+    """
+    classes = _numbered([_look(table.states, module) for module in table.modules])
+    while True:
+        finer = _numbered([(classes[row], *sorted(_likeness(fate, classes) for fate in fates))
+                           for row, fates in enumerate(table.fates)])
+        if finer == classes:
+            return classes
+        classes = finer
+
+
+def _likeness(fate: Fate, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
+    """What makes two fates alike."""
+    return fate.chance, -1 if fate.span is None else fate.span, tuple(sorted(classes[row] for row in fate.successor))
+
+
+def _numbered(keys: Sequence[Hashable]) -> list[int]:
+    """Equal keys get equal numbers, in the order of first occurrence."""
+    numbers: dict[Hashable, int] = {}
+    return [numbers.setdefault(key, len(numbers)) for key in keys]
+
+
+def _look(states: States, module: Module) -> Hashable:
+    """What a module looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
+    state = states.number(module.symbol, module.arguments)  # type: ignore[arg-type]
+    image = images(states, (state,))[state]
+    return tuple(cell.arguments for cell in image) if all(cell.symbol in CELLS for cell in image) else module

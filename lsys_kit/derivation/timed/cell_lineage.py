@@ -1,0 +1,160 @@
+"""Descent: what becomes of a cell within a step, with the cells that come and go between two words.
+
+The parts by which a rule replaces a module are known as they are at the step's end; as they were at first follows from the age
+at which the rule began to apply.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from lsys_kit.derivation.core.interpretation import is_cell, is_filament
+from lsys_kit.derivation.core.rules import Kind, Rule, kind_of
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.timed.ages import ageing_of
+from lsys_kit.notation.model.arithmetic import Value, tidy
+from lsys_kit.notation.model.system import LSystem, Module, flat
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell of a lineage, from its birth to its division.
+
+    Attributes
+    ----------
+    mother
+        The number of the cell that it comes from, or None.
+    born
+        When.
+    at_birth
+        The module that it was then.
+    ended
+        When it divided or died; None where it lives to the end.
+    due
+        When it should have divided, where that is before `ended`, or before the end.
+    modules
+        What it is in the words that have it, by their steps.
+    """
+
+    mother: int | None
+    born: Value
+    at_birth: Module
+    ended: Value | None = None
+    due: Value | None = None
+    modules: tuple[tuple[int, Module], ...] = ()
+
+
+@dataclass(frozen=True)
+class Part:
+    """What becomes of a module within a step.
+
+    Attributes
+    ----------
+    module, at_birth
+        What it is at the step's end, and what it was when it came to be.
+    parts
+        What it is replaced by; None where it is there at the step's end.
+    ago
+        How long before the step's end it was replaced; None where nothing says so.
+    """
+
+    module: Module
+    at_birth: Module
+    parts: tuple[Part, ...] | None = None
+    ago: Value | None = None
+
+
+class Parting:
+    """What becomes of each state within a step, with what comes and goes in between."""
+
+    def __init__(self, states: States) -> None:
+        self.states, self.ageing = states, ageing_of(states)
+        self._known: dict[int, Part] = {}
+
+    def of(self, state: int) -> Part:
+        """What becomes of a settled state."""
+        if state not in self._known:
+            module, rule = self.states.modules[state], self.states.fate(state)
+            self._known[state] = self._replaced(module, module, rule, 0) if rule else self._decomposed(module, module, 0)
+        return self._known[state]
+
+    def _replaced(self, module: Module, at_birth: Module, rule: Rule, depth: int) -> Part:
+        """A module with the parts by which a rule replaces it, as they are now and as they were at first."""
+        age, threshold = self.ageing.age(module), self.ageing.applies_from(rule, module)
+        made = [Module(*part) for part in self.states.made(rule, module)]
+        if age is None or threshold is None:
+            return Part(module, at_birth, tuple(self._decomposed(part, part, depth) for part in made))
+        first = [Module(*part) for part in self.states.made(rule, self.ageing.aged(module, threshold))]
+        return Part(module, at_birth, tuple(self._decomposed(part, was, depth) for part, was in zip(made, first, strict=True)),
+                     age - threshold)
+
+    def _decomposed(self, module: Module, at_birth: Module, depth: int) -> Part:
+        """A module with its parts, and theirs."""
+        rule = None if depth == self.states.system.decomposition_depth else \
+            self.states.matching(module, self.states.decomposition)
+        return Part(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
+
+
+class Growth:
+    """A lineage that is put together step by step."""
+
+    def __init__(self, states: States) -> None:
+        self.cells: list[Cell] = []
+        self.places: list[int | None] = []  # for each module of the word whose cell it is
+        self._kinds = cell_kinds(states.system)
+
+    def is_cell(self, module: Module) -> bool:
+        """Whether a module is a cell."""
+        return kind_of(module) in self._kinds if self._kinds else module.symbol[0].isalpha()
+
+    def born(self, mother: int | None, moment: Value, module: Module) -> int:
+        """A new cell's number."""
+        self.cells.append(Cell(mother, moment, module))
+        return len(self.cells) - 1
+
+    def found(self, owner: int | None, step: int, module: Module) -> None:
+        """A module of the word of a step."""
+        self.places.append(owner)
+        if owner is not None:
+            cell = self.cells[owner]
+            self.cells[owner] = replace(cell, modules=(*cell.modules, (step, module)))
+
+    def follow(self, part: Part, owner: int | None, step: int, span: tuple[Value, Value]) -> None:
+        """What becomes of a cell within a step that lasts from one time to another."""
+        if part.parts is None:
+            self.found(owner, step, part.module)
+            return
+        cells, moment = sum(self.is_cell(each.module) for each in part.parts), span[1]
+        if owner is not None and cells != 1:
+            moment = self._ends(owner, part.ago, span)
+        for each in part.parts:
+            if not self.is_cell(each.module):
+                number = None
+            elif owner is not None and cells == 1:
+                number = owner
+            else:
+                number = self.born(owner, moment, each.at_birth)
+            self.follow(each, number, step, span)
+
+    def _ends(self, owner: int, ago: Value | None, span: tuple[Value, Value]) -> Value:
+        """When a cell divides or dies: not before it is born, and not before the step begins, in whose word it still is."""
+        due = tidy(span[1] - (ago or 0))
+        moment = max(due, span[0], self.cells[owner].born)
+        self.cells[owner] = replace(self.cells[owner], ended=moment, due=due if due < moment else None)
+        return moment
+
+    def overdue(self, part: Part, end: Value) -> Value | None:
+        """When a cell should have divided that has not by a time, given what would become of it in a step from then on."""
+        while part.parts is not None:
+            cells = [each for each in part.parts if self.is_cell(each.module)]
+            if len(cells) != 1:
+                return tidy(end - part.ago) if part.ago is not None else None
+            part = cells[0]
+        return None
+
+
+def cell_kinds(system: LSystem) -> frozenset[Kind]:
+    """The symbols and numbers of parameters of what is drawn as cells; none where the system is no filament."""
+    if not is_filament(system):
+        return frozenset()
+    return frozenset(kind_of(rule.predecessor) for rule in system.interpretation if any(map(is_cell, flat(rule.successor))))

@@ -1,0 +1,316 @@
+"""Continuity: does a filament grow without a jump where its cells divide? (ABOP, section 6.2; seed 002, section 8)
+
+A growth function g gives the length of a cell at an age. The length of the filament is continuous where
+
+    R1  each growth function is continuous on the life span of its letter, from the first age to the terminal age;
+    R2  at each division g(mother, terminal age) is the sum of g(daughter, first age) over the daughters.
+
+Of order k it is continuous where the same holds for the derivatives up to the k-th. Names in a growth function that nobody
+gave a value are unknown: R2 is then an equation that they must obey, such as a^t_div = a^t_s + a^t_l.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+from lsys_kit.derivation.core.rules import real_from, unknown
+from lsys_kit.derivation.timed.equations import roots
+from lsys_kit.derivation.timed.length_functions import functions_of, in_sympy, is_continuous, is_decided, texts_of, the_age
+from lsys_kit.derivation.timed.timed import Timed, timed
+from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.system import LSystem, Module, Production
+
+if TYPE_CHECKING:
+    import sympy
+
+Fate: TypeAlias = tuple[Production, Module, list[Module]]
+"""What becomes of a letter: a production, the mother, her daughters."""
+MOST_ORDER = 9
+"""The highest derivative."""
+ALIKE = 1e-9
+"""Lengths that differ by no more than this share are equal."""
+
+
+@dataclass(frozen=True)
+class Division:
+    """What a production does to the length of a filament, or to a derivative of that length.
+
+    Attributes
+    ----------
+    production
+        The production.
+    order
+        0 for the length itself, k for its k-th derivative.
+    mother, daughters
+        The length of the mother at her terminal age, and that of all daughters together at their first ages.
+    """
+
+    production: Production
+    order: int
+    mother: sympy.Expr
+    daughters: sympy.Expr
+
+    @cached_property
+    def defect(self) -> sympy.Expr:
+        """By how much the mother is longer than her daughters; 0 where the length is continuous."""
+        import sympy
+
+        return sympy.Integer(0) if _equal(self.mother, self.daughters) else sympy.factor_terms(self.mother - self.daughters)
+
+    def __str__(self) -> str:
+        what = f"{self.production}: " + (f"derivative {self.order}: " if self.order else "")
+        if self.defect == 0:
+            return f"{what}continuous"
+        before, after, jump = (number_text(_brief(part)) for part in (self.mother, self.daughters, -self.defect))
+        return what + (f"continuous where {before} = {after}" if self.defect.free_symbols else
+                       f"{before} before, {after} after, a jump by {jump}")
+
+
+@dataclass(frozen=True)
+class Continuity:
+    """What happens to the length of a filament where its cells divide.
+
+    Attributes
+    ----------
+    divisions
+        Each production with the lengths before and after it, and with their derivatives up to the order asked for.
+    undecided
+        The letters of which unknown names decide whether their growth function is continuous on their life span.
+    """
+
+    divisions: tuple[Division, ...]
+    undecided: tuple[str, ...]
+    _growth: tuple[tuple[sympy.Expr, sympy.Set], ...] = field(repr=False)
+
+    @property
+    def continuous(self) -> bool:
+        """Whether the length never jumps, whatever the unknown names are."""
+        return not self.undecided and all(division.defect == 0 for division in self.divisions)
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        """What the unknown names must obey."""
+        import sympy
+
+        return tuple(dict.fromkeys(sympy.Eq(division.mother, division.daughters) for division in self.divisions
+                                   if division.defect.free_symbols))
+
+    @property
+    def unknowns(self) -> tuple[str, ...]:
+        """The unknown names in these equations."""
+        return tuple(sorted({name for division in self.divisions for name in _names(division.defect)}))
+
+    def solve(self, name: str, low: object = None, high: object = None) -> sympy.Expr:
+        """The value of an unknown name with which the length is continuous.
+
+        Parameters
+        ----------
+        name
+            One of `unknowns`.
+        low, high
+            Between which numbers it lies: needed where more than one value does, or where no rule finds them all.
+
+        Returns
+        -------
+        value
+            A number of sympy, exact where it is the root of a polynomial of degree one or two.
+
+        Raises
+        ------
+        ModelNameError
+            No equation has that name.
+        ModelValueError
+            There is no such value, or more than one, or another name must be known first.
+
+        Examples
+        --------
+        >>> from lsys_kit.notation.read import read
+        >>> anabaena = read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)")
+        >>> continuity(anabaena, {"a": "A * exp(B*(t+1))", "b": "A * exp(B*t)"}).solve("B")
+        log(1/2 + sqrt(5)/2)
+        """
+        if name not in self.unknowns:
+            hint = suggestion(name, self.unknowns) or (f"They have: {', '.join(self.unknowns)}." if self.unknowns else None)
+            raise ModelNameError(f'No equation for the length to be continuous has the name "{name}"', hint=hint)
+        jumps = [division for division in self.divisions if division.defect != 0 and not division.defect.free_symbols]
+        if jumps:
+            raise ModelValueError(f'Whatever "{name}" is, the length jumps: {jumps[0]}')
+        ends = [None if end is None else real_from(end, "limit") for end in (low, high)]
+        found = [root for root in roots(self._equation(name), *ends) if self._is_solved(name, root)]
+        if len(found) == 1:
+            return found[0]
+        if not found:
+            where = "" if ends == [None, None] else " in that range"
+            raise ModelValueError(f'No value of "{name}"{where} makes the length continuous')
+        told = ", ".join(f"{float(root):.6g}" for root in found)
+        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {told}',
+                              hint=f'Say between which numbers it lies, as in solve("{name}", 1, 10).')
+
+    def _equation(self, name: str) -> sympy.Expr:
+        """What is 0 where the length is continuous, with no other unknown name in it."""
+        import sympy
+
+        others: set[str] = set()
+        for division in self.divisions:
+            above, _ = sympy.fraction(sympy.together(division.defect))
+            factors = [part for part in sympy.Mul.make_args(sympy.factor_terms(above)) if name in _names(part)]
+            if factors and _names(*factors) == {name}:
+                return sympy.Mul(*factors)
+            others |= _names(*factors) - {name}
+        if not others:
+            raise ModelValueError(f'No value of "{name}" makes the length continuous')
+        raise ModelValueError(f'The value of "{name}" depends on {", ".join(sorted(others))}',
+                              hint=f"Give {min(others)} a value: continuity(..., {min(others)}=1).")
+
+    def _is_solved(self, name: str, value: sympy.Expr) -> bool:
+        """Whether a value leaves no jump that its name decides, and no mother without a length."""
+        symbols = {symbol for growth in self._growth for part in growth for symbol in part.free_symbols}
+        point = {symbol: value.evalf(20) for symbol in symbols if symbol.name == name}
+        asked = [division for division in self.divisions if name in _names(division.defect)]
+        try:
+            lengths = [(d.order, d.mother.subs(point), d.daughters.subs(point)) for d in asked]
+            growth = [(function.subs(point), life.subs(point)) for function, life in self._growth]
+        except ValueError:  # it compares what is no real number
+            return False
+        return (all(_equal(before, after) and (order or before != 0) for order, before, after in lengths)
+                and all(is_continuous(function, life) is not False for function, life in growth))
+
+    def __repr__(self) -> str:
+        return "\n".join([*map(str, self.divisions), *(f"{letter}: unknown names decide whether its growth is continuous"
+                                                       for letter in self.undecided)])
+
+
+def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int = 0, **constants: object) -> Continuity:
+    """Whether a filament grows without a jump, where the length of a cell is a function of its letter and age.
+
+    Parameters
+    ----------
+    system
+        A timed system (see `timed`).
+    lengths
+        For each letter its growth function, a text in which t is the age; letters with the same one may stand together:
+        {"ar al": "1 + t", "br bl": "t"}.
+    order
+        0 for the length itself, k for its derivatives up to the k-th too.
+    **constants
+        Values for constants of the system and for names in the growth functions. What has none is unknown, and whether a
+        growth function is continuous on a life span is asked for positive values of it.
+
+    Raises
+    ------
+    ModelSyntaxError
+        A growth function cannot be read.
+    ModelNameError
+        A letter or a name is not there, or a letter has no growth function.
+    ModelValueError
+        A growth function is not continuous on the life span of its letter.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> cells = read("axiom: L(0)\\nL(1) -> L(0) R(1/5)\\nR(1) -> L(1/5) R(0)")
+    >>> found = continuity(cells, {"L R": "a^t"})
+    >>> found
+    L(1) -> L(0)R(1/5): continuous where a = a^(1/5) + 1
+    R(1) -> L(1/5)R(0): continuous where a = a^(1/5) + 1
+    >>> round(float(found.solve("a")), 9)
+    2.167303978
+    >>> continuity(cells, {"L R": "1 + t"})
+    L(1) -> L(0)R(1/5): 2 before, 2.2 after, a jump by 0.2
+    R(1) -> L(1/5)R(0): 2 before, 2.2 after, a jump by 0.2
+    """
+    if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MOST_ORDER:
+        raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {order!r}")
+    growing, given = _given(system, constants)
+    fates = list(_fates(growing))
+    lives = _lives(growing, fates)
+    texts = texts_of(lengths, lives)
+    functions = functions_of(growing, texts, given, lives)
+    undecided = tuple(letter for letter, life in lives.items()
+                      if not is_decided(letter, texts[letter], functions[letter], life, order))
+    divisions = tuple(Division(production, k, _total([mother], functions, k), _total(daughters, functions, k))
+                      for k in range(order + 1) for production, mother, daughters in fates)
+    return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
+
+
+def _given(system: LSystem | Timed, constants: Mapping[str, object]) -> tuple[Timed, dict[str, object]]:
+    """The timed system with its constants set, and the values of other names."""
+    model = system.states.system if isinstance(system, Timed) else system
+    names = [constant.name for constant in model.constants]
+    values: dict[str, object] = dict(zip(names, system.states.constants, strict=True)) if isinstance(system, Timed) else {}
+    values.update((name, _plain(value)) for name, value in constants.items() if name in names)
+    return timed(model, **values), {name: value for name, value in constants.items() if name not in names}
+
+
+def _plain(value: object) -> object:
+    """A value that was solved for as one that a system takes."""
+    import sympy
+
+    return float(value) if isinstance(value, sympy.Expr) and value.is_number and not value.is_Rational else value
+
+
+
+def _fates(growing: Timed) -> Iterator[Fate]:
+    """Each production, its mother at her terminal age, her daughters at their first ages."""
+    for (symbol, _), (rule, *_) in growing.states.rules.items():
+        others = (unknown(str(name)) for name in rule.production.predecessor.arguments[1:])
+        mother = growing.at_end(Module(symbol, (0, *others)))
+        if mother is not None:
+            yield rule.production, mother, growing.daughters(mother)
+
+
+def _lives(growing: Timed, fates: Iterable[Fate]) -> dict[str, sympy.Set]:
+    """The life span of each letter, from its least age to its greatest; without end where no production ends it."""
+    import sympy
+
+    ages: dict[str, list[sympy.Expr]] = {}
+    ended = [mother for _, mother, _ in fates]
+    for module in (*(growing.states.modules[state] for state in growing.states.axiom), *ended,
+                   *(made for _, _, daughters in fates for made in daughters)):
+        if module.arguments:
+            ages.setdefault(module.symbol, []).append(in_sympy(module.arguments[0]))
+    endless = ages.keys() - {module.symbol for module in ended}
+    return {symbol: sympy.Interval(sympy.Min(*found), sympy.oo if symbol in endless else sympy.Max(*found))
+            for symbol, found in ages.items()}
+
+
+def _total(modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
+    """The length of some modules together, or a derivative of it."""
+    import sympy
+
+    cells = Counter((module.symbol, in_sympy(module.arguments[0])) for module in modules if module.arguments)
+    try:
+        return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
+                           for (symbol, age), number in cells.items()))
+    except ValueError:  # it compares what is no real number
+        told = " or ".join(symbol for symbol, _ in cells)
+        raise ModelValueError(f"The length of {told} has no value at a division") from None
+
+
+def _equal(before: sympy.Expr, after: sympy.Expr) -> bool:
+    """Whether two lengths are equal whatever their unknown names are: they are compared where nothing is equal by chance."""
+    import sympy
+
+    symbols = sorted(before.free_symbols | after.free_symbols, key=str)
+    point = {symbol: sympy.Float(f"1.{2345679 + 1357913 * i}", 20) for i, symbol in enumerate(symbols)}
+    try:
+        one, other, left = (abs(value.evalf(20, subs=point)).evalf() for value in (before, after, before - after))
+    except ValueError:  # it compares what is no real number
+        return False
+    return all(value.is_Float or value.is_Rational for value in (one, other, left)) and bool(left <= ALIKE * (one + other))
+
+
+def _brief(value: sympy.Expr) -> sympy.Expr | float:
+    """A number to six digits; anything else as it is."""
+    found = value.evalf()
+    return float(f"{float(found):.6g}") if found.is_Float or found.is_Rational else value
+
+
+def _names(*expressions: sympy.Expr) -> set[str]:
+    return {symbol.name for expression in expressions for symbol in expression.free_symbols}

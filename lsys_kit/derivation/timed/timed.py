@@ -1,0 +1,167 @@
+"""Timed systems: the word at any time, not only after whole steps (ABOP, chapter 6; seed 003).
+
+A module's one parameter is its age. A production `ar(1) -> al(0) br(0)` says at which age a cell divides, its terminal age, and
+with which ages its daughters begin. With D(x, t) for what a word x becomes in a time t:
+
+    D(xy, t) = D(x, t) D(y, t)
+    D(a(age), t) = a(age + t)                             while age + t <= terminal age
+                 = D(successor, t - (terminal - age))     from then on
+
+At its terminal age a cell is not yet divided. How long the cells are is told in `continuity`; here is what its equations need.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from itertools import repeat
+from typing import TYPE_CHECKING
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.core.rule_errors import fault_in
+from lsys_kit.derivation.core.rules import kind_of, number_from
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.petri.outcomes import check_settled
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.write import as_written
+
+if TYPE_CHECKING:
+    pass
+
+OFTEN = 1_024
+"""After how many cells somebody looks at the clock."""
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A timed system.
+
+    Attributes
+    ----------
+    states
+        The table of its modules.
+    """
+
+    states: States
+
+    def word(self, at: object) -> Word:
+        """The word at a time.
+
+        Parameters
+        ----------
+        at
+            The time since the axiom: a number, exact as in `derive`.
+
+        Raises
+        ------
+        ModelValueError
+            The time is before the axiom, or cells divide without end in no time at all.
+        ModelLimitError
+            The word would be too large, or takes too long.
+
+        Examples
+        --------
+        >>> from lsys_kit.notation.read import read
+        >>> fibonacci = timed(read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)"))
+        >>> print(fibonacci.word("5/2"), fibonacci.word(1))
+        a(0.5)b(0.5)a(0.5) a(1)
+        """
+        given = number_from(at, "time")
+        if is_symbolic(given):
+            raise ModelValueError(f'"time" must be a number, not {number_text(given)!r}')
+        if given < 0:
+            raise ModelValueError(f"The time must not be before the axiom, which is at 0, but it is {at}")
+        return self.later([self.states.modules[state] for state in self.states.axiom], given)
+
+    def later(self, word: list[Module], passed: Value) -> Word:
+        """What a row of modules becomes in a time: D(word, passed)."""
+        found: list[int] = []
+        until, most, deepest = time.monotonic() + current().seconds, current().modules, current().brackets
+        todo = [(module, passed, 0) for module in reversed(word)]
+        visited = 0
+        while todo:
+            module, left, instant = todo.pop()
+            rest, daughters = self._division(module, left)
+            if daughters is None:
+                aged = (*(age + left for age in module.arguments[:1]), *module.arguments[1:])  # type: ignore[operator]
+                found.append(self.states.number(module.symbol, aged))  # type: ignore[arg-type]
+            elif instant > deepest:
+                raise ModelValueError(f"{module} divides without end in no time at all",
+                                      hint="Let a daughter begin younger than the age at which she divides.")
+            else:
+                instant = instant + 1 if rest == left else 0
+                todo += zip(reversed(daughters), repeat(rest), repeat(instant))
+            visited += 1
+            if len(found) + len(todo) > most:
+                raise ModelLimitError(f"The word would have more than {most:,} modules", limit=most,
+                                      hint="Take an earlier time, or set limits(modules=...).")
+            if visited % OFTEN == 0 and time.monotonic() > until:
+                raise ModelLimitError(f"The word was not reached in {current().seconds:g} seconds", limit=current().seconds,
+                                      hint="Take an earlier time, or set limits(seconds=...).")
+        return Word(self.states, found)
+
+    def at_end(self, module: Module) -> Module | None:
+        """A module at its terminal age; None where it lives for ever."""
+        rules = self.states.rules.get(kind_of(module))
+        if rules is None:
+            return None
+        try:
+            terminal = rules[0].equalities[0][1]((*module.arguments, *self.states.constants))
+        except (ArithmeticError, ValueError) as fault:
+            raise fault_in(self.states.system, module, rules[0], fault) from None
+        except TypeError:
+            raise self._undecided(module, rules[0].production) from None
+        return Module(module.symbol, (terminal, *module.arguments[1:]))
+
+    def daughters(self, module: Module) -> list[Module]:
+        """What a module at its terminal age becomes: its daughters at their first ages."""
+        return [Module(*made) for made in self.states.made(self.states.rules[kind_of(module)][0], module)]
+
+    def _division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
+        """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
+        at_end = self.at_end(module)
+        if at_end is None:
+            return left, None
+        rest: Value = left - (at_end.arguments[0] - module.arguments[0])  # type: ignore[operator]
+        try:
+            return (left, None) if rest <= 0 else (rest, self.daughters(at_end))
+        except TypeError:
+            raise self._undecided(module, self.states.rules[kind_of(module)][0].production) from None
+
+    def _undecided(self, module: Module, production: Production) -> ModelValueError:
+        """The age at which a module divides hangs on a constant that is not known."""
+        names = sorted({str(name) for value in self.states.constants for name in getattr(value, "free_symbols", ())})
+        start, end = production.at or (None, None)
+        return ModelValueError(f"At which age {module} becomes what {production} says cannot be decided",
+                               self.states.system.source or None, start, end,
+                               f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
+
+
+def timed(system: LSystem, **constants: object) -> Timed:
+    """A system whose modules' one parameter is their age.
+
+    Parameters
+    ----------
+    system
+        A context-free system whose productions give the age at which a module is replaced: `a(1) -> b(0) a(0)`.
+    **constants
+        New values for declared constants.
+
+    Raises
+    ------
+    ModelValueError
+        The system is no timed one.
+    """
+    states = States(system, constants)
+    check_settled(states, "The word at any time")
+    for rules in states.rules.values():
+        for rule in rules:
+            if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:
+                start, end = rule.production.at or (None, None)
+                shown = as_written(system, rule.production)
+                raise ModelValueError(f"The production {shown} does not say at which age it applies",
+                                      system.source or None, start, end, 'A timed production reads "a(1) -> b(0) a(0)".')
+    return Timed(states)

@@ -1,0 +1,130 @@
+"""Where the vertices of maps lie: the first cell is a regular polygon, each new vertex a point of its wall, then all relax."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
+
+import numpy as np
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.maps.map import Map, cell_words
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relaxing
+from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
+from lsys_kit.notation.model.maps import Edge
+
+FIRST_WALL = 0.28
+"""The length of a wall of the first cell, before it is at rest."""
+OFTEN = 100
+"""After so many iterations the time is looked at."""
+
+
+def placed(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
+    """Where the vertices of each map lie when all are at rest.
+
+    Parameters
+    ----------
+    maps
+        The maps of steps 0, 1, 2, ...
+    forces
+        How strong cells and walls are.
+
+    Returns
+    -------
+    iterator of arrays
+        For each map x and y of its vertices, shape (vertices, 2). The first wall lies on top and leads to the right.
+
+    Raises
+    ------
+    ModelLimitError
+        This takes too long.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.maps.development import developed
+    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> square, divided = placed(developed(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
+    >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
+    [0.28 0.28] [0.56 0.36]
+    """
+    until = time.monotonic() + current().seconds
+    points: Floats | None = None
+    for step, found in enumerate(maps):
+        points = _at_rest(relaxing(begun(found, points), tissue(found), forces), step, until)
+        yield points
+
+
+def _at_rest(way: Iterator[Floats], step: int, until: float) -> Floats:
+    """Where the way of the vertices ends."""
+    points = next(way)
+    for iteration, farther in enumerate(way):
+        points = farther
+        if iteration % OFTEN == 0 and time.monotonic() > until:
+            raise ModelLimitError(f"The cells of step {step} did not come to rest in {current().seconds:g} seconds",
+                                  limit=current().seconds, hint="Take fewer steps, or set limits(seconds=...).")
+    return points
+
+
+def settling(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NORMAL) -> Iterator[Floats]:
+    """Where the vertices of the last map lie after some numbers of iterations, which grow; before, the map before is at rest.
+
+    >>> from lsys_kit.derivation.maps.development import developed
+    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> maps = developed(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
+    >>> [float(np.ptp(points[:, 0]).round(2)) for points in settling(maps, [0, 50, 5_000])]
+    [0.28, 0.64, 0.56]
+    """
+    *_, before = None, *placed(maps[:-1], forces)
+    way = relaxing(begun(maps[-1], before), tissue(maps[-1]), forces)
+    reached, points = 0, next(way)
+    for iteration in iterations:
+        points = (deque(islice(way, iteration - reached), maxlen=1) or [points])[0]
+        reached = iteration
+        yield points
+
+
+def begun(found: Map, before: Floats | None) -> Floats:
+    """Where the vertices of a map lie at first, given where those of the map before lie, if there is one."""
+    return polygon(len(found.vertices)) if before is None else inserted(found, before)
+
+
+def polygon(corners: int) -> Floats:
+    """The corners of a regular polygon, clockwise from the left end of its uppermost side."""
+    angles = math.pi / 2 + math.pi / corners - 2 * math.pi / corners * np.arange(corners)
+    return FIRST_WALL / 2 / math.sin(math.pi / corners) * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def inserted(found: Map, points: Floats) -> Floats:
+    """The vertices of a map, given where those of the map before lie: new ones part their walls into equal parts."""
+    new = found.vertices[len(points):]
+    ends = np.array([vertex.between for vertex in new], dtype=np.int64).reshape(-1, 2)
+    shares = np.array([float(vertex.share) for vertex in new]).reshape(-1, 1)
+    return np.concatenate([points, points[ends[:, 0]] * (1 - shares) + points[ends[:, 1]] * shares])
+
+
+def tissue(found: Map) -> Tissue:
+    """What is connected with what in a map."""
+    ends = np.array([(wall.start, wall.end) for wall in found.walls], dtype=np.int64)
+    corners = [corner for cell in found.cells for corner in found.corners(cell)]
+    return Tissue(ends, np.array(corners, dtype=np.int64), np.cumsum([0, *map(len, found.cells)]))
+
+
+def scenes(maps: Iterable[Map], places: Iterable[Floats]) -> Iterator[Scene]:
+    """The walls of each map as segments, its cells as polygons.
+
+    The state of a segment is the number of its label, that of a polygon the number of its kind: cells of one kind have the same
+    walls around them. Both are counted from 0 in the order in which they are first met.
+    """
+    labels: dict[str, int] = {}
+    kinds: dict[tuple[Edge, ...], int] = {}
+    for found, points in zip(maps, places, strict=True):
+        net = tissue(found)
+        drawn = np.array([labels.setdefault(wall.label, len(labels)) for wall in found.walls], dtype=np.int64)
+        states = np.array([kinds.setdefault(word, len(kinds)) for word in cell_words(found)], dtype=np.int64)
+        own = np.full(len(states), -1)
+        yield Scene(Segments(points[net.ends].reshape(-1, 4), np.zeros(len(drawn), np.int64), drawn),
+                    polygons=Polygons(points[net.corners], net.starts, states, own))

@@ -1,0 +1,168 @@
+"""What cpfg's grammar names, as records."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+from typing import Any
+
+from lark import Token, v_args
+
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
+from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, called, shortened, wanted
+from lsys_kit.notation.dialects.cpfg.wording import in_cpfg
+from lsys_kit.notation.model.expressions import Apply, Expression, Number
+from lsys_kit.notation.model.system import END, Constant, Module
+from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
+
+_SPELLINGS = {"<>": "!=", "%": "mod"}
+"""Operators that the kit spells otherwise."""
+SYMBOL = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
+"""A symbol: a character, or "@" or "?" with a letter."""
+_SECTIONS = {"production": "productions", "homomorphism": "interpretation"}
+"""Sections that the kit calls otherwise."""
+
+
+def _around(first: Expression, last: Expression | None = None) -> tuple[int, int]:
+    """The offsets from the first to the last of some expressions."""
+    return (first.at or (0, 0))[0], ((last or first).at or (0, 0))[1]
+
+
+@cache
+def _plain(symbol: str) -> Module:
+    """A module without values."""
+    return Module("-" if symbol == "−" else symbol)
+
+
+def _flat(parts: Iterable[Any]) -> Iterator[Any]:
+    """The parts of a word, one after another."""
+    for part in parts:
+        if isinstance(part, tuple):
+            yield from part
+        else:
+            yield part
+
+
+def _as_block(part: Block | Assignment | Choice) -> Block:
+    """What stands behind "if" or "else", with braces or without."""
+    return part if isinstance(part, tuple) else (part,)
+
+
+def _is_block(part: Any) -> bool:
+    """Whether a part of a production is a block with its place."""
+    return isinstance(part, tuple) and part[:1] in (("before",), ("after",))
+
+
+def _misplaced(token: Token) -> Misread:
+    return Misread(ModelSyntaxError, 'This "=" stands for the rest of no branch', (token.start_pos or 0, token.end_pos or 0),
+                   'It stands before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".')
+
+
+@v_args(inline=True)
+class _Expressions(Expressions):
+    """C's truths are numbers, and its numbers truths."""
+
+    def binary(self, left: Expression, sign: Token, right: Expression) -> Expression:
+        return super().binary(left, sign.update(value=_SPELLINGS.get(sign, str(sign))), right)
+
+    def either(self, condition: Expression, then: Expression, otherwise: Expression) -> Expression:
+        return self._applied("if", (condition, then, otherwise), _around(condition, otherwise))
+
+    def call(self, name: Token, *operands: Expression) -> Expression:
+        at = name.start_pos or 0, _around(operands[-1])[1]
+        made = called(str(name), operands, at)
+        return self._applied(made.operator, made.operands, at)
+
+    def _applied(self, operator: str, operands: tuple[Expression, ...], at: Any) -> Apply:
+        try:
+            return shortened(super()._applied(operator, wanted(operator, operands), at))
+        except Misread as misread:
+            misread.hint = misread.hint and in_cpfg(misread.hint)
+            raise
+
+
+@v_args(inline=True)
+class Records(_Expressions, Statements):
+    """What `cpfg.lark` names."""
+
+    def module(self, symbol: Token, *arguments: Expression) -> Module:
+        return super().module(symbol, *map(as_number, arguments))
+
+    def row(self, token: Token) -> tuple[Module, ...]:
+        """Symbols without values; brackets know their places, in case one is not closed."""
+        found: list[Module] = []
+        at = token.start_pos or 0
+        for piece in re.split(r"([\[\]])", token):
+            found += (Module(piece, at=(at, at + 1)),) if piece in ("[", "]") else map(_plain, SYMBOL.findall(piece))
+            at += len(piece)
+        return tuple(found)
+
+    def word(self, *parts: Module | tuple[Module, ...]) -> tuple[Module, ...]:
+        return tuple(_flat(parts))
+
+    def constant(self, name: Token, value: Expression, *rest: Expression) -> tuple[str, Constant]:
+        return super().constant(name, as_number(value), *rest)
+
+    def setting(self, keyword: Token, value: Expression) -> tuple[str, Expression]:
+        return super().setting(keyword, as_number(value))
+
+    def count(self, keyword: Token, value: Expression) -> tuple[str, Any]:
+        return "more", ("count", (" ".join(keyword.rstrip(": \t").lower().split()), as_number(value)))
+
+    def mark(self, *_: Token) -> tuple[str, Any]:
+        return "more", ("mark", None)
+
+    def section(self, keyword: Token) -> tuple[str, Any]:
+        name = keyword.split()[0].rstrip(":").lower()
+        return "more", ("section", _SECTIONS.get(name, name))
+
+    def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
+        """Brackets may stand among the symbols that contexts see: they follow the branches in any case."""
+        others = [name for name in names if name not in "[]"]
+        consider = keyword.lower().startswith("consider") and others
+        return super().symbols(keyword, *(others if consider else names))
+
+    def condition(self, expression: Expression) -> tuple[str, Any]:
+        """A number other than 0 is a condition that always holds."""
+        always = isinstance(expression, Number) and expression.value != 0
+        return "condition", None if always else as_truth(expression)
+
+    def pattern(self, *parts: Module | Token | tuple[Module, ...]) -> tuple[Module, ...]:
+        """A right context, in which a branch ends at its bracket unless "=" stands for the rest of it."""
+        found: list[Module] = []
+        modules = tuple(_flat(parts))
+        for index, module in enumerate(modules):
+            if isinstance(module, Token):
+                if index + 1 == len(modules) or str(modules[index + 1]) != "]":
+                    raise _misplaced(module)
+                continue
+            if module.symbol == "]" and not isinstance(modules[index - 1], Token):
+                found.append(Module(END))
+            found.append(module)
+        return tuple(found)
+
+    def before(self, block: Block) -> tuple[str, Block]:
+        return "before", block
+
+    def after(self, block: Block) -> tuple[str, Block]:
+        return "after", block
+
+    def block(self, *instructions: Assignment | Choice) -> Block:
+        return instructions
+
+    def assignment(self, name: Token, _: Token, value: Expression) -> Assignment:
+        return Assignment(self.name(name), as_number(value))
+
+    def choice(self, condition: Expression, then: Any, otherwise: Any = ()) -> Choice:
+        choice = Choice(as_truth(condition), _as_block(then), _as_block(otherwise))
+        if choice.depth > current().depth:
+            raise Misread(ModelSyntaxError, f"Choices are nested more than {current().depth} deep", _around(condition))
+        return choice
+
+    def production(self, *parts: Any) -> tuple[str, Any]:
+        blocks = dict(filter(_is_block, parts))
+        _, production = super().production(*(part for part in parts if not _is_block(part)))
+        return "more", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))

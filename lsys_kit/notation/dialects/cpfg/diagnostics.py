@@ -1,0 +1,135 @@
+"""What is asked about a slip in a cpfg text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.dialects.cpfg.wording import reworded
+from lsys_kit.notation.syntax.diagnostics import QUESTIONS
+from lsys_kit.notation.syntax.dialect import Question
+from lsys_kit.notation.syntax.failure import Stumble, printed, quoted, unclosed
+from lsys_kit.notation.syntax.statements import ARROW
+
+_CONSTANTS = 'Constants are declared with "#define", as in "#define n 3".'
+_OWN_BLOCK = "Compute what a rule needs in its own block, with assignments and if."
+
+FEATURES: Sequence[tuple[str, str, str]] = (
+    (r"(start|end)[ \t]*(each)?[ \t]*:", "statements that run before or after the steps", _CONSTANTS),
+    (r"define[ \t]*:", "arrays", _CONSTANTS),
+    (r"#[ \t]*include\b", "included files", "Put the text of the file in place of this line."),
+    (r"#[ \t]*(if\w*|el\w+|endif|undef)\b", "lines that are read on a condition", "Keep the lines that are meant."),
+    (r"#[ \t]*define[ \t]+\w+\(", "macros with parameters", "Write what it stands for wherever it stands."),
+    (r"ring[ \t]+lsystem", "words whose ends are joined", "Without this line a word has two ends."),
+)
+"""What cpfg has and the kit has not: how a statement begins, what it is, and what to do instead."""
+_BEHIND_A_NAME = {"(": "statements that call a function", "[": "arrays", "{": "loops"}
+"""What stands in a block, to judge by what follows a name."""
+
+KEYWORDS: Mapping[str, str] = {
+    "Axiom": "A", "Lsystem": "1", "derivation length": "9", "maximum depth": "2", "seed": "3", "ignore": "+-", "consider": "AB",
+    "angle": "30", "heading": "90", "length": "1", "decomposition": "", "homomorphism": "", "endlsystem": ""}
+"""The keywords, each with something that may stand behind its colon."""
+_ALSO = {"steps": "derivation length", "derivation": "derivation length", "depth": "maximum depth", "start": "Axiom",
+         "initiator": "Axiom", "interpretations": "homomorphism", "end lsystem": "endlsystem"}
+"""What others say for a keyword."""
+_MACRO = re.compile(r"#[ \t]*define\b[ \t]*(\w+)?[ \t]*")
+
+
+def _feature(stumble: Stumble) -> ModelSyntaxError | None:
+    """Something that cpfg has and the kit has not."""
+    statement = stumble.text[stumble.start:stumble.end]
+    for pattern, what, instead in FEATURES:
+        if found := re.match(pattern, statement, re.IGNORECASE):
+            return stumble.error(f"The kit has no {what}", instead, stumble.start, found.end())
+    arrow = statement.find("-o>")
+    if arrow >= 0:
+        return stumble.error("The kit has no rules for objects", 'A production reads "A --> B".', stumble.start + arrow, 3)
+    return None
+
+
+def _in_a_block(stumble: Stumble) -> ModelSyntaxError | None:
+    """A statement that is no assignment and no choice, or an element of an array."""
+    name, what = re.search(r"\w+$", stumble.before), _BEHIND_A_NAME.get(stumble.found[:1])
+    behind = stumble.accepted == {"EQUAL"} or (what == "arrays" and "TIMES" in stumble.accepted)
+    if name is None or what is None or not behind:
+        return None
+    if name[0] in ("while", "do"):
+        what = "loops"
+    return stumble.error(f"The kit has no {what}", _OWN_BLOCK, stumble.start + name.start(), len(name[0]))
+
+
+def _end_of_block(stumble: Stumble) -> ModelSyntaxError | None:
+    """An assignment without its ";", or a block without its "}"."""
+    opened = unclosed(stumble.before, "{}")
+    if opened is None or "SYMBOL" in stumble.accepted:
+        return None
+    if "SEMICOLON" in stumble.accepted and re.match(r"\}|[A-Za-z_]", stumble.found):
+        return stumble.error('A ";" is missing here', 'Every assignment ends with one, as in "{x = t + 1;}".')
+    if not stumble.found or ARROW.match(stumble.found):
+        return stumble.error('This "{" is never closed', 'Every block ends with "}", as in "{x = t + 1;}".',
+                             stumble.start + opened, 1)
+    return None
+
+
+def _macro(stumble: Stumble) -> ModelSyntaxError | None:
+    """A constant without a name or a value, or with a value that is no number."""
+    statement = stumble.text[stumble.start:stumble.end]
+    defined = _MACRO.match(statement)
+    if not defined:
+        return None
+    value, at = statement[defined.end():], stumble.start + defined.end()
+    if not defined[1]:
+        return stumble.error("A name is missing here", _CONSTANTS, at)
+    if not value:
+        return stumble.error(f'The macro "{defined[1]}" stands for nothing', f'Give it a number: "#define {defined[1]} 1".',
+                             stumble.start)
+    if value[0] == "=":
+        return stumble.error('This "=" is not needed', f'Type "#define {defined[1]} {printed(value[1:].strip())}".', at, 1)
+    if re.match(r"-?[\d.(]|[A-Za-z_]\w*[ \t]*[(*/+%^-]", value):
+        found = next(filter(None, (question(stumble) for question in QUESTIONS[1:])), None)
+        return found or stumble.error(f"I did not expect {quoted(stumble.found)} here" if stumble.found else
+                                      "The line ends too early", _CONSTANTS)
+    return stumble.error(f'The macro "{defined[1]}" stands for no number',
+                         f'Write {printed(value)} itself wherever "{defined[1]}" stands.', at, len(value))
+
+
+def _keyword(stumble: Stumble) -> ModelSyntaxError | None:
+    """A keyword that is misspelt, or stands without its colon or what belongs behind it."""
+    statement = stumble.text[stumble.start:stumble.end]
+    word = re.match(r"([A-Za-z]{3,}(?:[ \t]+[A-Za-z]{3,})?)[ \t]*(:?)[ \t]*", statement)
+    if not word or ARROW.search(statement):
+        return None
+    name, rest = " ".join(word[1].lower().split()), printed(statement[word.end():].strip())
+    meant = _ALSO.get(name) or _like(name)
+    if meant is None:
+        return None
+    at, length, known, example = stumble.start, len(word[1]), name == meant.lower(), KEYWORDS[meant]
+    if known and word[2]:
+        reads = f'It reads "{meant}: {example}".'
+        return None if rest else stumble.error(f'Nothing stands behind "{word[1]}:"', reads, at, length)
+    if word[2] or not (rest or known):
+        return stumble.error(f'I do not know "{word[1]}{word[2]}"', f'Did you mean "{meant}{word[2]}"?', at, length)
+    return stumble.error(f'A ":" is missing behind "{word[1]}"', f'Type "{meant}: {rest or example}".', at, length)
+
+
+def _like(name: str) -> str | None:
+    """The keyword that a name resembles."""
+    close = get_close_matches(name, [keyword.lower() for keyword in KEYWORDS], 1, 0.75)
+    return next((keyword for keyword in KEYWORDS if keyword.lower() in close), None)
+
+
+def _worded(question: Question) -> Question:
+    """A question of the kit's own notation, whose answer is given in cpfg's words."""
+
+    def asked(stumble: Stumble) -> ModelSyntaxError | None:
+        answer = question(stumble)
+        return None if answer is None else reworded(answer)
+
+    return asked
+
+
+ASKED: Sequence[Question] = (_feature, _in_a_block, _end_of_block, _macro, _keyword, *map(_worded, QUESTIONS))
+"""What is asked about a slip in a cpfg text, the most telling first."""

@@ -1,0 +1,136 @@
+"""cpfg's notation (seed 002), the language of the Virtual Laboratory; its grammar is `cpfg.lark`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from lark import Transformer
+
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
+from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
+from lsys_kit.notation.dialects.cpfg.actions import Records
+from lsys_kit.notation.dialects.cpfg.blocks import put_in
+from lsys_kit.notation.dialects.cpfg.diagnostics import ASKED
+from lsys_kit.notation.dialects.cpfg.statements import statements
+from lsys_kit.notation.dialects.cpfg.wording import reworded
+from lsys_kit.notation.dialects.cpfg.writer import joined, lacking, module_text, written
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.builder import Draft, assembled
+from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.failure import outside
+from lsys_kit.notation.syntax.statements import ARROW, without_comments
+
+_MARKS = re.compile(
+    r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
+    re.MULTILINE | re.IGNORECASE)
+_AXIOM = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
+_DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
+_PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*")
+
+
+def _records() -> Transformer[Any, Any]:
+    return Records()
+
+
+def _finish(draft: Draft) -> LSystem:
+    """The system, with errors in cpfg's words."""
+    try:
+        _check_macros(draft)
+        _put_together(draft)
+        draft.notes += _notes(draft)
+        return assembled(draft)
+    except LSystemError as error:
+        raise reworded(error) from None
+
+
+def _put_together(draft: Draft) -> None:
+    """Takes in what is known only when all is read: the sections, and what the blocks of the rules compute."""
+    section, constants = "productions", [constant.name for constant in draft.constants]
+    for kind, record, at in draft.more:
+        if kind == "section":
+            section = record
+            draft.add(kind, record, at)
+        elif kind == "rule":
+            production, before, after = record
+            draft.add("production", put_in(production, before, after, constants, draft.source), at)
+        elif kind == "count":
+            keyword, expression = record
+            _count(draft, section, keyword, expression, at)
+
+
+def _count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
+    """A number of steps or rounds, or a seed, which the constants may say."""
+    depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
+    if keyword == "maximum depth" and section not in depths:
+        raise ModelSyntaxError('This "maximum depth:" stands in no section', draft.source, *at,
+                               'It stands below "decomposition" or below "homomorphism".')
+    name = depths[section] if keyword == "maximum depth" else "seed" if keyword == "seed" else "steps"
+    if name in draft.settings:
+        raise ModelSyntaxError(f'"{keyword}:" stands here a second time', draft.source, *at, "Keep one of the two lines.")
+    values: dict[str, Any] = {}
+    for constant in draft.constants:
+        values[constant.name] = value_of(constant.value, draft.source, values)
+    check_expression(expression, values.keys(), draft.source)
+    draft.add(name, Number(value_of(expression, draft.source, values), expression.at), at)
+
+
+def _check_macros(draft: Draft) -> None:
+    """Each macro is a number, made of those before it."""
+    names = [constant.name for constant in draft.constants]
+    for index, constant in enumerate(draft.constants):
+        value = constant.value
+        if constant.name in SETTINGS:
+            raise ModelNameError(f'The name "{constant.name}" is taken by a setting', draft.source, *span(constant),
+                                 f'Give the macro another name, such as "{constant.name.upper()}".')
+        if isinstance(value, Name) and value.name not in names[:index]:
+            later = value.name in names
+            raise ModelSyntaxError(
+                f'The macro "{value}" is defined only below' if later else f'The macro "{constant.name}" stands for no number',
+                draft.source, *span(value), 'Put its line before this one.' if later else
+                f'Write "{value}" itself wherever "{constant.name}" stands.')
+    check_constants(draft.constants, draft.source)
+
+
+def _notes(draft: Draft) -> Iterator[str]:
+    """What cpfg would read otherwise, or a person may have meant otherwise."""
+    text = without_comments(draft.source)
+    for constant in draft.constants:
+        start, end = constant.at or (0, 0)
+        value = _DEFINED.sub("", text[start:end]).strip()
+        if _infix(constant.value) and not _enclosed(value):
+            yield f'The macro "{constant.name}" is a number here; cpfg puts its text in place: write "({value})".'
+    for production in (production for rules in draft.sections.values() for production in rules):
+        start, end = production.at or (0, 0)
+        arrow = ARROW.search(text, start, end)
+        prose = _PROSE.search(text, arrow.end(), end) if arrow else None
+        if prose:
+            yield f'"{prose.group()}" is read as symbols, two rolls first; a comment stands between "/*" and "*/".'
+
+
+def _infix(expression: Expression) -> bool:
+    """Whether an expression is made with an operator between two others."""
+    return (isinstance(expression, Apply) and len(expression.operands) == 2
+            and OPERATORS[expression.operator].precedence is not None)
+
+
+def _enclosed(value: str) -> bool:
+    """Whether one pair of parentheses stands around a text."""
+    return value.startswith("(") and not outside(value).strip()
+
+
+def _likely(text: str) -> int:
+    """Ten for each mark that only cpfg has; two for a capital "Axiom:" and long arrows behind single letters."""
+    marks = len(_MARKS.findall(text))
+    if not marks and _AXIOM.search(text):
+        heads = [line[:arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"]
+        single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", outside(head).split(":")[0]))
+        return 2 * (bool(heads) and single)
+    return 10 * marks
+
+
+CPFG = Notation(
+    name="cpfg", statements=statements, records=_records, finish=_finish, questions=ASKED, module=module_text, joined=joined,
+    write=written, lacking=lacking, likely=_likely)

@@ -1,0 +1,192 @@
+"""Expressions as cpfg has them: C's truths, which are numbers, and the functions of its manual.
+
+cpfg's signs bind more tightly than `^`, and `^` goes from left to right: `-2^2` is 4, `2^3^2` is 64. Angles are in degrees
+(CPFG User's Manual, "Predefined functions").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    Place,
+    Style,
+    gives,
+    is_random,
+    written,
+)
+from lsys_kit.notation.syntax.actions import Misread
+
+SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "floor", "ceil")
+"""The functions that cpfg and the kit call alike."""
+RENAMED: Mapping[str, str] = {"fabs": "abs", "nran": "normal", "biran": "binomial"}
+"""Functions of cpfg that the kit calls otherwise."""
+ZERO, ONE = Number(0), Number(1)
+
+
+def _uniform(x: Expression, at: Place) -> Apply:
+    return Apply("uniform", (ZERO, x), at)
+
+
+def _truncated(x: Expression, at: Place) -> Apply:
+    return Apply("if", (Apply("<", (x, ZERO)), Apply("ceil", (x,)), Apply("floor", (x,))), at)
+
+
+def _sign(x: Expression, at: Place) -> Apply:
+    return Apply("if", (Apply("<", (x, ZERO)), Number(-1), Apply("if", (Apply(">", (x, ZERO)), ONE, ZERO))), at)
+
+
+BUILT: Mapping[str, Callable[[Expression, Place], Apply]] = {"ran": _uniform, "trunc": _truncated, "sign": _sign}
+"""Functions of one value that the kit has in other words."""
+ALSO: Mapping[str, str] = {"abs": "abs", "pow": "^"}
+"""Functions that C has and people type."""
+_FUNCTIONS: Mapping[str, str] = {**{name: name for name in SAME}, **RENAMED, **ALSO}
+ABSENT = ("atan2", "bran", "func", "inblob", "printf", "fprintf", "fopen", "fclose", "fflush", "fscanf", "srand", "stop",
+          "play", "curveX", "curveY", "curveZ")
+"""Functions of cpfg that the kit does not have."""
+_ROUNDED = 'Type "floor" or "ceil".'
+
+
+def as_truth(expression: Expression) -> Expression:
+    """What is true where the expression is: a number is true where it is not 0.
+
+    >>> print(as_truth(Name("t")))
+    t != 0
+    """
+    return expression if gives(expression) == "truth" else Apply("!=", (expression, ZERO), expression.at)
+
+
+def as_number(expression: Expression) -> Expression:
+    """The number that an expression is: a truth is 1 or 0.
+
+    >>> print(as_number(Apply("<", (Name("t"), Number(5)))))
+    if(t < 5, 1, 0)
+    """
+    return expression if gives(expression) == "number" else Apply("if", (expression, ONE, ZERO), expression.at)
+
+
+def wanted(operator: str, operands: tuple[Expression, ...]) -> tuple[Expression, ...]:
+    """The operands of an operator as it takes them: truths or numbers."""
+    entry = OPERATORS[operator]
+    return tuple(as_truth(operand) if entry.wanted(index) == "truth" else as_number(operand)
+                 for index, operand in enumerate(operands))
+
+
+def called(name: str, operands: tuple[Expression, ...], at: Place) -> Apply:
+    """What a function of cpfg gives.
+
+    >>> print(called("ran", (Number(5),), None))
+    uniform(0, 5)
+    """
+    place = at or (0, 0)
+    if name in ABSENT:
+        raise Misread(ModelNameError, f"The kit has no {name}(...)", place)
+    if name not in _FUNCTIONS and name not in BUILT:
+        known = (*SAME, *RENAMED, *BUILT)
+        raise Misread(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)
+                      or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}.")
+    count = 1 if name in BUILT else OPERATORS[_FUNCTIONS[name]].arity[0]
+    if len(operands) != count:
+        raise Misread(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
+    if name not in BUILT:
+        return Apply(_FUNCTIONS[name], wanted(_FUNCTIONS[name], operands), at)
+    if name != "ran" and is_random(operands[0]):
+        raise Misread(ModelValueError, f"{name}(...) cannot be of a random number", place,
+                      _ROUNDED if name == "trunc" else None)
+    return BUILT[name](as_number(operands[0]), at)
+
+
+def _instead(name: str) -> str | None:
+    """What cpfg has in place of a function of the kit."""
+    return {"if": 'A choice is typed "t < 5 ? 1 : 2".', "min": 'Type "x < y ? x : y".', "max": 'Type "x > y ? x : y".',
+            "mod": 'Type "x % y".', "uniform": 'Type "ran(x)", a number from 0 to x.'}.get(name)
+
+
+_LESS: Mapping[str, str] = {"<": "min", ">": "max"}
+"""What `x < y ? x : y` says."""
+_STYLE = Style({kit: cpfg for cpfg, kit in RENAMED.items()})
+_KNOWN = frozenset((*SAME, *RENAMED.values(), *_LESS.values(), "if", "mod", "uniform"))
+
+
+def text_of(expression: Expression) -> str:
+    """An expression as cpfg reads it.
+
+    >>> text_of(Apply("if", (Apply("<", (Name("t"), Apply("abs", (Name("x"),)))), Number(1), Name("t"))))
+    '(t < fabs(x) ? 1 : t)'
+    """
+    return written(_spelt(expression), _STYLE)
+
+
+def _spelt(expression: Expression) -> Expression:
+    """The expression in which a name stands for each part that cpfg writes otherwise than a style can say."""
+    if not isinstance(expression, Apply):
+        return expression
+    operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
+    texts = [written(operand, _STYLE) for operand in operands]
+    if operator == "if":
+        return Name("({} ? {} : {})".format(*texts))
+    if operator in ("min", "max"):
+        return Name(f"({texts[0]} {'<' if operator == 'min' else '>'} {texts[1]} ? {texts[0]} : {texts[1]})")
+    if operator == "uniform":
+        return Name(f"ran({texts[1]})" if operands[0] == ZERO else f"({_apart(operands[0])} + ran({_between(expression)}))")
+    if operator == "mod":
+        return Name(f"({_apart(operands[0])} % {_apart(operands[1])})")
+    if operator in ("-x", "^"):  # both bind otherwise in cpfg than in the kit
+        operands = (*operands[:-1], Name(_apart(operands[-1])))
+    return Apply(operator, operands)
+
+
+def _apart(expression: Expression) -> str:
+    """The text of an operand, in parentheses where it is made with an operator or has a sign."""
+    text = written(expression, _STYLE)
+    plain = isinstance(expression, Name) or (isinstance(expression, Number) and text[0] != "-" and "/" not in text)
+    function = isinstance(expression, Apply) and OPERATORS[expression.operator].precedence is None
+    return text if plain or function else f"({text})"
+
+
+def _between(uniform: Apply) -> str:
+    """How far the ends of a random number lie apart."""
+    low, high = uniform.operands
+    return text_of(Apply("-", (high, low)))
+
+
+def shortened(applied: Apply) -> Apply:
+    """What cpfg says with other operators and the kit with one: the lesser of two numbers, a number between two others.
+
+    >>> print(shortened(Apply("+", (Number(2), Apply("uniform", (ZERO, Apply("-", (Number(5), Number(2)))))))))
+    uniform(2, 5)
+    """
+    first, *others = applied.operands
+    if applied.operator == "if" and isinstance(first, Apply) and first.operator in _LESS and first.operands == tuple(others):
+        return applied if is_random(first) else Apply(_LESS[first.operator], first.operands, applied.at)
+    if applied.operator == "+" and isinstance(others[0], Apply) and others[0].operator == "uniform" and not is_random(first):
+        zero, width = others[0].operands
+        if zero == ZERO and isinstance(width, Apply) and width.operator == "-" and width.operands[1:] == (first,):
+            return Apply("uniform", (first, width.operands[0]), applied.at)
+    return applied
+
+
+def lacking(expression: Expression) -> str | None:
+    """What cpfg lacks to write an expression, in words.
+
+    >>> lacking(Apply("poisson", (Name("t"),)))
+    'function "poisson"'
+    """
+    if not isinstance(expression, Apply):
+        return None
+    if OPERATORS[expression.operator].precedence is None and expression.operator not in _KNOWN:
+        return f'function "{expression.operator}"'
+    if expression.operator in _LESS.values() and (len(expression.operands) > 2 or is_random(expression)):
+        return f'function "{expression.operator}" of more than two numbers, or of random numbers'
+    if expression.operator == "uniform" and is_random(expression.operands[0]):
+        return "random numbers from a random number on"
+    if shortened(expression) != expression:
+        return f'other words for "{shortened(expression).operator}"'
+    return next(filter(None, map(lacking, expression.operands)), None)

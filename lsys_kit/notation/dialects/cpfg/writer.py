@@ -1,0 +1,137 @@
+"""A system as a cpfg text, and what cpfg has no words for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from itertools import chain
+
+from lsys_kit.notation.dialects.cpfg.actions import SYMBOL
+from lsys_kit.notation.dialects.cpfg.expressions import lacking as lacking_in
+from lsys_kit.notation.dialects.cpfg.expressions import text_of
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
+from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.syntax.formatting import first_lacking
+
+_RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
+
+
+def module_text(module: Module) -> str:
+    """A module in cpfg's notation.
+
+    >>> module_text(Module("M", (2, -1)))
+    'M(2,-1)'
+    """
+    if not module.arguments:
+        return module.symbol
+    texts = (text_of(a) if isinstance(a, Expression) else number_text(a) for a in module.arguments)
+    return f"{module.symbol}({','.join(texts)})"
+
+
+def joined(texts: Iterable[str]) -> str:
+    """The texts of modules as one word: a blank only where "@T" would make a symbol with a letter behind it.
+
+    >>> joined(["F", "@T", "s", "[", "+", "F", "]"])
+    'F@T s[+F]'
+    """
+    return re.sub(r"@T(?=\0[a-z])", "@T ", "\0".join(texts)).replace("\0", "")
+
+
+def written(system: LSystem) -> str:
+    """The text of a system that lacks nothing in cpfg."""
+    return "\n".join(_lines(system))
+
+
+def _lines(system: LSystem) -> Iterator[str]:
+    yield from map(_macro, system.constants)
+    yield "Lsystem: 1"
+    for keyword, number in (("seed", system.seed), ("derivation length", system.steps)):
+        if number is not None:
+            yield f"{keyword}: {number}"
+    for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
+        if symbols:
+            yield f"{keyword}: {joined(symbols)}"
+    for keyword, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90),
+                                  ("length", system.length, None)):
+        if value != usual and value is not None:
+            yield f"/* {keyword}: {number_text(value)} */"
+    yield f"Axiom: {joined(map(module_text, system.axiom))}"
+    yield from map(_rule, system.productions)
+    yield from _section("decomposition", system.decomposition, system.decomposition_depth)
+    yield from _section("homomorphism", system.interpretation, None if system.depth == 1 else system.depth)
+    yield "endlsystem"
+
+
+def _section(keyword: str, rules: Iterable[Production], depth: int | None) -> Iterator[str]:
+    if rules or depth is not None:
+        yield keyword
+    if depth is not None:
+        yield f"maximum depth: {depth}"
+    yield from map(_rule, rules)
+
+
+def _macro(constant: Constant) -> str:
+    """A constant, in parentheses where its parts could bind to what stands beside its name."""
+    value = text_of(constant.value)
+    apart = isinstance(constant.value, Apply) and OPERATORS[constant.value.operator].precedence is not None
+    span = " /* {} .. {} by {} */".format(*constant.range) if constant.range else ""
+    return f"#define {constant.name} {f'({value})' if apart else value}{span}"
+
+
+def _rule(rule: Production) -> str:
+    left = f"{joined(map(module_text, rule.left))} < " if rule.left else ""
+    right = f" > {joined(_pattern(rule.right))}" if rule.right else ""
+    condition = f" : {text_of(rule.condition)}" if rule.condition is not None else ""
+    probability = f" : {text_of(rule.probability)}" if rule.probability is not None else ""
+    successor = joined(map(module_text, flat(rule.successor))) or "*"
+    return f"{re.sub('^//', '/ /', left)}{module_text(rule.predecessor)}{right}{condition} --> {successor}{probability}"
+
+
+def _pattern(modules: Iterable[Module]) -> Iterator[str]:
+    """A right context, with "=" for the rest of each branch whose end it does not name."""
+    before = ""
+    for module in modules:
+        if module.symbol == "]" and before != END:
+            yield "="
+        if module.symbol != END:
+            yield module_text(module)
+        before = module.symbol
+
+
+def lacking(system: LSystem) -> str | None:
+    """The first thing that a system has and cpfg lacks, in words."""
+    if system.turtle != "abop":
+        return "turtle commands of " + {"grogra": "GROGRA", "plant-string": "plant strings"}[system.turtle]
+    found = chain((first_lacking(system, "round brackets as branches", "repetition", "meta-rules"),),
+                  map(_lacking_symbol, _symbols(system)), map(lacking_in, _expressions(system)),
+                  map(_lacking_range, system.constants))
+    return next(filter(None, found), None)
+
+
+def _symbols(system: LSystem) -> Iterator[str]:
+    yield from (*system.ignored, *system.considered)
+    for module in system.axiom:
+        yield module.symbol
+    for rule in system.rules:
+        ends = {at for at, module in enumerate(rule.right[1:]) if module.symbol == "]" and rule.right[at].symbol == END}
+        seen = (module for at, module in enumerate(rule.right) if at not in ends)
+        yield from (module.symbol for module in (*rule.left, rule.predecessor, *seen, *flat(rule.successor)))
+
+
+def _lacking_symbol(symbol: str) -> str | None:
+    if SYMBOL.fullmatch(symbol) and symbol != "−":
+        return None
+    return "symbols of several letters" if len(symbol) > 1 else f'symbol "{symbol}"'
+
+
+def _expressions(system: LSystem) -> Iterator[Expression]:
+    yield from (constant.value for constant in system.constants)
+    yield from (argument for module in system.modules for argument in module.arguments if isinstance(argument, Expression))
+    for rule in system.rules:
+        yield from (expression for expression in (rule.condition, rule.probability) if expression is not None)
+
+
+def _lacking_range(constant: Constant) -> str | None:
+    numbers = all(_RANGE_END.fullmatch(str(end)) for end in constant.range or ())
+    return None if numbers else "ends of sliders that are calculated"

@@ -1,0 +1,164 @@
+r"""The variables that a system needs in GROGRA's notation: one for each distinct draw, function and index.
+
+The records have draws where GROGRA has names: RH(uniform(0, 360)) is written `RH(x0)`, after `\var x0 uniform 0 360`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import count
+
+from lsys_kit.notation.dialects.grogra.variables import Variable, draw, expressions_of, names_of
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, names_in
+from lsys_kit.notation.model.system import Item, LSystem, Production, Repeat
+
+_Function = tuple[int, int]
+"""A function of the turtle: its number, and how many values it is asked with."""
+
+
+@dataclass(frozen=True)
+class Declared:
+    """The variables of a system.
+
+    Attributes
+    ----------
+    draws, functions
+        Their names.
+    levels
+        For each index how many repetitions are around the one that it counts.
+    """
+
+    draws: Mapping[Expression, str]
+    functions: Mapping[_Function, str]
+    levels: Mapping[str, int]
+
+    @property
+    def variables(self) -> Iterator[Variable]:
+        """What is to be declared."""
+        for drawn, name in self.draws.items():
+            yield replace(as_variable(drawn), name=name)
+        for (number, values), name in self.functions.items():
+            yield Variable(name, "function", (Number(number), Number(values)))
+        for name, level in self.levels.items():
+            yield Variable(name, "index", (Number(level),) if level else ())
+
+
+def declared(system: LSystem) -> Declared:
+    """The variables that a system needs.
+
+    >>> from lsys_kit.notation.read import read
+    >>> needed = declared(read("axiom: a\\na -> RH(uniform(0, 360)) repeat(3, i) <b(i)> RU(uniform(0, 360))"))
+    >>> [(variable.name, variable.kind) for variable in needed.variables]
+    [('x0', 'uniform'), ('i', 'index')]
+    """
+    taken = {name for expression in _expressions(system) for name in names_in(expression)}
+    asked = [found for expression in _expressions(system) for found in _asked(expression)]
+    draws = dict.fromkeys(found for found in asked if found.operator != "sensed")
+    functions = dict.fromkeys(_function(found) for found in asked if found.operator == "sensed")
+    levels = {repeat.index: level for repeat, level in _repeats(system) if repeat.index}
+    return Declared(dict(zip(draws, _free("x", taken), strict=False)), dict(zip(functions, _free("f", taken), strict=False)),
+                    levels)
+
+
+def _free(letter: str, taken: Collection[str]) -> Iterator[str]:
+    """The letter with a number, those left out that have a meaning already."""
+    return (name for name in (f"{letter}{number}" for number in count()) if name not in taken)
+
+
+def _expressions(system: LSystem) -> Iterator[Expression]:
+    """All expressions of a system, in the order written."""
+    for constant in system.constants:
+        yield from (Name(constant.name), constant.value)
+    yield from expressions_of(system.axiom)
+    for rule in system.rules:
+        yield from expressions_of(rule.parameters)
+        yield from (part for part in (rule.condition, rule.probability) if part is not None)
+        yield from expressions_of(rule.successor)
+
+
+def _asked(expression: Expression) -> Iterator[Apply]:
+    """The draws and the questions to the turtle in an expression."""
+    if isinstance(expression, Apply):
+        if expression.operator == "sensed" or OPERATORS[expression.operator].random:
+            yield expression
+        if not OPERATORS[expression.operator].random:
+            for operand in expression.operands:
+                yield from _asked(operand)
+
+
+def _function(asked: Apply) -> _Function:
+    number = asked.operands[0]
+    known = isinstance(number, Number) and isinstance(number.value, int)
+    return (number.value if known else -1), len(asked.operands) - 1  # type: ignore[union-attr,return-value]
+
+
+def _repeats(system: LSystem) -> Iterator[tuple[Repeat, int]]:
+    """What is repeated, each with the number of repetitions around it."""
+    todo: list[tuple[Item, int]] = [(item, 0) for rule in system.rules for item in rule.successor]
+    for item, level in todo:
+        if isinstance(item, Repeat):
+            yield item, level
+            todo += [(part, level + 1) for part in item.body]
+
+
+def as_variable(drawn: Expression) -> Variable:
+    """What a draw is declared as, without a name; its inverse is `draw`.
+
+    >>> as_variable(Apply("normal", (Number(0), Number(3)))).values
+    (Number(value=0), Number(value=9))
+    """
+    assert isinstance(drawn, Apply)
+    if drawn.operator != "normal":
+        return Variable("", drawn.operator, drawn.operands)
+    mean, deviation = drawn.operands
+    if isinstance(deviation, Apply) and deviation.operator == "sqrt":
+        return Variable("", "normal", (mean, deviation.operands[0]))
+    variance = Number(deviation.value**2) if isinstance(deviation, Number) else Apply("^", (deviation, Number(2)))
+    return Variable("", "normal", (mean, variance))
+
+
+def undeclared(system: LSystem) -> str | None:
+    """What of a system's chance, repetitions and questions cannot be said with variables, in words."""
+    needed, constants = declared(system), {constant.name for constant in system.constants}
+    for drawn in needed.draws:
+        values = as_variable(drawn).values
+        if any(names_in(value) - constants or any(_asked(value)) for value in values):
+            return "random numbers that depend on parameters"
+        if draw(as_variable(drawn)) != drawn:
+            return f"random number like {drawn}"
+    if any(number < 0 for number, _ in needed.functions):
+        return "sensitive functions whose number is calculated"
+    for repeat, level in _repeats(system):
+        if repeat.index and repeat.index not in names_of(repeat.body):
+            return f'index like "{repeat.index}", which counts and is not used'
+        if repeat.index and needed.levels[repeat.index] != level:
+            return f'index like "{repeat.index}", which counts at two levels'
+    return None
+
+
+def named(expression: Expression, names: Declared) -> Expression:
+    """An expression in which variables stand for what is drawn or asked."""
+    if not isinstance(expression, Apply):
+        return expression
+    if expression in names.draws:
+        return Name(names.draws[expression])
+    operands = tuple(named(operand, names) for operand in expression.operands)
+    if expression.operator == "sensed":
+        values = f"({', '.join(map(str, operands[1:]))})" if operands[1:] else ""
+        return Name(f"{names.functions[_function(expression)]}{values}")
+    return Apply(expression.operator, operands)
+
+
+def named_rule(rule: Production, names: Declared) -> Production:
+    """A rule in which variables stand for what is drawn or asked."""
+    condition, probability = (part if part is None else named(part, names) for part in (rule.condition, rule.probability))
+    return replace(rule, condition=condition, probability=probability, successor=tuple(_named_items(rule.successor, names)))
+
+
+def _named_items(items: Iterable[Item], names: Declared) -> Iterator[Item]:
+    for item in items:
+        if isinstance(item, Repeat):
+            yield Repeat(named(item.count, names), tuple(_named_items(item.body, names)), item.index, item.at)
+        else:
+            yield replace(item, arguments=tuple(named(a, names) for a in item.arguments))  # type: ignore[arg-type]

@@ -1,0 +1,227 @@
+r"""GROGRA's variables: random numbers, what counts repetitions, questions to the turtle (seed 003).
+
+The records have no variables. A random variable is replaced by its draw at every use, for it is another number every time:
+after `\var x uniform 0 360` the command `RH(x)` is RH(uniform(0, 360)). A function becomes `sensed`, an index the name that
+counts in its `Repeat`. Written back, each distinct draw becomes a variable again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from math import isqrt
+
+from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import tidy
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, Place, names_in
+from lsys_kit.notation.model.system import Item, Production, Repeat
+
+KINDS: Mapping[str, tuple[int, int, str]] = {
+    "uniform": (2, 2, "0 360"), "normal": (2, 2, "0 15"), "binomial": (2, 2, "10 0.5"), "poisson": (1, 1, "3"),
+    "distribution": (1, 16, "0.2 0.3 0.5"), "table": (1, 16, "0.2 0.3 0.5"), "index": (0, 1, "0"), "function": (2, 2, "2 1"),
+}
+"""For each kind of variable the least and the greatest number of its values, and an example of them."""
+ELSEWHERE = frozenset((
+    "negbinomial", "generation", "length", "diameter", "color", "order", "xcoordinate", "ycoordinate", "zcoordinate",
+    "register", "local"))
+"""What variables of GROGRA may also stand for: most of it the turtle knows, and words do not."""
+_POSSIBLE = f"Kinds of variables are: {', '.join(KINDS)}."
+_UNKNOWN = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as "\\const k 3," '
+            'or "\\var x uniform 0 360,".')
+
+
+@dataclass(frozen=True)
+class Variable:
+    """What a `\\var` line declares."""
+
+    name: str
+    kind: str
+    values: tuple[Expression, ...]
+    at: Place = field(default=None, compare=False)
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """Its values, where they are whole numbers: a function's number and how many values it takes, an index's level."""
+        return tuple(value.value for value in self.values if isinstance(value, Number) and isinstance(value.value, int))
+
+    @property
+    def level(self) -> int:
+        """How many repetitions are around the one that an index counts."""
+        return self.numbers[0] if self.numbers else 0
+
+
+@dataclass(frozen=True)
+class Scope:
+    """What names mean at a place of a text.
+
+    Attributes
+    ----------
+    source
+        The text.
+    known
+        Constants and parameters.
+    variables
+        By their names.
+    counting
+        For each index that counts here the name of what it counts in the records.
+    chance
+        Whether something random may stand here.
+    """
+
+    source: str
+    known: frozenset[str]
+    variables: Mapping[str, Variable]
+    counting: Mapping[str, str] = field(default_factory=dict)
+    chance: bool = False
+
+
+def check_variables(variables: Sequence[Variable], constants: Iterable[str], source: str) -> None:
+    """Each variable has a name of its own, a kind that is possible here, and the values that belong to it."""
+    taken = set(constants)
+    for variable in variables:
+        if variable.name in taken:
+            raise ModelNameError(f'The name "{variable.name}" is declared twice', source, *_place(variable.at),
+                                 "Keep one of the two lines.")
+        taken.add(variable.name)
+        _check_kind(variable, source)
+        known = Scope(source, frozenset(constants), {v.name: v for v in variables})
+        for value in variable.values:
+            meant(value, known)
+
+
+def _check_kind(variable: Variable, source: str) -> None:
+    kind, at = variable.kind, _place(variable.at)
+    if kind in ELSEWHERE:
+        raise ModelNameError(f'A variable of the kind "{kind}" is not possible here', source, *at, _POSSIBLE)
+    if kind not in KINDS:
+        raise ModelNameError(f'There is no kind of variable called "{kind}"', source, *at, suggestion(kind, KINDS) or _POSSIBLE)
+    least, most, example = KINDS[kind]
+    said = f'Type "\\var {variable.name} {kind} {example},".'
+    if not least <= len(variable.values) <= most:
+        wanted = f"{least}" if least == most else f"up to {most}" if least == 0 else f"{least} or more"
+        raise ModelSyntaxError(f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not '
+                               f"{len(variable.values)}", source, *at, said)
+    if kind in ("index", "function") and (len(variable.numbers) < len(variable.values) or min(variable.numbers, default=0) < 0):
+        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers from 0 on', source, *at, said)
+
+
+def _place(at: Place) -> tuple[int | None, int | None]:
+    return at or (None, None)
+
+
+def meant(expression: Expression, scope: Scope) -> Expression:
+    """An expression with the variables replaced by what they stand for."""
+    if isinstance(expression, Name):
+        return _meant_name(expression, scope)
+    if not isinstance(expression, Apply):
+        return expression
+    first, *rest = expression.operands
+    if expression.operator == "sensed" and isinstance(first, Name):
+        return _asked(expression, first, [meant(operand, scope) for operand in rest], scope)
+    return Apply(expression.operator, tuple(meant(operand, scope) for operand in expression.operands), expression.at)
+
+
+def _meant_name(name: Name, scope: Scope) -> Expression:
+    variable = scope.variables.get(name.name)
+    if name.name in scope.known:
+        return name
+    if name.name in scope.counting:
+        return Name(scope.counting[name.name], name.at)
+    if variable is None:
+        names = {*scope.known, *scope.variables}
+        hint = suggestion(name.name, names, 0.5)  # so that "xo" is like "x0"
+        raise ModelNameError(f'I do not know the name "{name}"', scope.source, *_place(name.at), hint or _UNKNOWN)
+    if variable.kind == "function" and variable.numbers[1] == 0:
+        return Apply("sensed", (Number(variable.numbers[0]),), name.at)
+    if variable.kind == "function":
+        raise ModelSyntaxError(f'"{name}" is a function, and its values are missing', scope.source, *_place(name.at),
+                               f'It is asked as in "{name}({", ".join("1" * variable.numbers[1])})".')
+    if variable.kind == "index":
+        inside = f" with {variable.level} more around it" if variable.level else ""
+        raise ModelNameError(f'"{name}" counts repetitions, and nothing is repeated here', scope.source, *_place(name.at),
+                             f'It is used in what is repeated, as in "&(3) < a({name}) >"{inside}.')
+    if not scope.chance:
+        raise ModelValueError(f'"{name}" is another number at every use, which cannot be here', scope.source, *_place(name.at),
+                              f'Random variables stand behind the "#" of a rule, as in "a # F({name})".')
+    return replace(draw(variable), at=name.at)
+
+
+def draw(variable: Variable) -> Apply:
+    """The draw of a random variable; a normal one is declared with its variance.
+
+    >>> print(draw(Variable("x", "normal", (Number(0), Number(9)))), draw(Variable("x", "normal", (Number(0), Number(15)))))
+    normal(0, 3) normal(0, sqrt(15))
+    """
+    if variable.kind != "normal":
+        return Apply("table" if variable.kind == "distribution" else variable.kind, variable.values)
+    mean, variance = variable.values
+    root = _root(variance.value) if isinstance(variance, Number) and isinstance(variance.value, int | Fraction) else None
+    return Apply("normal", (mean, Apply("sqrt", (variance,)) if root is None else Number(tidy(root))))
+
+
+def _root(value: int | Fraction) -> Fraction | None:
+    """The square root of a number, where it is rational."""
+    if value < 0:
+        return None
+    root = Fraction(isqrt(value.numerator), isqrt(value.denominator))
+    return root if root * root == value else None
+
+
+def _asked(expression: Apply, name: Name, values: list[Expression], scope: Scope) -> Apply:
+    """What a function of the turtle is asked."""
+    variable = scope.variables.get(name.name)
+    if variable is None or variable.kind != "function":
+        functions = {v.name for v in scope.variables.values() if v.kind == "function"}
+        functions |= {known for known, operator in OPERATORS.items() if operator.precedence is None and not operator.random}
+        raise ModelNameError(f'I do not know the function "{name}"', scope.source, *_place(name.at),
+                             suggestion(name.name, functions - {"sensed"}, 0.7)
+                             or f'Declare it, as in "\\var {name} function 2 {len(values)},".')
+    number, count = variable.numbers
+    if len(values) != count:
+        raise ModelSyntaxError(f"{name}(...) takes {count} value{'s' * (count != 1)}, not {len(values)}", scope.source,
+                               *_place(name.at))
+    return Apply("sensed", (Number(number), *values), expression.at)
+
+
+def meant_rule(rule: Production, scope: Scope, chance: bool) -> Production:
+    """A rule with the variables replaced; its parameters come before variables of the same name."""
+    named = {a.name for module in rule.parameters for a in module.arguments if isinstance(a, Name)}
+    scope = replace(scope, known=scope.known | named)
+    condition, probability = (part if part is None else meant(part, scope) for part in (rule.condition, rule.probability))
+    return replace(rule, condition=condition, probability=probability,
+                   successor=meant_items(rule.successor, replace(scope, chance=chance)))
+
+
+def meant_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[Item, ...]:
+    """A word with the variables replaced, so many repetitions deep."""
+    found: list[Item] = []
+    for item in items:
+        if isinstance(item, Repeat):
+            used = names_of(item.body)
+            counters = [v.name for v in scope.variables.values()
+                        if v.kind == "index" and v.level == depth and v.name in used - scope.known]
+            index = counters[0] if counters else ""
+            inner = replace(scope, counting={**scope.counting, **dict.fromkeys(counters, index)})
+            found.append(Repeat(meant(item.count, scope), meant_items(item.body, inner, depth + 1), index, item.at))
+        elif item.arguments:
+            found.append(replace(item, arguments=tuple(meant(a, scope) for a in item.arguments)))  # type: ignore[arg-type]
+        else:
+            found.append(item)
+    return tuple(found)
+
+
+def names_of(items: Iterable[Item]) -> frozenset[str]:
+    """The names that a word uses."""
+    return frozenset(name for expression in expressions_of(items) for name in names_in(expression))
+
+
+def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
+    """All expressions of a word, in the order written."""
+    for item in items:
+        if isinstance(item, Repeat):
+            yield item.count
+            yield from expressions_of(item.body)
+        else:
+            yield from item.arguments  # type: ignore[misc]

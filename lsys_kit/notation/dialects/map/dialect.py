@@ -1,0 +1,113 @@
+"""Text to a map L-system. The grammar is `map.lark`.
+
+Map systems are no strings: what reads as a branch in an L-system, `A -> B[-A][+A]B`, is here a wall that becomes two walls,
+with a marker on either side. No text can say by itself which of both is meant, so that a map has a reader of its own; as the
+kit writes them, maps begin with `map:`, and `read` refuses them with a word about this one.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from lark import Token, Transformer, v_args
+
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelLimitError, ModelSyntaxError
+from lsys_kit.notation.analysis.map_checks import check_map, idle_parts
+from lsys_kit.notation.dialects.abop.dialect import printed
+from lsys_kit.notation.dialects.map.diagnostics import QUESTIONS
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, Part
+from lsys_kit.notation.read import bounded, check_text
+from lsys_kit.notation.syntax.actions import Misread
+from lsys_kit.notation.syntax.dialect import Grammar
+from lsys_kit.notation.syntax.parser import parse
+
+_LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")
+
+
+def read_map(text: str) -> MapSystem:
+    """Read a map L-system.
+
+    Parameters
+    ----------
+    text
+        The walls of the first cell, clockwise, and productions, one a line, in ASCII or as print has them. `/* ... */` is a
+        comment.
+
+    Raises
+    ------
+    ModelSyntaxError, ModelValueError
+        The text makes no sense; the error has the place and a hint.
+    ModelLimitError
+        The text is too long.
+
+    Examples
+    --------
+    >>> divided = read_map("ω : ABAB, p_1 : A → B[-A][+A]B, p_2 : B → A".replace(", ", "\\n"))
+    >>> print(divided)
+    map: ABAB
+    A -> B[-A][+A]B
+    B -> A
+    >>> read_map(str(divided)) == divided
+    True
+
+    References
+    ----------
+    Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, section 7.1.2.
+    """
+    check_text(text)
+    said: dict[str, Any] = {}
+    productions: list[EdgeProduction] = []
+    for start, end in bounded(printed(text), text):
+        kind, record = parse(MAP, "statement", text, start, end)
+        if kind == "production":
+            productions.append(record)
+        elif kind in said:
+            raise ModelSyntaxError(*_TWICE[kind][:1], text, start, end, _TWICE[kind][1])
+        else:
+            said[kind] = record
+        if len(productions) > current().rules:
+            raise ModelLimitError(f"The model has more than {current().rules:,} productions", limit=current().rules,
+                                  source=text, start=start)
+    if "first" not in said:
+        raise ModelSyntaxError("There is no first cell", text, len(text), None,
+                               'Give its walls, one after another, clockwise, as in "map: ABAB".')
+    system = MapSystem(said["first"], tuple(productions), said.get("steps"), text)
+    check_map(system)
+    return MapSystem(system.axiom, system.productions, system.steps, text, tuple(idle_parts(system)))
+
+
+_TWICE = {"first": ("A second first cell stands here", "A map begins with one cell."),
+          "steps": ('"steps:" stands here a second time', "A system has one of it.")}
+"""What stands once in a text: what to say where it stands twice."""
+
+
+@v_args(inline=True)
+class _Records(Transformer[Any, Any]):
+    """What `map.lark` names."""
+
+    def edge(self, label: Token, *points: Token) -> Edge:
+        at = label.start_pos or 0, (points or (label,))[-1].end_pos or 0
+        arrow = "<" if _LEFTWARD.match(label) else "" if label.type == "LABEL" else ">"
+        name = re.sub(r"^\\[a-z]+|\W", "", label)
+        if len(name) > current().name:
+            raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", at)
+        return Edge(name, str(points[0]) if points else arrow, at)
+
+    def marker(self, side: Token, edge: Edge) -> Marker:
+        return Marker(side.replace("−", "-"), edge, (side.start_pos or 0, edge.at[1] if edge.at else 0))
+
+    def production(self, predecessor: Edge, _: Token, *successor: Part) -> tuple[str, EdgeProduction]:
+        return "production", EdgeProduction(predecessor, successor, predecessor.at)
+
+    def first(self, _: Token, *edges: Edge) -> tuple[str, tuple[Edge, ...]]:
+        return "first", edges
+
+    def steps(self, _: Token, number: Token) -> tuple[str, int]:
+        if len(number) > 9:
+            raise Misread(ModelSyntaxError, "This number is too large", (number.start_pos or 0, number.end_pos or 0))
+        return "steps", int(number)
+
+
+MAP = Grammar(name="map", records=_Records, questions=QUESTIONS, starts=("statement",))

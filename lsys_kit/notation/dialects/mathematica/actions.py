@@ -1,0 +1,261 @@
+"""What `mathematica.lark` names, as records: a method for each name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import count
+from typing import Any, TypeAlias
+
+from lark import Token, Transformer, v_args
+from lark.visitors import merge_transformers
+
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelNameError, ModelSyntaxError
+from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
+from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, meant
+from lsys_kit.notation.model.expressions import Apply, Expression, Name
+from lsys_kit.notation.model.system import Constant, Module, Production
+from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
+
+Word: TypeAlias = tuple[Module, ...]
+SYMBOL = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
+"""What may stand between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What stands in the brackets of a module that a rule asks for: the name of a parameter, or a value; and its condition."""
+
+    value: Expression
+    named: bool = False
+    condition: Expression | None = None
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """A module that a rule asks for, with the condition behind it."""
+
+    symbol: Token
+    asked: tuple[Asked, ...]
+    condition: Expression | None = None
+
+    @property
+    def conditions(self) -> Iterator[Expression]:
+        """All its conditions, in the order written."""
+        yield from (condition for condition in (*(one.condition for one in self.asked), self.condition) if condition)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A production, with what its patterns ask for, and where it stood."""
+
+    production: Production
+    asked: tuple[Asked, ...]
+    at: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Rules:
+    """The members of LRULES: rules, or names of rules; and whether a comma stands behind the last."""
+
+    members: tuple[Rule | Token, ...] = ()
+    comma: bool = False
+
+
+@dataclass(frozen=True)
+class System:
+    """An LSystem: its axiom and its rules, or the names of them; None where the text's only ones are meant."""
+
+    axiom: Word | Token | None = None
+    rules: Rules | Token | None = None
+    printed: bool = False
+
+
+@dataclass(frozen=True)
+class Run:
+    """A system that is run, or its name, and for how many steps."""
+
+    system: System | Token
+    steps: Expression
+
+
+def both(first: Expression | None, second: Expression) -> Expression:
+    """One condition and another; what the other joins is joined in turn.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> print(both(read_expression("a > 0"), read_expression("b > 0 && c > 0")))
+    a > 0 && b > 0 && c > 0
+    """
+    if first is None:
+        return second
+    if isinstance(second, Apply) and second.operator == "&&":
+        return both(both(first, second.operands[0]), second.operands[1])
+    return Apply("&&", (first, second), first.at)
+
+
+def condition_of(conditions: Iterable[Expression]) -> Expression | None:
+    """What several conditions say together."""
+    whole: Expression | None = None
+    for condition in conditions:
+        whole = both(whole, condition)
+    return whole
+
+
+@v_args(inline=True)
+class _Statements(MathematicaExpressions):
+    """What the definitions name."""
+
+    def word(self, *modules: Module) -> Word:
+        return modules
+
+    def module(self, symbol: Token, *arguments: Expression) -> Module:
+        return Module(str(symbol), arguments, _around(symbol, *arguments))
+
+    def symbol(self, token: Token) -> Token:
+        """The symbol, without its quotation marks."""
+        _check_name(token)
+        if token.type == "NAME":
+            return _plain(token, "A symbol")
+        text = re.sub(r"\\(.)", r"\1", token[1:-1])
+        if not SYMBOL.fullmatch(text):
+            raise Misread(ModelSyntaxError, "One symbol stands between quotation marks", _around(token),
+                          'Part symbols by commas, as in \'F, "+", F\'.')
+        return token.update(value=text)
+
+    def pattern(self, symbol: Token, *asked: Asked) -> Pattern:
+        return Pattern(symbol, asked)
+
+    def parameter(self, blank: Token, *condition: Expression) -> Asked:
+        name = blank[:-1]
+        if name.endswith("_"):
+            raise Misread(ModelSyntaxError, f'"{blank}" stands for a row of values', _around(blank),
+                          f'A parameter stands for one: type "{name.rstrip("_")}_".')
+        _check_name(_plain(blank.update(value=name), "A parameter"))
+        return Asked(Name(name, _around(blank)), True, *condition)
+
+    def asked(self, value: Expression, *condition: Expression) -> Asked:
+        if condition:
+            raise Misread(ModelSyntaxError, 'A parameter is named with "_" behind it', value.at,
+                          f'Type "{value}_ /; ...".' if isinstance(value, Name) else None)
+        return Asked(value)
+
+    def conditioned(self, pattern: Pattern, condition: Expression) -> Pattern:
+        return replace(pattern, condition=condition)
+
+    def side(self, _: Token, *patterns: Pattern) -> tuple[Pattern, ...]:
+        return patterns
+
+    def succ(self, _: Token, *word: Word) -> Word:
+        return word[0] if word else ()
+
+    def lrule(self, keyword: Token, left: tuple[Pattern, ...], pred: tuple[Pattern, ...], right: tuple[Pattern, ...],
+              succ: Word, closing: Token) -> Rule:
+        return _rule(left, pred[0], right, succ, (keyword.start_pos or 0, closing.end_pos or 0))
+
+    def before(self, *patterns: Pattern) -> tuple[str, tuple[Pattern, ...]]:
+        return "left", patterns
+
+    def behind(self, *patterns: Pattern) -> tuple[str, tuple[Pattern, ...]]:
+        return "right", patterns
+
+    def successor(self, *word: Word) -> Word:
+        return word[0] if word else ()
+
+    def printed_rule(self, *parts: Any) -> tuple[str, Any]:
+        sides: dict[str, tuple[Pattern, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
+        pattern = next(part for part in parts if isinstance(part, Pattern))
+        at = pattern.symbol.start_pos or 0, parts[-2].end_pos or 0
+        return "more", ("printed_rule", _rule(sides.get("left", ()), pattern, sides.get("right", ()), parts[-1], at))
+
+    def last_comma(self) -> None:
+        return None
+
+    def lrules(self, _: Token, *members: Rule | Token | None) -> Rules:
+        return Rules(tuple(member for member in members if member is not None), None in members)
+
+    def axiom(self, _: Token, word: Word) -> Any:
+        return word
+
+    def lsystem(self, _: Token, axiom: Word | Token, rules: Rules | Token) -> System:
+        return System(axiom, rules)
+
+    def run(self, _: Token, system: System | Token, steps: Expression) -> Run:
+        return Run(system, steps)
+
+    def definition(self, *parts: Any) -> tuple[str, Any]:
+        things = [part for part in parts if not isinstance(part, Token)]
+        return "more", ("definition", (str(parts[0]) if isinstance(parts[0], Token) else "", things[0]))
+
+    def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
+        name = call.split("[")[0].rstrip()
+        raise Misread(ModelNameError, f'I do not know "{name}[...]"', (call.start_pos or 0, (call.start_pos or 0) + len(name)),
+                      INSTEAD.get(name) or meant(name) or "What prints or draws can be left out.")
+
+    def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
+        _check_name(_plain(name, "A constant"))
+        return "more", ("constant", Constant(str(name), value, slider[1:] or None))
+
+    def setting(self, keyword: Token, _: Token, value: Expression) -> tuple[str, Any]:
+        return "more", ("setting", (str(keyword), value))
+
+    def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
+        if tradition[1:-1] not in ("abop", "grogra", "plant-string"):
+            raise Misread(ModelNameError, f"I do not know the turtle commands of {tradition}", _around(tradition),
+                          'Turtle commands are those of "abop", "grogra" or "plant-string".')
+        return "more", ("setting", ("turtle", str(tradition[1:-1])))
+
+    def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
+        bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
+        if bracket is not None:
+            raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
+                          "Contexts follow the branches in any case.")
+        kept = tuple(dict.fromkeys(str(symbol) for symbol in symbols if (symbol.type, symbol) != ("NAME", "Null")))
+        return "more", ("setting", ("ignore", kept))
+
+    def alone(self, name: Token) -> tuple[str, Any]:
+        return "more", ("alone", name)
+
+    def printed_axiom(self, _: Token, word: Word) -> tuple[str, Any]:
+        return "more", ("printed_axiom", word)
+
+    def other(self, *parts: Token) -> tuple[str, Any]:
+        named = re.search(r"\w+(?=\s*\[)", parts[0]) or re.search(r"\w+", parts[0])
+        return "more", ("other", named.group() if named else str(parts[0]).strip())
+
+
+def _plain(name: Token, what: str) -> Token:
+    """A name that means nothing else in Mathematica."""
+    if name.endswith("_"):
+        raise Misread(ModelSyntaxError, f'{what} has a name without "_" at its end', _around(name),
+                      f'Type "{name.rstrip("_")}".')
+    if name == "Degree":
+        raise Misread(ModelNameError, f'{what} cannot be called "Degree"', _around(name),
+                      "It says that an angle is in degrees.")
+    return name
+
+
+def _rule(left: tuple[Pattern, ...], pattern: Pattern, right: tuple[Pattern, ...], successor: Word,
+          at: tuple[int, int]) -> Rule:
+    """The rule of some patterns and a successor."""
+    every = (*left, pattern, *right)
+    condition = condition_of(condition for one in every for condition in one.conditions)
+    if isinstance(condition, Apply) and condition.depth > current().depth:
+        raise Misread(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
+    numbers = count(1)
+    modules = tuple(_module(one, numbers) for one in every)
+    production = Production(modules[len(left)], successor, condition, modules[:len(left)], modules[len(left) + 1:])
+    return Rule(production, tuple(asked for one in every for asked in one.asked), at)
+
+
+def _module(pattern: Pattern, numbers: Iterator[int]) -> Module:
+    """The module of a pattern; a parameter that is only "_" is named by the next number."""
+    arguments = tuple(Name(f"_{next(numbers)}", asked.value.at) if asked.value == Name("") else asked.value
+                      for asked in pattern.asked)
+    return Module(str(pattern.symbol), arguments, _around(pattern.symbol, *arguments))
+
+
+def records() -> Transformer[Any, Any]:
+    """What makes records of all that the grammar names."""
+    return merge_transformers(_Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]

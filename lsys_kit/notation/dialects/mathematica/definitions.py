@@ -1,0 +1,158 @@
+"""What the definitions of a text say, by name, and which L-system they make together.
+
+A definition may use names that are defined further down, and the last definition of a name counts: so it is in Mathematica
+with `:=`, at the time when a system is run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
+
+from lark import Token
+
+from lsys_kit.errors import ModelNameError
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.dialects.mathematica.actions import Rule, Rules, Run, System, Word
+from lsys_kit.notation.model.system import Constant
+
+Thing = TypeVar("Thing")
+_PARTS = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
+_HINTS = {
+    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _PARTS,
+    "row of rules": _PARTS,
+    "rule": 'A rule is defined before its name stands in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
+
+
+@dataclass
+class Definitions:
+    """What the definitions read so far say, each kind by name; what has no name stands under its number.
+
+    Attributes
+    ----------
+    source
+        The text.
+    single
+        Rules that stand outside of LRULES.
+    run
+        The last run.
+    alone, title
+        The names that stand alone, and the last of them: it names a system that is printed below it.
+    printed
+        Under which name the system stands whose printed form is being read.
+    notes, others
+        What is worth telling, and what is passed over: in order, each once.
+    """
+
+    source: str
+    axioms: dict[str, Word] = field(default_factory=dict)
+    rules: dict[str, Rules] = field(default_factory=dict)
+    single: dict[str, Rule] = field(default_factory=dict)
+    systems: dict[str, System] = field(default_factory=dict)
+    constants: dict[str, Constant] = field(default_factory=dict)
+    settings: dict[str, Any] = field(default_factory=dict)
+    run: Run | None = None
+    alone: list[Token] = field(default_factory=list)
+    title: str = ""
+    printed: str | None = None
+    notes: dict[str, None] = field(default_factory=dict)
+    others: dict[str, None] = field(default_factory=dict)
+
+    def take(self, kind: str, record: Any, at: tuple[int, int]) -> None:
+        """Take in what a statement says."""
+        if kind == "constant":
+            self._keep(self.constants, record.name, replace(record, at=at))
+        elif kind == "setting":
+            self._keep(self.settings, *record)
+        elif kind == "other":
+            self.others[record] = None
+        elif kind == "alone":
+            self.alone.append(record)
+            self.title, self.printed = str(record), None
+        elif kind == "printed_axiom":
+            self.printed = self._keep(self.systems, self.title, System(record, printed=True))
+        elif kind == "printed_rule":
+            self._print(replace(record, at=at))
+        else:
+            self._define(*record)
+
+    def _define(self, name: str, thing: Word | Rules | Rule | System | Run) -> None:
+        if isinstance(thing, Run):
+            self.run = thing
+        elif isinstance(thing, System):
+            self._keep(self.systems, name, thing)
+        elif isinstance(thing, Rules):
+            self._keep(self.rules, name, thing)
+        elif isinstance(thing, Rule):
+            self._keep(self.single, name, thing)
+        else:
+            self._keep(self.axioms, name, thing)
+
+    def _keep(self, table: dict[str, Thing], name: str, thing: Thing) -> str:
+        """Keep a thing, as the last of its kind; where its name meant another thing before, say so."""
+        if table.pop(name, thing) != thing:
+            self.notes[f'"{name}" is defined more than once: the last definition counts.'] = None
+        key = name or str(len(table))
+        table[key] = thing
+        return key
+
+    def _print(self, rule: Rule) -> None:
+        """A printed rule belongs to the axiom printed above it, if there is one."""
+        if self.printed is None:
+            self._keep(self.single, "", rule)
+            return
+        system = self.systems[self.printed]
+        before = system.rules.members if isinstance(system.rules, Rules) else ()
+        self.systems[self.printed] = replace(system, rules=Rules((*before, rule)))
+
+
+def chosen(definitions: Definitions) -> System:
+    """The system that a text is about: the last that is run, else the last that is defined, else what stands by itself."""
+    found, run = definitions, definitions.run
+    only = len(found.systems) < 2 and all(name.isdigit() for name in found.systems)
+    if run is None or (isinstance(run.system, Token) and only):
+        if run is not None:
+            found.notes[f'"{run.system}" is not defined: what the text defines is run.'] = None
+        if run is None and len(found.systems) > 1:
+            found.notes["Several systems are defined and none is run: the last is read."] = None
+        return next(reversed(found.systems.values()), System())
+    if len(found.systems) > 1:
+        found.notes["Several systems are defined: the last that is run is read."] = None
+    return run.system if isinstance(run.system, System) else _called(found, found.systems, run.system, "system")
+
+
+def axiom_of(definitions: Definitions, system: System) -> Word | None:
+    """The axiom of a system, or the last of the text; None where there is none."""
+    if isinstance(system.axiom, Token):
+        return _called(definitions, definitions.axioms, system.axiom, "axiom")
+    return system.axiom or next(reversed(definitions.axioms.values()), None)
+
+
+def rules_of(definitions: Definitions, system: System) -> Iterator[Rule]:
+    """The rules of a system, or the last LRULES of the text, or the rules that stand by themselves."""
+    alone = [rule for name, rule in definitions.single.items() if name.isdigit()]
+    rules = system.rules or next(reversed(definitions.rules.values()), None)
+    if rules is None:
+        rules, alone = Rules(tuple(definitions.single.values())), []
+    if alone:
+        definitions.notes["A rule that stands outside of LRULES is not used."] = None
+    if isinstance(rules, Token):
+        rules = _called(definitions, definitions.rules, rules, "row of rules")
+    if rules.comma:
+        definitions.notes["The comma behind the last LRule is passed over."] = None
+    for member in rules.members:
+        yield member if isinstance(member, Rule) else _called(definitions, definitions.single, member, "rule")
+
+
+def _called(definitions: Definitions, table: Mapping[str, Thing], name: Token, kind: str) -> Thing:
+    """What has a name; one that is spelt in other cases is read too, with a note."""
+    if name in table:
+        return table[name]
+    same = next((known for known in table if known.casefold() == name.casefold()), None)
+    if same is None:
+        named = [known for known in table if not known.isdigit()]
+        raise ModelNameError(f'No {kind} has the name "{name}"', definitions.source, name.start_pos, name.end_pos,
+                             suggestion(name, named) or _HINTS[kind])
+    definitions.notes[f'"{name}" is read as "{same}".'] = None
+    return table[same]

@@ -1,0 +1,67 @@
+"""Mathematica's notation, after C. Jacob (seed 000): definitions of an axiom, of rules and of an L-system; its grammar is
+`mathematica.lark`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lsys_kit.notation.dialects.mathematica.actions import SYMBOL, records
+from lsys_kit.notation.dialects.mathematica.builder import finish
+from lsys_kit.notation.dialects.mathematica.diagnostics import QUESTIONS
+from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
+from lsys_kit.notation.dialects.mathematica.statements import statements
+from lsys_kit.notation.dialects.mathematica.writer import module_text, written_system
+from lsys_kit.notation.model.expressions import Apply, Name
+from lsys_kit.notation.model.operators import OPERATORS
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.formatting import first_lacking
+
+_MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
+                    re.IGNORECASE | re.MULTILINE)
+"""What is found in texts of this notation, and in no others."""
+_SET = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
+"""What a definition sets, so that no constant can have that name."""
+
+
+def _lacking(system: LSystem) -> str | None:
+    return first_lacking(system, "probabilities", "repetition", "decomposition rules", "interpretation rules", "meta-rules") \
+        or next(_own_lacks(system), None)
+
+
+def _own_lacks(system: LSystem) -> Iterator[str]:
+    """What only this notation lacks."""
+    if any(module.symbol == "ε" for rule in system.rules for module in rule.right):
+        yield "branch ends in contexts"
+    if system.considered:
+        yield "considered symbols"
+    if system.depth != 1 or system.decomposition_depth is not None:
+        yield "depth"
+    yield from (f'symbol "{module.symbol}"' for module in system.modules if not SYMBOL.fullmatch(module.symbol))
+    names, functions = _used(system)
+    taken = {constant.name for constant in system.constants if constant.name.lower() in _SET} | {"Degree"}
+    yield from (f'other meaning of the name "{name}"' for name in sorted(names & taken))
+    yield from (f'name like "{name}"' for name in sorted(names) if name.endswith("_"))
+    yield from (f"function {name}" for name in sorted(functions - KNOWN))
+
+
+def _used(system: LSystem) -> tuple[set[str], set[str]]:
+    """The names and the functions of a system."""
+    names, functions = {constant.name for constant in system.constants}, set[str]()
+    parts = [*(part for constant in system.constants for part in (constant.value, *(constant.range or ()))),
+             *(rule.condition for rule in system.rules),
+             *(argument for module in system.modules for argument in module.arguments)]
+    while parts:
+        part = parts.pop()
+        if isinstance(part, Name):
+            names.add(part.name)
+        elif isinstance(part, Apply):
+            parts.extend(part.operands)
+            functions |= {part.operator} if OPERATORS[part.operator].precedence is None else set()
+    return names, functions
+
+
+MATHEMATICA = Notation(
+    name="mathematica", statements=statements, records=records, finish=finish, questions=QUESTIONS, module=module_text,
+    joined=" ".join, write=written_system, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)))

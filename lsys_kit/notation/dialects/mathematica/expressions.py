@@ -1,0 +1,72 @@
+"""Expressions as Mathematica writes them: its functions, with square brackets, and what it says otherwise than the kit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Style, written
+
+FUNCTIONS: Mapping[str, str] = {
+    "Abs": "abs", "Floor": "floor", "Ceiling": "ceil", "Min": "min", "Max": "max", "Mod": "mod", "If": "if", "Sqrt": "sqrt",
+    "Exp": "exp", "Log": "log"}
+"""The functions of Mathematica that are the kit's under another name."""
+ANGLES: Mapping[str, str] = {"Sin": "sin", "Cos": "cos", "Tan": "tan"}
+"""Those that take an angle, and ..."""
+INVERSES: Mapping[str, str] = {f"Arc{name}": f"a{function}" for name, function in ANGLES.items()}
+"""... those that give one."""
+DISTRIBUTIONS: Mapping[str, str] = {
+    "NormalDistribution": "normal", "BinomialDistribution": "binomial", "PoissonDistribution": "poisson"}
+"""What a random number is drawn from."""
+
+_BY_FUNCTION = {function: name for table in (ANGLES, INVERSES, DISTRIBUTIONS) for name, function in table.items()}
+_STYLE = Style({function: name for name, function in FUNCTIONS.items()}, ("[", "]"))
+_DEGREE = Name("Degree")
+INSTEAD = {
+    "RandomInteger": 'A whole number from 1 to 6 is "Floor[RandomReal[{1, 7}]]".',
+    "Power": 'A power is typed "t^2".',
+}
+"""What to type for some functions that Mathematica has and the kit has not."""
+HEADS = ("LEFT", "PRED", "RIGHT", "SUCC", "LRule", "LRULES", "AXIOM", "LSystem", "runKLSystem")
+"""What an L-system is made of."""
+KNOWN = frozenset((*FUNCTIONS.values(), *_BY_FUNCTION, "uniform", "table"))
+"""The functions of the kit that Mathematica has too."""
+
+
+def meant(name: str) -> str | None:
+    """A hint that names the function, or the part of an L-system, that was probably meant.
+
+    >>> meant("AXOIM")
+    'Did you mean "AXIOM"?'
+    """
+    known = {known.upper(): known for known in (*HEADS, *FUNCTIONS, *ANGLES)}
+    close = get_close_matches(name.upper(), known, 1, 0.78)
+    return f'Did you mean "{known[close[0]]}"?' if close else None
+
+
+def text_of(expression: Expression) -> str:
+    """An expression in Mathematica's spelling.
+
+    >>> text_of(Apply("sqrt", (Apply("sin", (Apply("+", (Name("t"), Name("x"))),)),)))
+    'Sqrt[Sin[(t + x) * Degree]]'
+    """
+    return written(_spelt(expression), _STYLE)
+
+
+def _spelt(expression: Expression) -> Expression:
+    """The expression in which a name stands for what Mathematica spells in more than one word."""
+    if not isinstance(expression, Apply):
+        return expression
+    operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
+    texts = ", ".join(written(operand, _STYLE) for operand in operands)
+    if operator in ANGLES.values():
+        return Name(f"{_BY_FUNCTION[operator]}[{written(Apply('*', (operands[0], _DEGREE)), _STYLE)}]")
+    if operator in INVERSES.values():
+        return Name(f"({_BY_FUNCTION[operator]}[{texts}]/{_DEGREE})")
+    if operator in DISTRIBUTIONS.values():
+        return Name(f"RandomVariate[{_BY_FUNCTION[operator]}[{texts}]]")
+    if operator == "uniform":
+        return Name(f"RandomReal[{{{texts}}}]")
+    if operator == "table":
+        return Name(f"RandomChoice[{{{texts}}} -> {{{', '.join(map(str, range(len(operands))))}}}]")
+    return Apply(operator, operands)

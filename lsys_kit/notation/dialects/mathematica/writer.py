@@ -1,0 +1,132 @@
+"""A system written in Mathematica's notation: constants and settings, the axiom, the rules, and a run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator
+
+from lsys_kit.notation.dialects.mathematica.actions import condition_of
+from lsys_kit.notation.dialects.mathematica.expressions import text_of
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
+from lsys_kit.notation.model.system import Argument, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.syntax.formatting import ABOP
+
+_NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
+"""A symbol that needs no quotation marks."""
+
+
+def symbol_text(symbol: str) -> str:
+    """A symbol, in quotation marks where it is no name.
+
+    >>> symbol_text("aR"), symbol_text("+")
+    ('aR', '"+"')
+    """
+    return symbol if _NAME.fullmatch(symbol) else '"' + re.sub(r'(["\\])', r"\\\1", symbol) + '"'
+
+
+def module_text(module: Module) -> str:
+    """A module of a word.
+
+    >>> module_text(Module("a", (1, 2)))
+    'a[1, 2]'
+    """
+    return _with_arguments(module, map(_value, module.arguments))
+
+
+def _with_arguments(module: Module, texts: Iterable[str]) -> str:
+    return symbol_text(module.symbol) + (f"[{', '.join(texts)}]" if module.arguments else "")
+
+
+def _value(argument: Argument) -> str:
+    return text_of(argument) if isinstance(argument, Expression) else number_text(argument)
+
+
+def written_system(system: LSystem) -> str:
+    """The text of a system that lacks nothing in this notation."""
+    taken = {constant.name for constant in system.constants}
+    lrules, lsystem, growth = (_free(name, taken) for name in ("lrules", "lsystem", "growth"))
+    lines = [*map(_constant, system.constants), *_settings(system), f"axiom = AXIOM[{_words(system.axiom)}];",
+             _rules(system, lrules, taken), f"{lsystem} = LSystem[axiom, {lrules}];"]
+    if system.ignored:
+        lines.append(f"skipPattern = {{{', '.join(map(symbol_text, system.ignored))}}};")
+    if system.steps is not None:
+        lines.append(f"{growth} = runKLSystem[{lsystem}, {system.steps}];")
+    return "\n".join(lines)
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    """A name, or one like it that is not taken."""
+    return name if name not in taken else _free(f"{name}1", taken)
+
+
+def _constant(constant: Constant) -> str:
+    text = f"{constant.name} = {text_of(constant.value)};"
+    if constant.range is None:
+        return text
+    low, high, step = map(text_of, constant.range)
+    return f"{text} (* {low} .. {high} by {step} *)"
+
+
+def _settings(system: LSystem) -> Iterator[str]:
+    if system.turtle != ABOP:
+        yield f'turtle = "{system.turtle}";'
+    for name, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90), ("length", system.length, None),
+                               ("seed", system.seed, None)):
+        if value is not None and value != usual:
+            yield f"{name} = {number_text(value)};"
+
+
+def _words(modules: Iterable[Module]) -> str:
+    return ", ".join(map(module_text, modules))
+
+
+def _rules(system: LSystem, name: str, taken: Collection[str]) -> str:
+    rules = ",\n    ".join(_rule(production, taken) for production in system.productions)
+    return f"{name} =\n  LRULES[\n    {rules}\n  ];" if rules else f"{name} = LRULES[];"
+
+
+def _rule(production: Production, constants: Collection[str]) -> str:
+    """An LRule."""
+    conditions = _conditions(production, constants)
+    patterns = [_pattern(module, constants, conditions.get(index)) for index, module in enumerate(production.parameters)]
+    own = len(production.left)
+    return (f"LRule[LEFT[{', '.join(patterns[:own])}], PRED[{patterns[own]}], RIGHT[{', '.join(patterns[own + 1:])}], "
+            f"SUCC[{_words(flat(production.successor))}]]")
+
+
+def _pattern(module: Module, constants: Collection[str], condition: Expression | None) -> str:
+    """A module that is asked for, with its condition: inside, where it is about the only parameter, else behind."""
+    parameters = _parameters(module, constants)
+    texts = [f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _value(argument)
+             for argument in module.arguments]
+    if condition is None:
+        return _with_arguments(module, texts)
+    if len(parameters) == len(texts) == 1 and names_in(condition) <= {*parameters, *constants}:
+        return _with_arguments(module, [f"{texts[0]} /; {text_of(condition)}"])
+    return f"{_with_arguments(module, texts)} /; {text_of(condition)}"
+
+
+def _parameters(module: Module, constants: Collection[str]) -> list[str]:
+    return [argument.name for argument in module.arguments if isinstance(argument, Name) and argument.name not in constants]
+
+
+def _conditions(production: Production, constants: Collection[str]) -> dict[int, Expression]:
+    """With which of a production's modules the parts of its condition are written, so that they are joined again as they
+    were: each with the last module on whose side all its parameters stand, or with the predecessor."""
+    if production.condition is None:
+        return {}
+    own, found = len(production.left), dict[int, list[Expression]]()
+    owners = {name: index for index, module in enumerate(production.parameters) for name in _parameters(module, constants)}
+    for part in _joined_by_and(production.condition):
+        places = {owners[name] for name in names_in(part) if name in owners}
+        together = bool(places) and len({(place > own) - (place < own) for place in places}) == 1
+        found.setdefault(max(places) if together else own, []).append(part)
+    parted = {index: condition for index in sorted(found) if (condition := condition_of(found[index]))}
+    return parted if condition_of(parted.values()) == production.condition else {own: production.condition}
+
+
+def _joined_by_and(condition: Expression) -> tuple[Expression, ...]:
+    if isinstance(condition, Apply) and condition.operator == "&&":
+        return *_joined_by_and(condition.operands[0]), condition.operands[1]
+    return (condition,)

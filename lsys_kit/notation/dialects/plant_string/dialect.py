@@ -1,0 +1,97 @@
+"""Plant strings (seed 004): symbols of one letter, both kinds of brackets as branches; the grammar is `plant_string.lark`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.syntax.actions import Statements
+from lsys_kit.notation.syntax.builder import Draft, assembled
+from lsys_kit.notation.syntax.diagnostics import QUESTIONS, without_colon
+from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.failure import Stumble, outside
+from lsys_kit.notation.syntax.formatting import first_lacking, settings
+from lsys_kit.notation.syntax.predecessor_diagnostics import PRODUCTION
+from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
+
+NAME = "plant-string"
+_WORD = r"[A-Za-z\[\]()+\-\s]*+"
+_LINE = re.compile(rf"""\s*+(?:
+      axiom\s*[:=](?P<axiom>{_WORD})
+    | (?P<rule>[A-Za-z]\s*(?:->|→)(?:{_WORD}|\s*[ε*]\s*))
+    | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*[\d.]+\s*
+    | turtle\s*:\s*[a-z-]+\s*
+    | productions\s*:\s*
+    | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
+"""A line of a plant string."""
+_KEYWORD = re.compile(r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)"
+                      r"[ \t]*:", re.IGNORECASE)
+_HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
+_MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
+    (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
+"""How lines begin that other notations hardly have, and how much each says."""
+
+
+def _of_others(stumble: Stumble) -> ModelSyntaxError | None:
+    """What only other notations have, or a line of a lesson without its colon."""
+    line = stumble.text[stumble.start:stumble.end]
+    keyword, heading = _KEYWORD.match(line), _HEADING.match(line)
+    if keyword:
+        return stumble.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
+                             "and turtle.", stumble.start, len(keyword[1]))
+    if heading:
+        return without_colon(stumble.source, stumble.start, heading[1], line[heading.end():])
+    if stumble.found == ":" and ARROW.search(stumble.before):
+        return stumble.error("A plant string has no probabilities", PRODUCTION)
+    return None
+
+
+def _finish(draft: Draft) -> LSystem:
+    """The system; where a text counts its productions, as those of the lesson's applet do, the axiom is always I."""
+    if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.more):
+        draft.axiom = (Module("I"),)
+        draft.notes.append("No axiom is given: it is I.")
+    return assembled(draft)
+
+
+def _lines(system: LSystem) -> Iterator[str]:
+    yield from settings(system, NAME)
+    yield f"Axiom: {PLANT_STRING.word(system.axiom)}"
+    for production in system.productions:
+        yield f"{production.predecessor} -> {PLANT_STRING.word(flat(production.successor)) or 'ε'}"
+
+
+def _lacking(system: LSystem) -> str | None:
+    return first_lacking(
+        system, "parameters", "symbols of several letters", "conditions", "contexts", "probabilities", "repetition",
+        "constants", "decomposition rules", "meta-rules", "interpretation rules", "starting direction", "ignored symbols")
+
+
+def _likely(text: str) -> int:
+    """How much shows a plant string: nothing where a line cannot stand in one."""
+    try:
+        lines = [line for line in without_comments(text).splitlines() if line.strip()]
+    except ModelSyntaxError:
+        return 0
+    matches = [match for match in map(_LINE.fullmatch, lines) if match]
+    if len(matches) < len(lines):
+        return 0
+    marks = sum(weight for mark, weight in _MARKS if any(map(mark.match, lines)))
+    return marks + _branches(match["axiom"] or match["rule"] or "" for match in matches)
+
+
+def _branches(words: Iterable[str]) -> int:
+    """2 where round brackets hold symbols that stand outside of them too; 1 where they hold other capitals, perhaps values."""
+    texts = [*words]
+    if not any(re.search(r"\([A-Za-z\[(]", text) for text in texts):
+        return 0
+    every, shown = (set(filter(str.isalpha, "".join(some))) for some in (texts, map(outside, texts)))
+    return 2 if every == shown else int("".join(every - shown).isupper())
+
+
+PLANT_STRING = Notation(
+    name=NAME, statements=statements, records=Statements, finish=_finish, questions=(_of_others, *QUESTIONS), module=str,
+    joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
+    starts=("statement", "word"))

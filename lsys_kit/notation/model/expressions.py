@@ -1,0 +1,240 @@
+"""Arithmetic expressions: trees that are read from text, printed, run as functions and shown by sympy.
+
+An expression is a number, a name, or an operator applied to expressions. The table `OPERATORS` says what each operator is;
+everything here walks the tree. Nothing is ever compiled from text: a function is put together from the functions of its
+operands.
+
+Decimal literals are rational numbers, and arithmetic is exact (see `arithmetic`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
+
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.arithmetic import Value, literal_text
+from lsys_kit.notation.model.operators import OPERATORS as OPERATORS
+from lsys_kit.notation.model.operators import Function as Function
+
+if TYPE_CHECKING:
+    import sympy
+
+Place: TypeAlias = tuple[int, int] | None
+"""The offsets in the text between which something was read."""
+
+
+@dataclass(frozen=True)
+class Number:
+    """A literal number.
+
+    >>> from fractions import Fraction
+    >>> print(Number(Fraction(7, 10)))
+    0.7
+    """
+
+    value: Value
+    at: Place = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return literal_text(self.value)
+
+
+@dataclass(frozen=True)
+class Name:
+    """A parameter or a constant."""
+
+    name: str
+    at: Place = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True)
+class Apply:
+    """An operator of the table `OPERATORS`, applied to its operands.
+
+    >>> print(Apply("*", (Name("x"), Apply("+", (Name("t"), Number(1))))))
+    x * (t + 1)
+    """
+
+    operator: str
+    operands: tuple[Expression, ...]
+    at: Place = field(default=None, compare=False, repr=False)
+    depth: int = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "depth", 1 + max(getattr(operand, "depth", 0) for operand in self.operands))
+
+    def __str__(self) -> str:
+        return written(self)
+
+
+Expression: TypeAlias = Number | Name | Apply
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a notation writes expressions.
+
+    Attributes
+    ----------
+    spellings
+        Operators and functions that are spelt otherwise than in `OPERATORS`.
+    brackets
+        What stands around a function's operands.
+    """
+
+    spellings: Mapping[str, str] = field(default_factory=dict)
+    brackets: tuple[str, str] = ("(", ")")
+
+
+PLAIN = Style()
+"""The kit's own: that of C, with `^` for powers."""
+
+
+def written(expression: Expression, style: Style = PLAIN) -> str:
+    """The text of an expression in a notation's style.
+
+    >>> written(Apply("sqrt", (Apply("==", (Name("x"), Number(1))),)), Style({"sqrt": "Sqrt", "==": "="}, ("[", "]")))
+    'Sqrt[x = 1]'
+    """
+    if not isinstance(expression, Apply):
+        return str(expression)
+    operator, spelt = OPERATORS[expression.operator], style.spellings.get(expression.operator, expression.operator)
+    if operator.precedence is None:
+        return spelt + style.brackets[0] + ", ".join(written(o, style) for o in expression.operands) + style.brackets[1]
+    if len(expression.operands) == 1:
+        tightly = 7 if expression.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
+        return spelt[0] + _within(expression.operands[0], tightly, style)
+    left, right = expression.operands
+    power = expression.operator == "^"
+    return (_within(left, operator.precedence + power, style) + operator.spelling(spelt)
+            + _within(right, operator.precedence + (not power), style))
+
+
+def _within(expression: Expression, precedence: int, style: Style) -> str:
+    """The operand's text, in parentheses where it binds less tightly than its surroundings."""
+    own, text = None, written(expression, style)
+    if isinstance(expression, Apply):
+        own = OPERATORS[expression.operator].precedence
+    elif isinstance(expression, Number):
+        own = 5 if "/" in text else 6 if text.startswith("-") else None
+    return f"({text})" if own is not None and own < precedence else text
+
+
+def gives(expression: Expression) -> str:
+    """What an expression is: a "number" or a "truth"."""
+    return OPERATORS[expression.operator].gives if isinstance(expression, Apply) else "number"
+
+
+def names_in(expression: Expression) -> frozenset[str]:
+    """The names that an expression uses.
+
+    >>> sorted(names_in(Apply("+", (Name("t"), Name("dt")))))
+    ['dt', 't']
+    """
+    if isinstance(expression, Name):
+        return frozenset((expression.name,))
+    if isinstance(expression, Apply):
+        return frozenset().union(*map(names_in, expression.operands))
+    return frozenset()
+
+
+def is_random(expression: Expression) -> bool:
+    """Whether an expression draws a number, so that it may have another value at every use.
+
+    >>> is_random(Apply("+", (Name("t"), Apply("uniform", (Number(0), Number(1))))))
+    True
+    """
+    return isinstance(expression, Apply) and (OPERATORS[expression.operator].random
+                                              or any(map(is_random, expression.operands)))
+
+
+def questions_in(expression: Expression) -> Iterator[Apply]:
+    """What an expression asks of the turtle.
+
+    >>> [str(question) for question in questions_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
+    ['sensed(2, 1)']
+    """
+    if isinstance(expression, Apply):
+        if OPERATORS[expression.operator].looks:
+            yield expression
+        for operand in expression.operands:
+            yield from questions_in(operand)
+
+
+def function_of(expression: Expression, order: Mapping[str, int], arithmetic: str = "exact") -> Function:
+    """The function that an expression stands for.
+
+    Parameters
+    ----------
+    expression
+        Any expression whose names are all in `order`.
+    order
+        For each name its index in the tuple of values that the function takes. Where the expression is random, the last
+        element of that tuple is what draws the numbers: it has the methods `uniform`, `normal`, and so on; where it asks
+        for what the turtle sees, that element has the attribute `sees`.
+    arithmetic
+        "exact", or "float" to compute in doubles throughout, as cpfg and L-Py do.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> function_of(Apply("+", (Name("t"), Number(Fraction(7, 10)))), {"t": 0})((Fraction(3, 10),))
+    1
+    """
+    if isinstance(expression, Number):
+        value = float(expression.value) if arithmetic == "float" else expression.value
+        return lambda v: value
+    if isinstance(expression, Name):
+        index = order[expression.name]
+        return lambda v: v[index]
+    operands = [function_of(operand, order, arithmetic) for operand in expression.operands]
+    return OPERATORS[expression.operator].build(*operands)
+
+
+def to_sympy(expression: Expression) -> sympy.Basic:
+    """The expression as a sympy expression, to be shown as mathematics or solved; built from the tree, never from text.
+
+    Raises
+    ------
+    ModelValueError
+        The expression is random: no formula stands for it.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> to_sympy(Apply("*", (Number(Fraction(1, 2)), Name("t"))))
+    t/2
+    """
+    import sympy
+
+    if isinstance(expression, Number):
+        value = expression.value
+        return sympy.Float(value) if isinstance(value, float) else sympy.Rational(value.numerator, value.denominator)
+    if isinstance(expression, Name):
+        return sympy.Symbol(expression.name)
+    if OPERATORS[expression.operator].random:
+        raise ModelValueError(f'"{expression}" is drawn anew at every use: no formula stands for it')
+    return _sympy_table()[expression.operator](*map(to_sympy, expression.operands))
+
+
+def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
+    """For each operator what builds it in sympy."""
+    import sympy
+
+    degree = sympy.pi / 180
+    return {
+        "||": sympy.Or, "&&": sympy.And, "!": sympy.Not, "==": sympy.Eq, "!=": sympy.Ne,
+        "<": sympy.Lt, "<=": sympy.Le, ">": sympy.Gt, ">=": sympy.Ge,
+        "+": sympy.Add, "-": lambda x, y: x - y, "*": sympy.Mul, "/": lambda x, y: x / y, "-x": lambda x: -x,
+        "^": sympy.Pow, "abs": sympy.Abs, "floor": sympy.floor, "ceil": sympy.ceiling, "min": sympy.Min,
+        "max": sympy.Max, "mod": sympy.Mod, "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
+        "sqrt": sympy.sqrt, "exp": sympy.exp, "log": sympy.log,
+        "sin": lambda x: sympy.sin(x * degree), "cos": lambda x: sympy.cos(x * degree), "tan": lambda x: sympy.tan(x * degree),
+        "asin": lambda x: sympy.asin(x) / degree, "acos": lambda x: sympy.acos(x) / degree,
+        "atan": lambda x: sympy.atan(x) / degree, "sensed": sympy.Function("sensed"),
+    }

@@ -1,0 +1,140 @@
+"""The records of a map L-system: walls, markers, productions (The Algorithmic Beauty of Plants, section 7.1.2).
+
+A map is cells side by side. What is rewritten are their walls; markers on the new walls say where a cell is divided. `str` of
+a map system is its text, which reads back as the same system.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from lsys_kit.notation.model.expressions import Place
+
+TURNED = {"": "", ">": "<", "<": ">"}
+"""The arrow of a wall, seen from its other end."""
+OTHER_SIDE = {"+": "-", "-": "+"}
+"""The side of a wall, seen from its other end."""
+LEFT, RIGHT = "+", "-"
+"""The sides of a wall, seen in its direction."""
+
+
+@dataclass(frozen=True)
+class Edge:
+    """The letter of a wall, and where the wall points.
+
+    >>> print(Edge("A", ">"), Edge("B"))
+    A> B
+
+    Attributes
+    ----------
+    label
+        The letter, perhaps with digits.
+    arrow
+        ">" along the direction in which one reads, "<" against it; empty for a neutral wall.
+    """
+
+    label: str
+    arrow: str = ""
+    at: Place = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return self.label + self.arrow
+
+    @property
+    def turned(self) -> Edge:
+        """The same, read from the other end."""
+        return replace(self, arrow=TURNED[self.arrow])
+
+
+@dataclass(frozen=True)
+class Marker:
+    """Half of a wall to come, which divides the cell on one side; it needs another half.
+
+    >>> print(Marker("-", Edge("A", ">")))
+    [-A>]
+
+    Attributes
+    ----------
+    side
+        "+" where it stands left of the wall that is replaced, "-" right.
+    edge
+        The letter of the wall to come, and where it points: ">" away from the wall that is replaced, "<" toward it.
+    """
+
+    side: str
+    edge: Edge
+    at: Place = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"[{self.side}{self.edge}]"
+
+
+Part: TypeAlias = Edge | Marker
+"""What stands in a successor."""
+
+
+@dataclass(frozen=True)
+class EdgeProduction:
+    """What a wall becomes in one step: walls one after another, with markers between them.
+
+    >>> print(EdgeProduction(Edge("A"), (Edge("B"), Marker("-", Edge("A")), Marker("+", Edge("A")), Edge("B"))))
+    A -> B[-A][+A]B
+    """
+
+    predecessor: Edge
+    successor: tuple[Part, ...]
+    at: Place = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"{self.predecessor} -> {''.join(map(str, self.successor))}"
+
+    @property
+    def walls(self) -> tuple[Edge, ...]:
+        """The walls of the successor."""
+        return tuple(part for part in self.successor if isinstance(part, Edge))
+
+    @property
+    def markers(self) -> tuple[Marker, ...]:
+        """The markers of the successor."""
+        return tuple(part for part in self.successor if isinstance(part, Marker))
+
+    @property
+    def turned(self) -> tuple[Part, ...]:
+        """The successor, read from the other end."""
+        return tuple(part.turned if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
+                     for part in reversed(self.successor))
+
+
+@dataclass(frozen=True)
+class MapSystem:
+    """A map L-system: the walls of the first cell, and productions.
+
+    Attributes
+    ----------
+    axiom
+        The walls of the first cell, clockwise: inside lies on the right hand of who walks along them.
+    productions
+        One for a wall at most; a wall that has none stays as it is.
+    steps
+        How many steps the model asks for, or None.
+    source, notes
+        The text it was read from, and what the reader found worth telling. Equality ignores them.
+    """
+
+    axiom: tuple[Edge, ...]
+    productions: tuple[EdgeProduction, ...]
+    steps: int | None = None
+    source: str = field(default="", compare=False, repr=False)
+    notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
+
+    def __str__(self) -> str:
+        steps = () if self.steps is None else (f"steps: {self.steps}",)
+        return "\n".join((f"map: {''.join(map(str, self.axiom))}", *steps, *map(str, self.productions)))
+
+    @property
+    def markers(self) -> Iterator[Marker]:
+        """The markers of all productions."""
+        for production in self.productions:
+            yield from production.markers

@@ -1,0 +1,87 @@
+"""What a notation is made of: how its text is cut, parsed and put together, and how a system is written in it.
+
+Each notation has a file of its own, with its grammar beside it; `registry` has them all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from lark import Transformer
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.model.system import LSystem, Module
+
+if TYPE_CHECKING:
+    from lsys_kit.notation.syntax.builder import Draft
+    from lsys_kit.notation.syntax.failure import Stumble
+
+Question: TypeAlias = "Callable[[Stumble], ModelSyntaxError | None]"
+"""Something to ask about the place where a parser stumbled; an answer is what the person is told."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grammar:
+    """How a statement is read.
+
+    Attributes
+    ----------
+    name
+        What the notation is called.
+    records
+        What its grammar names, as records.
+    questions
+        What is asked about a slip, the most telling first.
+    starts
+        What can be parsed: a statement, and perhaps a word or an expression alone.
+    """
+
+    name: str
+    records: Callable[[], Transformer[Any, Any]]
+    questions: Sequence[Question]
+    starts: Sequence[str] = ("statement", "word", "expression")
+
+    @property
+    def file(self) -> str:
+        """The file of the grammar, in the folder of the dialects."""
+        return f"{self.name.replace('-', '_')}/grammar.lark"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Notation(Grammar):
+    """One notation of L-systems, by the name that it has in `read` and `write`.
+
+    Attributes
+    ----------
+    statements
+        The offsets of a text's statements.
+    finish
+        What the statements mean together, as a system without its notes.
+    module
+        The text of a module.
+    joined
+        The texts of modules, as one word.
+    write
+        The text of a system that lacks nothing in the notation.
+    lacking
+        The first thing that a system has and the notation lacks, in words.
+    turtle
+        Whose turtle commands its symbols are, if the text says nothing.
+    likely
+        How likely a text is in this notation: the number of its marks that are found there.
+    """
+
+    statements: Callable[[str], Iterator[tuple[int, int]]]
+    finish: Callable[[Draft], LSystem]
+    module: Callable[[Module], str]
+    joined: Callable[[Iterable[str]], str]
+    write: Callable[[LSystem], str]
+    lacking: Callable[[LSystem], str | None]
+    likely: Callable[[str], int]
+    turtle: str = "abop"
+
+    def word(self, modules: Iterable[Module]) -> str:
+        """The text of a word."""
+        return self.joined(map(self.module, modules))

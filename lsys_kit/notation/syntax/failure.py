@@ -1,0 +1,120 @@
+"""Where a parser could not go on: the place, the text around it, and what it would have taken instead."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+
+from lsys_kit.errors import ModelSyntaxError, named, printable
+from lsys_kit.notation.syntax.statements import ARROW, without_comments
+
+_WORDS = {
+    "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',
+    "COMMA": '","', "COLON": '":"', "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
+}
+
+
+@dataclass(frozen=True)
+class Stumble:
+    """Where the parser could not go on, in the statement between two offsets.
+
+    Attributes
+    ----------
+    text, source
+        The text without its comments, and as it was typed.
+    at, found
+        The offset, and the text there: none at the end of the statement.
+    accepted
+        The kinds of tokens with which it could have gone on.
+    """
+
+    text: str
+    source: str
+    start: int
+    end: int
+    at: int
+    found: str
+    accepted: frozenset[str]
+
+    @property
+    def before(self) -> str:
+        """The statement up to the place."""
+        return self.text[self.start:self.at].rstrip()
+
+    @property
+    def after(self) -> str:
+        """The statement from the place on."""
+        return self.text[self.at:self.end]
+
+    def error(self, message: str, hint: str | None = None, at: int | None = None,
+              length: int | None = None) -> ModelSyntaxError:
+        """What is wrong, at the place or at another offset."""
+        at = self.at if at is None else at
+        return ModelSyntaxError(message, self.source, at, at + (length or max(1, len(self.found))), hint)
+
+
+def stumbled(slip: UnexpectedInput, source: str, start: int, end: int) -> Stumble:
+    """What a parser says of the statement between two offsets, as a stumble."""
+    at, found = _found(slip, source, start, end)
+    parser = getattr(slip, "interactive_parser", None)
+    accepted = frozenset(kind.split("__")[-1] for kind in parser.accepts()) if parser else frozenset()
+    return Stumble(without_comments(source), source, start, end, at, found, accepted)
+
+
+def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[int, str]:
+    """The offset of the slip and the text there; an arrow is found whole, wherever in it the parser stumbled."""
+    if isinstance(slip, UnexpectedToken) and slip.token.type != "$END":
+        at, found = slip.token.start_pos or 0, str(slip.token)
+    elif isinstance(slip, UnexpectedCharacters):
+        at, found = slip.pos_in_stream or 0, slip.char
+    else:
+        return end, ""
+    for arrow in ARROW.finditer(source, max(start, at - 2), min(end, at + 16)):
+        if arrow.start() <= at < arrow.end():
+            return arrow.start(), arrow.group()
+    return at, found
+
+
+def unclosed(text: str, pair: str = "()") -> int | None:
+    """The offset of the last opening bracket of a pair that is not closed."""
+    opened: list[int] = []
+    for match in re.finditer(f"[{re.escape(pair)}]", text):
+        if match.group() == pair[0]:
+            opened.append(match.start())
+        else:
+            opened[-1:] = []
+    return opened[-1] if opened else None
+
+
+def outside(text: str) -> str:
+    """The text with parentheses, and what stands in them, blanked.
+
+    >>> outside("A(max(1, 2)) < B")
+    'A            < B'
+    """
+    depth, kept = 0, []
+    for character in text:
+        depth = max(0, depth - (character == ")"))
+        kept.append(" " if depth or character in "()" else character)
+        depth += character == "("
+    return "".join(kept)
+
+
+def quoted(found: str) -> str:
+    """A piece of a text, as a message quotes it."""
+    return named(found) if len(found) == 1 else f'"{found}"' if len(found) <= 40 else f'"{found[:40]}..."'
+
+
+def printed(text: str) -> str:
+    """The beginning of a text, as a hint quotes it."""
+    return "".join(map(printable, text[:20]))
+
+
+def possible(accepted: frozenset[str]) -> str | None:
+    """A hint that says what could stand at the place, if that is not too much."""
+    words = sorted({_WORDS[name] for name in accepted if name in _WORDS})
+    if not words or len(words) > 4:
+        return None
+    return "Possible here: " + " or ".join((", ".join(words[:-1]), words[-1]) if len(words) > 1 else words) + "."

@@ -1,0 +1,72 @@
+"""A system as lines of text: what is set first, the axiom, then rules by sections; what the notations have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.system import LSystem, Repeat
+
+ABOP = "abop"
+"""The tradition of turtle commands that is meant where nothing is said."""
+
+
+def settings(system: LSystem, turtle: str = ABOP) -> Iterator[str]:
+    """The lines that set something, given whose turtle commands the notation itself has."""
+    if system.alphabet:
+        yield "alphabet: " + " ".join(system.alphabet)
+    if system.turtle != turtle:
+        yield f"turtle: {system.turtle}"
+    if system.angle != 90:
+        yield f"angle: {number_text(system.angle)}"
+    if system.heading != 90:
+        yield f"heading: {number_text(system.heading)}"
+    if system.length is not None:
+        yield f"length: {number_text(system.length)}"
+    for keyword, number in (("steps", system.steps), ("seed", system.seed),
+                            ("decomposition depth", system.decomposition_depth)):
+        if number is not None:
+            yield f"{keyword}: {number}"
+    if system.depth != 1:
+        yield f"depth: {system.depth}"
+    for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
+        if symbols:
+            yield f"{keyword}: {' '.join(symbols)}"
+
+
+def sections(system: LSystem, rule: Callable[[object], str]) -> Iterator[str]:
+    """The lines of all rules, each written by a function."""
+    yield from map(rule, system.productions)
+    yield from map(rule, system.meta)
+    for keyword, rules in (("decomposition", system.decomposition), ("interpretation", system.interpretation)):
+        if rules:
+            yield f"{keyword}:"
+            yield from map(rule, rules)
+
+
+def first_lacking(system: LSystem, *names: str) -> str | None:
+    """The first of some features that a system has, in words.
+
+    >>> from lsys_kit.notation.read import read
+    >>> first_lacking(read("axiom: A(1)\\nA(t) : t < 3 -> B"), "contexts", "conditions", "parameters")
+    'conditions'
+    """
+    return next((name for name in names if FEATURES[name](system)), None)
+
+
+FEATURES: dict[str, Callable[[LSystem], bool]] = {
+    "parameters": lambda s: any(m.arguments for m in s.modules),
+    "symbols of several letters": lambda s: any(len(m.symbol) > 1 for m in s.modules),
+    "round brackets as branches": lambda s: any(m.symbol in "()" for m in s.modules),
+    "conditions": lambda s: any(rule.condition is not None for rule in s.rules),
+    "contexts": lambda s: any(rule.left or rule.right for rule in s.rules),
+    "probabilities": lambda s: any(rule.probability is not None for rule in s.rules),
+    "repetition": lambda s: any(isinstance(item, Repeat) for rule in s.rules for item in rule.successor),
+    "constants": lambda s: bool(s.constants),
+    "decomposition rules": lambda s: bool(s.decomposition),
+    "meta-rules": lambda s: bool(s.meta),
+    "interpretation rules": lambda s: bool(s.interpretation),
+    "starting direction": lambda s: s.heading != 90,
+    "ignored symbols": lambda s: bool(s.ignored or s.considered),
+}
+"""What a system may need, and whether it does."""

@@ -1,0 +1,114 @@
+"""Letters written together: `F -> FF` means two segments, `ar -> al br` means two cells of two letters each.
+
+Books glue one-letter symbols together; the kit's notation has symbols of several letters. A name of several letters that
+no production rewrites, and that can be parted in just one way into symbols that the system has, is read as those symbols; so
+is a row of capital letters, one of which a production rewrites: in `A -> BA` the B is new. An `alphabet:` line keeps a name
+whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
+
+_ALWAYS = frozenset("Ff")
+"""The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
+
+
+def unglued(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
+    """A word with its glued names parted as in a system.
+
+    >>> from lsys_kit.notation.read import read
+    >>> [str(module) for module in unglued(read("axiom: ba").axiom, read("axiom: a\\na -> ab\\nb -> a"))]
+    ['b', 'a']
+    """
+    word = tuple(word)
+    return _parted(word, _glued(flat(word), *_symbols(system)))
+
+
+def apart(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
+    """A system with its glued names parted, and what each of them is made of.
+
+    The symbols of which one name is made may part another: names are parted until none is left.
+
+    >>> from lsys_kit.notation.read import read
+    >>> apart(replace(read("axiom: F\\nF -> F J J"), axiom=(Module("JF"),)))[1]
+    {'JF': ['J', 'F']}
+    """
+    made: dict[str, list[str]] = {}
+    while found := _glued(_modules(system), *_symbols(system)):
+        made |= found
+        system = replace(system, axiom=_parted(system.axiom, found), productions=_parted_rules(system.productions, found),
+                         decomposition=_parted_rules(system.decomposition, found),
+                         interpretation=_parted_rules(system.interpretation, found),
+                         meta=tuple(replace(rule, successor=_parted(rule.successor, found)) for rule in system.meta))
+    return system, made
+
+
+def with_letters_apart(system: LSystem) -> LSystem:
+    """What `apart` makes of a system, with a note for each name that was parted."""
+    parted, made = apart(system)
+    notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
+    return replace(parted, notes=(*system.notes, *notes)) if made else system
+
+
+def _modules(system: LSystem) -> Iterable[Module]:
+    """The modules that may be glued: a predecessor is what it is."""
+    yield from system.axiom
+    for rule in system.rules:
+        yield from (*rule.left, *rule.right, *flat(rule.successor))
+    for meta in system.meta:
+        yield from flat(meta.successor)
+
+
+def _parted_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
+    return tuple(replace(rule, left=_parted(rule.left, made), right=_parted(rule.right, made),
+                         successor=_parted(rule.successor, made)) for rule in rules)
+
+
+def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
+    """The word with its glued names parted; what a name has in parentheses goes to its last symbol."""
+    result: list[Item] = []
+    for module in word:
+        if isinstance(module, Repeat):
+            result.append(replace(module, body=_parted(module.body, made)))
+        elif pieces := made.get(module.symbol):
+            result += [Module(symbol, at=module.at) for symbol in pieces[:-1]]
+            result.append(replace(module, symbol=pieces[-1]))
+        else:
+            result.append(module)
+    return tuple(result)
+
+
+def _glued(modules: Iterable[Module], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
+    """The glued names among some modules, and the symbols of which each is made."""
+    names = dict.fromkeys(module.symbol for module in modules if len(module.symbol) > 1 and module.symbol not in whole)
+    return {name: pieces for name in names if (pieces := _pieces(name, whole, parts))}
+
+
+def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
+    """The names that stay whole, and the symbols of which a name may be made."""
+    rewritten = {rule.predecessor.symbol for rule in system.rules}
+    rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
+    shown = [m.symbol for m in (*system.axiom, *(m for rule in system.rules for m in rule.modules))]
+    whole = rewritten | set(system.alphabet)
+    return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
+
+
+def _pieces(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
+    """The symbols that a name stands for; nothing where it is a symbol of its own."""
+    capitals = name.isalpha() and name.isupper() and not whole.isdisjoint(name)
+    return _partings(name, parts) or (list(name) if capitals else [])
+
+
+def _partings(name: str, parts: frozenset[str]) -> list[str]:
+    """The one way to part a name into symbols, or nothing where there is none or more than one."""
+    ways: list[list[list[str]]] = [[[]]]
+    for end in range(1, len(name) + 1):
+        found = [[*way, name[start:end]] for start in range(max(0, end - 64), end) if name[start:end] in parts
+                 for way in ways[start][:2]]
+        ways.append(found[:2])
+    return ways[-1][0] if len(ways[-1]) == 1 else []

@@ -1,0 +1,209 @@
+"""Lineages as trees in continuous time (seed 002, figures 5 and 6).
+
+Time runs down. A line is a cell from its birth to its division, thin until the first word that has it, so that what happens
+within a step is told from what the words show. Cells that began alike have the same colour and the same dashes; a flag shows
+where a cell points. Where a cell divides late, a broad band begins at the time at which it should have divided. Below the tree
+stands the last word, each cell at the end of its line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.pictures.filaments import cells_svg, tenths, time_text
+from lsys_kit.pictures.formats.files import keep
+from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, tree_of, way_of
+from lsys_kit.pictures.style.labels import svg_label, values_text
+from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
+from lsys_kit.pictures.svg import MARGIN, WIDTH, background, document
+
+TAIL, BEND, BRACKET = 14.0, 6.0, 46
+"""How far lines go on below the last time, how round corners are, and the room for an interval, in pixels."""
+THICK, THIN, LATE = 24, 11, 90
+"""Widths of lines, in tenths of a pixel."""
+LATE_LOOK = f'stroke="{VERMILION}" stroke-width="{LATE}" stroke-opacity="0.35"'
+MOST_LINES, MOST_TICKS = 400, 14
+"""At most so many cells at the end, and times on the axis."""
+
+
+@dataclass(frozen=True)
+class LineagePicture:
+    """A picture of a lineage.
+
+    Attributes
+    ----------
+    lineage
+        The lineage.
+    intervals
+        Stretches of time that are marked beside the tree, each from one time to another.
+    """
+
+    lineage: Lineage
+    intervals: tuple[tuple[Value, Value], ...] = ()
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        return drawn_lineage(self.lineage, self.intervals)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg file.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        return f"lineage of {self.lineage}"
+
+
+def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture:
+    """The picture of a lineage, with some stretches of time marked.
+
+    Raises
+    ------
+    ModelLimitError
+        More cells live in the end than a picture has room for.
+    ModelValueError
+        A stretch does not lie within the time of the lineage.
+    """
+    if len(lineage.words[-1]) > MOST_LINES:
+        raise ModelLimitError(f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have "
+                              f"{MOST_LINES}", limit=MOST_LINES, needed=len(lineage.words[-1]), hint="Take fewer steps.")
+    found = tuple((number_from(first, "interval"), number_from(last, "interval")) for first, last in intervals)
+    for first, last in found:
+        if not 0 <= first < last <= lineage.times[-1]:
+            raise ModelValueError(f"No interval from {time_text(first)} to {time_text(last)} can be marked",
+                                  hint=f"The lineage lasts from 0 to {time_text(lineage.times[-1])}.")
+    return LineagePicture(lineage, found)
+
+
+def drawn_lineage(lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = ()) -> str:
+    """A lineage as SVG text."""
+    tree = tree_of(lineage, BRACKET * len(intervals))
+    half = max((cell.width for cell in tree.row), default=8.0)
+    middle = tree.y(lineage.times[-1]) + TAIL + half
+    legend, parts = _legend(tree), middle + half + 24
+    body = [_axis(tree), *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
+            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last(tree, middle),
+            f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{legend}</g>']
+    height = round(parts) + (MARGIN if legend else -MARGIN)
+    return document(background(WIDTH, height) + "".join(body), WIDTH, height, f"Lineage of {lineage}")
+
+
+def _axis(tree: Tree) -> str:
+    """The axis of time: a fine line through the tree at each time on it."""
+    lineage = tree.lineage
+    whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
+    name = "step" if whole else '<tspan font-style="italic">t</tspan>'
+    parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{QUIET}">{name}</text>']
+    for time in _ticks(lineage):
+        y = tenths(tree.y(time))
+        parts.append(f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{tinted(QUIET, 0.3)}" stroke-width="8"/>'
+                     f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{QUIET}">{time_text(time)}</text>')
+    return f'<g text-anchor="end" font-family="sans-serif">{"".join(parts)}</g>'
+
+
+def _ticks(lineage: Lineage) -> Sequence[Value]:
+    """The times on the axis: those of steps, or whole ones."""
+    if lineage.stepwise:
+        return lineage.times[::-(-len(lineage.times) // MOST_TICKS)]
+    end = lineage.times[-1]
+    return range(0, int(end) + 1, max(1, -(-int(end) // MOST_TICKS)))
+
+
+def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
+    """An interval beside the tree, with its length."""
+    x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
+    return (f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
+            f'stroke="{INK}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
+            f'font-size="130" font-family="sans-serif" fill="{INK}">{time_text(last - first)}</text>')
+
+
+def _line(tree: Tree, number: int) -> str:
+    """A cell's line, from its mother's; broad behind it the time by which it divides late."""
+    cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
+    bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
+    seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
+    late = "" if cell.due is None else (f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" '
+                                        f'{LATE_LOOK} fill="none"/>')
+    start, turned = _start(tree, number, bottom)
+    look = f'fill="none" stroke="{kind.colour}" stroke-linecap="round"{kind.broken}'
+    if seen <= turned or not tree.lineage.stepwise:
+        return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
+    thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
+    return thin + (f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
+                   if bottom > seen else "")
+
+
+def _start(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
+    """The beginning of a cell's line, from that of its mother round a corner, and how far down it leads."""
+    cell, x = tree.lineage.cells[number], tree.x[number]
+    top = tree.y(cell.born)
+    if cell.mother is None:
+        return f"M{tenths(x)} {tenths(top)}", top
+    away = x - tree.x[cell.mother]
+    bend = min(BEND, abs(away), bottom - top)
+    return (f"M{tenths(x - away)} {tenths(top)}H{tenths(x - (bend if away > 0 else -bend))}"
+            f"Q{tenths(x)} {tenths(top)} {tenths(x)} {tenths(top + bend)}"), top + bend
+
+
+def _flags(tree: Tree) -> str:
+    """A flag at the beginning of each line, to the side to which the cell points."""
+    parts = []
+    for number, cell in enumerate(tree.lineage.cells):
+        way = way_of(tree.lineage, cell.at_birth)
+        top, end = tree.y(cell.born), tree.y(tree.lineage.times[-1] if cell.ended is None else cell.ended)
+        if way and end - top > 16:
+            x, y = tenths(tree.x[number]), tenths(top + 7)
+            parts.append(f"M{x} {y}L{x + way * 65} {y + 32}L{x} {y + 64}Z")
+    return f'<path d="{"".join(parts)}" fill="{INK}"/>'
+
+
+def _last(tree: Tree, middle: float) -> str:
+    """The last word below the tree: its cells as they are drawn, else their names where there is room."""
+    lineage, system = tree.lineage, tree.lineage.states.system
+    if tree.row:
+        return cells_svg(tree.row, system.cells, middle, tree.colours)
+    modules = [lineage.cells[cell].modules[-1][1] for cell in lineage.words[-1]]
+    places = [tree.x[cell] for cell in lineage.words[-1]]
+    longest = max((len(str(module)) for module in modules), default=0)
+    if any(after - before < 7 * longest for before, after in pairwise(places)):
+        return ""
+    return "".join(f'<text transform="translate({tenths(x)} {tenths(middle + 6)}) scale(10)" font-size="13" '
+                   f'text-anchor="middle" font-family="sans-serif" fill="{INK}">'
+                   f"{svg_label(module.symbol, system, values_text(module))}</text>"
+                   for x, module in zip(places, modules, strict=True))
+
+
+def _legend(tree: Tree) -> str:
+    """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
+    cells, entries = tree.lineage.cells, []
+    if len(tree.kinds) > 1:
+        entries += [(f'stroke="{kind.colour}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}', kind.label,
+                     kind.characters) for kind in tree.kinds]
+    if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
+        entries.append((f'stroke="{QUIET}" stroke-width="{THIN}"', "within a step", 13))
+    if any(cell.due is not None for cell in cells):
+        entries.append((LATE_LOOK, "should have divided", 19))
+    parts, x = [], 0
+    for look, label, characters in entries:
+        parts.append(f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{INK}">'
+                     f"{label}</text>")
+        x += 360 + 65 * characters + 280
+    return "".join(parts)

@@ -1,0 +1,183 @@
+"""Where the lines of a lineage stand in its picture, and which cells are of one kind.
+
+A line stands over its cell in the filament of the last word; a mother's in the middle of those of her first and last daughter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from lsys_kit.derivation.core.interpretation import image, is_cell
+from lsys_kit.derivation.petri.net import Place
+from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.geometry.filament import filament
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import CELLS, Module
+from lsys_kit.pictures import filaments
+from lsys_kit.pictures.style.labels import place_parts, svg_label, twins
+from lsys_kit.pictures.style.palette import SERIES, colours
+from lsys_kit.pictures.svg import MARGIN, WIDTH
+
+AXIS, HEAD, TREE = 54, 22, 300
+"""Room for the axis of time, its heading and the tree, in pixels."""
+BROADEST, APART = 30.0, 60.0
+"""The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
+MOST_KINDS = 4
+"""At most so many kinds of cells are told apart."""
+DASHES = ("", "80 45", "1 45", "120 40 1 40")
+"""For each kind of cells how its lines are broken, in tenths of a pixel."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Cells that were alike at birth.
+
+    Attributes
+    ----------
+    label
+        What they were, as SVG text.
+    characters
+        How long the label is.
+    colour, dash
+        How their lines look.
+    """
+
+    label: str
+    characters: int
+    colour: str
+    dash: str
+
+    @property
+    def broken(self) -> str:
+        """The attribute that breaks its lines."""
+        return f' stroke-dasharray="{self.dash}"' if self.dash else ""
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Where the lines of a lineage stand, in pixels.
+
+    Attributes
+    ----------
+    lineage
+        The lineage.
+    x
+        For each cell how far to the right.
+    row
+        The cells of the filament below, or none.
+    kinds, kind_of
+        The kinds of cells, and for each cell the number of its kind.
+    colours
+        For each cell of the last word its colour.
+    right
+        Where the tree ends.
+    """
+
+    lineage: Lineage
+    x: Mapping[int, float]
+    row: Sequence[filaments.Cell]
+    kinds: Sequence[Kind]
+    kind_of: Sequence[int]
+    colours: Mapping[int, str]
+    right: float
+
+    def y(self, time: Value) -> float:
+        """How far down a time is."""
+        end = float(self.lineage.times[-1])
+        return MARGIN + HEAD + (TREE * float(time) / end if end else 0.0)
+
+
+def tree_of(lineage: Lineage, right: int = 0) -> Tree:
+    """The tree of a lineage, with some room left free to its right."""
+    x, row = _places(lineage, WIDTH - MARGIN - right)
+    kinds, kind_of, colour_of = _kinds(lineage)
+    return Tree(lineage, x, row, kinds, kind_of, colour_of, WIDTH - MARGIN - right)
+
+
+def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.Cell]]:
+    """For each cell how far to the right its line stands, and the filament below."""
+    ends = list(_ends(lineage))
+    row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
+    if row:
+        x = {cell.state: cell.x for cell in row}
+    else:
+        apart = min(APART, (right - AXIS - 2 * MARGIN) / max(1, len(ends) - 1))
+        left = (right + AXIS - apart * (len(ends) - 1)) / 2
+        x = {cell: left + apart * place for place, cell in enumerate(ends)}
+    for cell in range(len(lineage.cells) - 1, -1, -1):  # daughters stand behind their mothers
+        if daughters := lineage.daughters(cell):
+            x[cell] = (x[daughters[0]] + x[daughters[-1]]) / 2
+    return x, row
+
+
+def _ends(lineage: Lineage) -> Iterator[int]:
+    """The cells without daughters, from left to right."""
+    todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
+    while todo:
+        cell = todo.pop()
+        daughters = lineage.daughters(cell)
+        todo += reversed(daughters)
+        if not daughters:
+            yield cell
+
+
+def _filament(lineage: Lineage, right: int) -> list[filaments.Cell]:
+    """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
+    scene = filament(lineage.last)
+    if len(scene.cells) != len(lineage.words[-1]):
+        return []
+    scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
+    left = (right + AXIS - scene.width * scale) / 2
+    cells = scene.cells
+    return [filaments.Cell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
+            for number, (x, _), (length, width), way, shade in zip(
+                lineage.words[-1], cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(),
+                cells.shades.tolist(), strict=True)]
+
+
+def _kinds(lineage: Lineage) -> tuple[list[Kind], list[int], dict[int, str]]:
+    """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
+
+    Cells are of one kind that look alike at birth; where too many do not, those of one symbol. Where each kind has a symbol of
+    its own, colours are those of the symbols.
+    """
+    births = [cell.at_birth for cell in lineage.cells]
+    keys = [(_base(lineage, module), _look(lineage, module)) for module in births]
+    if len(set(keys)) > MOST_KINDS:
+        keys = [(base, None) for base, _ in keys]
+    numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
+    members: list[dict[Module, None]] = [{} for _ in numbers]
+    for key, module in zip(keys, births, strict=True):
+        members[numbers[key]][module] = None
+    palette = colours(lineage.states.system) if len({base for base, _ in numbers}) == len(numbers) else {}
+    kinds = [_kind(lineage, list(modules), number, palette) for number, modules in enumerate(members)]
+    kind_of = [numbers[key] for key in keys]
+    return kinds, kind_of, {cell: palette.get(lineage.cells[cell].modules[-1][1].symbol, kinds[kind_of[cell]].colour)
+                            for cell in lineage.words[-1]}
+
+
+def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> Kind:
+    system, symbol = lineage.states.system, modules[0].symbol
+    letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
+    name = f"{letter}_{subscript}" if subscript else letter
+    return Kind(svg_label(name, system, values), len(name + values), palette.get(symbol, SERIES[number % len(SERIES)]),
+                DASHES[number % len(DASHES)])
+
+
+def _base(lineage: Lineage, module: Module) -> str:
+    """A module's symbol without its polarity."""
+    return twins(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
+
+
+def _look(lineage: Lineage, module: Module) -> object:
+    """What a module looks like without its polarity; itself, where it is not drawn as a cell."""
+    return tuple(made.arguments for made in image(lineage.states, module) if is_cell(made)) or module.arguments
+
+
+def way_of(lineage: Lineage, module: Module) -> int:
+    """Where a cell points: -1 to the left, 1 to the right, 0 nowhere."""
+    drawn = [made for made in image(lineage.states, module) if is_cell(made)]
+    if drawn:
+        return CELLS[drawn[0].symbol]
+    return {"l": -1, "r": 1}.get(twins(lineage.states.system).get(module.symbol, ("", ""))[1], 0)

@@ -1,0 +1,120 @@
+"""Labels: how a module's name is set in pictures, as mathematics: a letter, perhaps a subscript, and its values.
+
+A name such as `u1` or `a_r` is a letter with a subscript; so is `ar` where the system also has `al`: the last letter is the
+polarity. All text is escaped: a model's names can never become markup.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from html import escape
+from typing import cast
+
+from lsys_kit.derivation.petri.net import Place
+from lsys_kit.errors import printable
+from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.system import LSystem, Module, symbols
+
+
+def escaped(text: str) -> str:
+    """A text as it may stand in HTML or SVG: no markup, and nothing that would not show or would turn it around.
+
+    >>> escaped("<b>"), escaped("a\\x1bb")
+    ('&lt;b&gt;', 'a?b')
+    """
+    return escape("".join(map(printable, text)))
+
+
+@lru_cache(maxsize=64)
+def twins(system: LSystem) -> Mapping[str, tuple[str, str]]:
+    """The symbols that come in two polarities, each with the letter and the polarity, "l" or "r".
+
+    >>> from lsys_kit.notation.read import read
+    >>> twins(read("axiom: ar\\nar -> al b\\nal -> b ar"))
+    {'ar': ('a', 'r'), 'al': ('a', 'l')}
+    """
+    names = set(symbols(system))
+    return {name: (name[:-1].rstrip("_"), name[-1]) for name in symbols(system)
+            if len(name) > 1 and name[-1] in "lr" and name[:-1] + {"l": "r", "r": "l"}[name[-1]] in names}
+
+
+def parts(symbol: str, system: LSystem) -> tuple[str, str]:
+    """A symbol's letter and its subscript, which may be empty.
+
+    >>> from lsys_kit.notation.read import read
+    >>> parts("u12", read("axiom: u12"))
+    ('u', '12')
+    """
+    if symbol in twins(system):
+        return twins(system)[symbol]
+    match = re.fullmatch(r"([A-Za-z]+)_?(\d+)|([A-Za-z]+)_(\w+)", symbol)
+    if not match:
+        return symbol, ""
+    return (match[1], match[2]) if match[1] else (match[3], match[4])
+
+
+def values_text(module: Module) -> str:
+    """A module's values in parentheses, or nothing."""
+    values = ",".join(number_text(value) if abs(float(value)) < 1e6 else f"{float(value):.3g}"
+                      for value in cast(tuple[Value, ...], module.arguments))
+    return f"({values})" if values else ""
+
+
+def svg_label(symbol: str, system: LSystem, values: str = "") -> str:
+    """A label as the content of an SVG text element: italic letter, small lowered subscript, upright values.
+
+    >>> from lsys_kit.notation.read import read
+    >>> svg_label("a_r", read("axiom: a_r"), "(2)")
+    '<tspan font-style="italic">a</tspan><tspan dy="3" font-size="70%">r</tspan><tspan dy="-3">(2)</tspan>'
+    """
+    return letter_svg(*parts(symbol, system), values)
+
+
+def letter_svg(letter: str, subscript: str, values: str = "") -> str:
+    """The same, given its parts."""
+    text = f'<tspan font-style="italic">{escaped(letter)}</tspan>' if letter[:1].isalpha() else escaped(letter)
+    if subscript:
+        text += f'<tspan dy="3" font-size="70%">{escaped(subscript)}</tspan>'
+    if values:
+        text += f'<tspan dy="-3">{escaped(values)}</tspan>' if subscript else escaped(values)
+    return text
+
+
+def html_label(module: Module, system: LSystem) -> str:
+    """A module as HTML.
+
+    >>> from lsys_kit.notation.read import read
+    >>> html_label(Module("a_r", (2,)), read("axiom: a_r(2)"))
+    '<i>a</i><sub style="line-height:0">r</sub>(2)'
+    """
+    letter, subscript = parts(module.symbol, system)
+    text = f"<i>{escaped(letter)}</i>" if letter[:1].isalpha() else escaped(letter)
+    return text + (f'<sub style="line-height:0">{escaped(subscript)}</sub>' if subscript else "") + escaped(values_text(module))
+
+
+def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
+    """A stage's letter, subscript and values: without the polarity, where its modules differ in that, and with the values
+    that they share.
+
+    >>> from lsys_kit.derivation.petri.stages import stages
+    >>> from lsys_kit.notation.read import read
+    >>> system = read("axiom: M(5,1)\\nM(t,p) -> M(t,-p)\\ninterpretation:\\nM(t,p) : p < 0 -> L(1,1)\\nM(t,p) -> R(1,1)")
+    >>> place_parts(stages(system).places[0], system)
+    ('M', '', '(5)')
+    """
+    letter, subscript = parts(place.symbol, system)
+    if not place.modules:
+        return letter, subscript, ""
+    columns = zip(*(module.arguments for module in place.modules), strict=True)
+    shared = [column[0] for column in columns if len(set(column)) == 1]
+    values = values_text(Module(place.symbol, tuple(shared)))
+    merged = len({module.symbol for module in place.modules}) > 1
+    return letter, "" if merged else subscript, values
+
+
+def place_text(place: Place, system: LSystem) -> str:
+    """A stage's label as plain text."""
+    letter, subscript, values = place_parts(place, system)
+    return letter + (f"_{subscript}" if subscript else "") + values

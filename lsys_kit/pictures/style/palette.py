@@ -1,0 +1,61 @@
+"""Colours: one for each symbol, the same in the word, the stage diagram and the drawing.
+
+The colours are those of Okabe and Ito (Color Universal Design, 2008), which people with any kind of colour vision can tell
+apart. Age or another value is a colour's strength; what matters is never said by colour alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from lsys_kit.geometry.surfaces import surfaces_of
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.style.labels import twins
+
+GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#D55E00", "#56B4E9"
+SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
+NATURAL = {"leaf": GREEN, "petal": PURPLE, "flower": PURPLE, "rosette": PURPLE}
+"""What has its natural colour, as far as there is one."""
+CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A5A2B", "#B9C0C6", "#6B7680", "#56B4E9",
+          "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8")
+"""What a turtle chooses by number: the sixteen colours of GROGRA (seed 003), in shades that can be told apart and be seen on
+white: black, blue, green, cyan, red, magenta, brown, light and dark grey, the light ones, yellow, white."""
+INK = "#22303C"
+"""Text and arrows."""
+QUIET = "#7A8794"
+"""Brackets, turns and captions: what steers the turtle and is no part of the organism."""
+PAPER = "#FFFFFF"
+MARK = "#FFF2C2"
+"""Behind what is marked: the chosen stage, the current row."""
+MARK_EDGE = "#B8860B"
+
+
+@lru_cache(maxsize=64)
+def colours(system: LSystem) -> Mapping[str, str]:
+    """A colour for each symbol that is a letter or a name; both polarities of a cell share theirs, and leaves are green.
+
+    >>> from lsys_kit.notation.read import read
+    >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
+    {'ar': '#009E73', 'al': '#009E73', 'br': '#E69F00', 'bl': '#E69F00'}
+    """
+    pairs = twins(system)
+    found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
+    free = [colour for colour in SERIES if colour not in found.values()]
+    bases: dict[str, str] = {}
+    for symbol in symbols(system):
+        if symbol[0].isalpha() and symbol not in found:
+            base = pairs[symbol][0] if symbol in pairs else symbol
+            found[symbol] = bases.setdefault(base, free[len(bases) % len(free)])
+    return found
+
+
+def tinted(colour: str, strength: float) -> str:
+    """A colour mixed with white: 0 is white, 1 the colour itself.
+
+    >>> tinted("#0072B2", 0.5)
+    '#80b9d9'
+    """
+    strength = min(1.0, max(0.0, strength))
+    channels = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{int(255 - strength * (255 - channel) + 0.5):02x}" for channel in channels)

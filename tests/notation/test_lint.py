@@ -1,0 +1,135 @@
+"""What is seen of a model before it runs."""
+
+from __future__ import annotations
+
+import time
+from fractions import Fraction
+
+import pytest
+
+from lsys_kit.budget import limits
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.analysis.lint import check_decomposition, idle
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.expressions import function_of, is_random
+from lsys_kit.notation.read import read, read_expression, read_number
+
+WALLS = """
+dt = 0.7
+axiom: W(0) M(0) W(dt)
+W(t) -> W(t+dt)
+M(t) : t < 1 -> M(t+dt)
+W(tl) < M(t,p) > W(tr) : t >= 1 && tl < tr -> M(t) W(t-1) M(t+1)
+W(tl) < M(t,p) > W(tr) : t >= 1 && tr > tl -> M(t+1) W(t-1) M(t)"""
+"""L-system 9 of seed 002 as it is printed: its divisions ask for cells with two parameters, and there are none."""
+
+
+def test_the_printed_l_system_9_cannot_divide() -> None:
+    said = "The production W(tl) < M(t,p) > W(tr) can never match: no module M with 2 parameters occurs."
+    assert read(WALLS).notes == (said, said)
+    assert read(WALLS.replace("M(t,p)", "M(t)")).notes == ()
+
+
+@pytest.mark.parametrize(("rules", "missing"), [
+    ("B -> A", "B"), ("A(t) -> A", "A with 1 parameter"), ("X < A -> A", "X"), ("A > [X]A -> A", "["), ("A > X -> A", "X"),
+    ("A -> B(1)\nB -> A", "B without parameters"), ("decomposition:\nB -> C", "B"),
+])
+def test_a_production_that_never_matches_is_told(rules: str, missing: str) -> None:
+    (note,) = read(f"axiom: A\n{rules}").notes
+    assert note.endswith(f" can never match: no module {missing} occurs.")
+
+
+@pytest.mark.parametrize("rules", ["A -> B\nB -> A", "A -> repeat(2) <B>\nB -> A", "A -> A\ndecomposition:\nA -> B\nB -> ε",
+                                   "A -> A A\nmeta: A A -> C\nC -> A", "A -> A\ninterpretation:\nX -> F"])
+def test_what_may_match_is_not_told(rules: str) -> None:
+    assert read(f"axiom: A\n{rules}").notes == ()
+
+
+@pytest.mark.parametrize(("rules", "note"), [
+    ("A -> B\nA -> C", "Production 2, for A, is never applied: production 1 comes before it and matches every A."),
+    ("B(t) : t > 2 -> A\nB(t) -> A\nB(1) -> C\nA -> B(1)",
+     "Production 3, for B(1), is never applied: production 2 comes before it and matches every B(1)."),
+    ("A -> B\nB < A > B : 1 < 2 -> C\nB -> A",
+     "Production 2, for B < A > B, is never applied: production 1 comes before it and matches every A."),
+    ("A -> B\nA -> C : 1/2", "Production 2, for A, is never applied: production 1 comes before it and matches every A."),
+    ("decomposition:\nA -> B\nA -> C",
+     "Decomposition rule 2, for A, is never applied: decomposition rule 1 comes before it and matches every A."),
+])
+def test_a_production_that_another_always_precedes_is_told(rules: str, note: str) -> None:
+    assert read(f"axiom: A\n{rules}").notes == (note,)
+
+
+@pytest.mark.parametrize("rules", [
+    "A : 1 < 2 -> B\nA -> C", "B < A -> B\nA -> C\nB -> A", "A > B -> B\nA -> C\nB -> A", "A -> B : 1/2\nA -> C : 1/2",
+    "A -> B(1)\nB(1) -> A\nB(t) -> C", "A -> B(1)\nB(k) -> A\nB(t) -> C", "A -> B\nB -> A\ndecomposition:\nB -> C",
+    "A -> B(1)\nB(t) -> B\nB -> A"])
+def test_productions_that_have_their_turn_are_not_told(rules: str) -> None:
+    assert read(f"k = 1\naxiom: A\n{rules}").notes == ()
+
+
+def test_no_certain_production_is_told_behind_chance() -> None:
+    assert read("axiom: A\nA -> B : 1/2\nA -> C\nA -> D").notes == ()
+
+
+@pytest.mark.parametrize("rules", ["A -> A", "A -> B\nB -> C\nC -> x A", "A -> repeat(1) <A>", "A(t) -> A(t-1)", "A -> [A]"])
+def test_endless_decomposition_is_told_before_it_runs(rules: str) -> None:
+    with pytest.raises(ModelValueError, match=r"Rule A decomposes into itself: A -> .* It can never finish"):
+        read(f"axiom: B\ndecomposition:\n{rules}")
+
+
+@pytest.mark.parametrize("rules", [
+    "A(t) : t > 0 -> A(t-1)", "A -> A : 0.5\nA -> B : 0.5", "A(1) -> A(2)", "A(k) -> A(2)", "A(t) -> A", "A -> repeat(0) <A>",
+    "A -> B\nA -> A", "A(t) : t > 0 -> x\nA(t) -> A(1)", "A -> B\nB -> C\nC -> D D"])
+def test_decomposition_that_may_finish_is_read(rules: str) -> None:
+    assert read(f"k = 1\naxiom: A\ndecomposition:\n{rules}").decomposition
+
+
+def test_many_rules_are_looked_through_quickly() -> None:
+    with limits(rules=5_000):
+        system = read("axiom: A0\ndecomposition:\n" + "\n".join(f"A{i} -> A{i + 1} A{i + 2}" for i in range(5_000)))
+    started = time.perf_counter()
+    check_decomposition(system)
+    idle(system)
+    assert time.perf_counter() - started < 2  # comparing each rule with each would take longer on any machine
+
+
+@pytest.mark.parametrize(("text", "value"), [
+    ("sin(30)", Fraction(1, 2)), ("cos(60)", Fraction(1, 2)), ("cos(240)", Fraction(-1, 2)), ("sin(-450)", -1), ("cos(90)", 0),
+    ("tan(45)", 1), ("tan(135)", -1), ("tan(180)", 0), ("asin(1/2)", 30), ("acos(-1)", 180), ("acos(1/2)", 60),
+    ("atan(-1)", -45),
+    ("mod(7, 3)", 1), ("mod(-1/2, 1)", Fraction(1, 2)), ("if(1 < 2, 3, 1/0)", 3), ("if(1 > 2, 1/0, 4)", 4),
+])
+def test_functions_are_exact_where_they_can_be(text: str, value: Value) -> None:
+    assert read_number(text) == value
+    assert not isinstance(read_number(text), float)
+
+
+def test_other_angles_are_doubles() -> None:
+    assert read_number("sin(45)^2") == pytest.approx(0.5)
+    assert read_number("atan(1000000)") == pytest.approx(90, abs=1e-4)
+    assert read_number("cos(1/3) - cos(1080 + 1/3)") == 0
+    assert isinstance(function_of(read_expression("sin(30)"), {}, "float")(()), float)
+
+
+@pytest.mark.parametrize("text", ["tan(90)", "tan(-270)", "asin(2)", "acos(-1.5)"])
+def test_where_a_function_has_no_value_it_is_said(text: str) -> None:
+    with pytest.raises(ModelValueError, match="is not a number"):
+        read_number(text)
+
+
+class Dice:
+    """Draws what was written down."""
+
+    def __getattr__(self, name: str) -> object:
+        return lambda *values: (name, values)
+
+
+@pytest.mark.parametrize("text", ["uniform(t, 2)", "normal(t, 2)", "binomial(t, 2)", "poisson(t)", "table(t, 1, 2)",
+                                  "table(t)"])
+def test_random_numbers_are_drawn_by_what_stands_behind_the_values(text: str) -> None:
+    expression = read_expression(text)
+    assert is_random(expression)
+    name, values = function_of(expression, {"t": 0})((5, Dice()))
+    assert (name, values[0], len(values)) == (text.split("(")[0], 5, text.count(",") + 1)
+    assert not is_random(read_expression("sin(t) + if(t < 1, 2, 3)"))
+    assert is_random(read_expression(f"1 + max(2, {text})"))
