@@ -15,6 +15,7 @@ from typing import Any, overload
 import numpy as np
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.core.closure import check_settled
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.engines import (
@@ -29,7 +30,6 @@ from lsys_kit.derivation.engines.engines import (
     course_of,
 )
 from lsys_kit.derivation.maps.development import Development, developed
-from lsys_kit.derivation.petri.outcomes import check_settled
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem

@@ -1,1 +1,6 @@
-"""Text to records and back. Knows no numbers' meaning, no pictures, no files."""
+"""Text to records and back. Knows no numbers' meaning, no pictures, no files.
+
+The registry is loaded first, so that a system can print itself, in whichever notation it was read.
+"""
+
+from lsys_kit.notation import registry as registry

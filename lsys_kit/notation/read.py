@@ -1,7 +1,7 @@
 """Text to records: a system, a word or an expression, read in one of the notations.
 
 A text is cut into statements, each is parsed by the grammar of its notation, and the records are checked. The grammars stand
-beside this file, one for each notation, and `expressions.lark`, which they share.
+in `dialects`, one for each notation; `expressions.lark` in `syntax` is what they share.
 """
 
 from __future__ import annotations
@@ -9,10 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import islice
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.analysis.lint import check_decomposition, idle
 from lsys_kit.notation.dialects.abop.dialect import ABOP
@@ -24,10 +23,8 @@ from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Notation
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.segmentation import unglued
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.statements import ARROW, bounded, check_text
 
-PER_RULE = 64
-"""How many characters there may be for each production that a model may have, blanks and comments not counted."""
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
 
@@ -80,15 +77,6 @@ def read(text: str, notation: str | None = None) -> LSystem:
     return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
 
 
-def check_text(text: str) -> None:
-    """Refuse what is no text, or too long a one."""
-    if not isinstance(text, str):
-        raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
-    if len(text) > current().text:
-        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
-                              limit=current().text, needed=len(text))
-
-
 def _others(chosen: Notation, text: str) -> Iterator[Notation]:
     """The other notations of which a text shows a mark, if it is short enough to be read again."""
     if len(text) <= current().expression:
@@ -113,22 +101,6 @@ def _read_in(notation: Notation, text: str) -> LSystem:
     system = notation.finish(draft)
     check_decomposition(system)
     return replace(system, notes=(*system.notes, *idle(system)))
-
-
-def bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int, int]]:
-    """The statements, if they are neither too many nor together too long."""
-    lines, most = 2 * current().rules, max(current().line, PER_RULE * current().rules)
-    found = [*islice(statements, lines + 1)]
-    if len(found) > lines:
-        raise ModelLimitError(f"The model has more than {lines:,} lines that say something", limit=lines, source=text,
-                              start=found[-1][0])
-    said = 0
-    for start, end in found:
-        said += len("".join(text[start:end].split()))
-        if said > most:
-            raise ModelLimitError(f"The model has more than {most:,} characters, without blanks and comments", limit=most,
-                                  source=text, start=start)
-    return found
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import notation_called
@@ -37,11 +36,7 @@ def write(system: LSystem, notation: str | None = None) -> str:
     axiom: A(0)
     A(t) : t < 5 -> A(t + 1)[B]
     """
-    chosen = notation_called(notation or system.notation)
-    lacking = chosen.lacking(system)
-    if lacking:
-        raise ModelValueError(f"The notation {chosen.name} has no {lacking}, which this system needs")
-    return chosen.write(system)
+    return notation_called(notation or system.notation).text(system)
 
 
 def as_written(system: LSystem, part: Any) -> str:

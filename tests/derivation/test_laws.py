@@ -18,11 +18,11 @@ import lsys_kit.derivation.engines.engines as engine
 import lsys_kit.derivation.engines.expansion as expansion
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core.chance import Chance
+from lsys_kit.derivation.core.closure import closure
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive, lengths
 from lsys_kit.derivation.growth.growth import growth
-from lsys_kit.derivation.petri.outcomes import closure
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.expressions import Number, is_random

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from lsys_kit.derivation.core.closure import closure
 from lsys_kit.derivation.core.interpretation import images, is_filament
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.petri.outcomes import closure
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.read import read

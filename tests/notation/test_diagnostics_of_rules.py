@@ -8,7 +8,7 @@ import pytest
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.read import read
-from tests.notation.test_slips import NO_NAMES, PRODUCTION
+from tests.notation.test_diagnostics import NO_NAMES, PRODUCTION
 
 SIDES = 'A left context ends with "<", a right context begins with ">", as in "A < B > C -> D".'
 REPEAT = 'What is repeated reads "repeat(3) <F>", or, with a name that counts from 0, "repeat(3, i) <F(i)>".'

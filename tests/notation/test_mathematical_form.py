@@ -10,12 +10,12 @@ import pytest
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.dialects.abop.dialect import printed
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import Module, symbols
 from lsys_kit.notation.read import read, read_word
+from lsys_kit.notation.syntax.printed import printed_statements
 from lsys_kit.notation.write import write
-from tests.notation.test_slips import A_VALUE, NO_NAMES, PRODUCTION
+from tests.notation.test_diagnostics import A_VALUE, NO_NAMES, PRODUCTION
 
 RULES = [
     ("F ::= F+F--F+F", "F -> F+F--F+F"),
@@ -205,7 +205,7 @@ def test_every_system_may_be_printed_with_labels_and_commas(id: str, arrow: str)
 def test_the_kits_own_rules_stay_what_they_are(text: str) -> None:
     own = read(text, "abop")
     lines = [line for line in text.split("\n") if "->" in line]
-    assert [text[start:end] for start, end in printed(text) if "->" in text[start:end]] == lines
+    assert [text[start:end] for start, end in printed_statements(text) if "->" in text[start:end]] == lines
     assert len(own.productions) == len(lines)
     assert own.length is None
     assert read(str(own), "abop") == own
@@ -221,7 +221,7 @@ def test_the_kits_own_rules_stay_what_they_are(text: str) -> None:
     ("p1 : x : x > 2 -> B", True), ("p1:s<a>->B", True), ("p1 : (x, 1) -> B", True), ("p1 : + -> B", True),
 ])
 def test_a_label_is_told_from_a_predecessor(rule: str, label: bool) -> None:
-    ((start, _),) = printed(rule)
+    ((start, _),) = printed_statements(rule)
     assert (start > 0) is label
 
 

@@ -16,10 +16,9 @@ from typing import Any, TypeAlias, TypeGuard
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.dialects.grogra.variables import expressions_of
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, reason, settled_value, sound, tidy
 from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, questions_in
-from lsys_kit.notation.model.system import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.system import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, expressions_of
 from lsys_kit.notation.read import read_number
 
 Kind: TypeAlias = tuple[str, int]

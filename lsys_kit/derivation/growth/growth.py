@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.chance import mixed
+from lsys_kit.derivation.core.closure import check_settled, closure
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.engines.engines import counted
 from lsys_kit.derivation.growth.recurrences import (
@@ -30,7 +31,6 @@ from lsys_kit.derivation.growth.recurrences import (
     shortest_rule,
 )
 from lsys_kit.derivation.growth.slicing import lumped
-from lsys_kit.derivation.petri.outcomes import check_settled, closure
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.system import LSystem, Module
 

@@ -6,13 +6,11 @@ for each of them. All fates of all states together are a system's growth, and it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lsys_kit.derivation.core.chance import shares
 from lsys_kit.derivation.core.rule_errors import fault_in
 from lsys_kit.derivation.core.states import CUT, States
-from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import symbols
 
@@ -77,29 +75,3 @@ def has_fates(states: States) -> bool:
     """Whether only a module itself, and a lot among its productions, decide what becomes of it."""
     return (states.parts_settled and not (states.asks or states.system.meta or CUT in symbols(states.system))
             and not any(rule.left or rule.right or rule.random for rules in states.rules.values() for rule in rules))
-
-
-def check_settled(states: States, what: str) -> None:
-    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
-    if not states.settled:
-        raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
-                              hint="Derive this system, and look at its words; where it leaves its productions to chance, "
-                                   "stages(system).expected(n) counts on average.")
-
-
-def closure(states: States, limit: int) -> Sequence[int] | None:
-    """All states that are met from the axiom on, in the order of their numbers; None where they are more than `limit`.
-
-    >>> from lsys_kit.notation.read import read
-    >>> closure(States(read("axiom: A\\nA -> A B")), 100)
-    range(0, 2)
-    >>> closure(States(read("axiom: A(0)\\nA(t) -> A(t+1)")), 100) is None
-    True
-    """
-    done = 0
-    while done < len(states):
-        if len(states) > limit:
-            return None
-        states.successor(done)
-        done += 1
-    return range(done)

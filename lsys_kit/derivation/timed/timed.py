@@ -18,11 +18,11 @@ from itertools import repeat
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.core.closure import check_settled
 from lsys_kit.derivation.core.rule_errors import fault_in
 from lsys_kit.derivation.core.rules import kind_of, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.petri.outcomes import check_settled
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
 from lsys_kit.notation.model.system import LSystem, Module, Production

@@ -6,7 +6,7 @@ may have a condition or none. `str` of a record is its text in the kit's own not
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from importlib import import_module
@@ -110,6 +110,16 @@ def flat(items: Iterable[Item]) -> Iterator[Module]:
             yield from flat(item.body)
         else:
             yield item
+
+
+def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
+    """All expressions of a word or successor, in the order written."""
+    for item in items:
+        if isinstance(item, Repeat):
+            yield item.count
+            yield from expressions_of(item.body)
+        else:
+            yield from item.arguments  # type: ignore[misc]
 
 
 @dataclass(frozen=True)
@@ -270,9 +280,7 @@ class LSystem:
         return hash(tuple(getattr(self, part.name) for part in fields(self) if part.compare))
 
     def __str__(self) -> str:
-        from lsys_kit.notation.write import write  # how a whole system is laid out is the next file's one idea
-
-        return write(self)
+        return WRITERS[self.notation](self)
 
     def picture(self, n: int | None = None, **choices: Any) -> Any:
         """The picture that `draw(system, n)` makes.
@@ -295,6 +303,10 @@ class LSystem:
             yield from rule.modules
         for meta in self.meta:
             yield from (*meta.predecessors, *flat(meta.successor))
+
+
+WRITERS: dict[str, Callable[[LSystem], str]] = {}
+"""How each notation writes a system: the registry of the notations fills this table, for the records know none of them."""
 
 
 def symbols(system: LSystem) -> tuple[str, ...]:

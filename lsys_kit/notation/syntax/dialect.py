@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lark import Transformer
 
-from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.system import LSystem, Module
 
 if TYPE_CHECKING:
@@ -81,6 +81,19 @@ class Notation(Grammar):
     lacking: Callable[[LSystem], str | None]
     likely: Callable[[str], int]
     turtle: str = "abop"
+
+    def text(self, system: LSystem) -> str:
+        """The text of a system.
+
+        Raises
+        ------
+        ModelValueError
+            The notation lacks something that the system needs.
+        """
+        lacking = self.lacking(system)
+        if lacking:
+            raise ModelValueError(f"The notation {self.name} has no {lacking}, which this system needs")
+        return self.write(system)
 
     def word(self, modules: Iterable[Module]) -> str:
         """The text of a word."""

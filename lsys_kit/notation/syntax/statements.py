@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import islice
 
-from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
 _STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
 _GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
+PER_RULE = 64
+"""How many characters there may be for each production that a model may have, blanks and comments not counted."""
 
 
 def statements(text: str) -> Iterator[tuple[int, int]]:
@@ -55,3 +59,28 @@ def without_comments(text: str) -> str:
         parts += (text[at:opened], re.sub(r"[^\n]", " ", text[opened:closed + 2]))
         at = closed + 2
     return "".join((*parts, text[at:]))
+
+
+def check_text(text: str) -> None:
+    """Refuse what is no text, or too long a one."""
+    if not isinstance(text, str):
+        raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
+    if len(text) > current().text:
+        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
+                              limit=current().text, needed=len(text))
+
+
+def bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int, int]]:
+    """The statements, if they are neither too many nor together too long."""
+    lines, most = 2 * current().rules, max(current().line, PER_RULE * current().rules)
+    found = [*islice(statements, lines + 1)]
+    if len(found) > lines:
+        raise ModelLimitError(f"The model has more than {lines:,} lines that say something", limit=lines, source=text,
+                              start=found[-1][0])
+    said = 0
+    for start, end in found:
+        said += len("".join(text[start:end].split()))
+        if said > most:
+            raise ModelLimitError(f"The model has more than {most:,} characters, without blanks and comments", limit=most,
+                                  source=text, start=start)
+    return found

@@ -86,7 +86,7 @@ class _Expressions(Expressions):
 
 @v_args(inline=True)
 class Records(_Expressions, Statements):
-    """What `cpfg.lark` names."""
+    """What `grammar.lark` names."""
 
     def module(self, symbol: Token, *arguments: Expression) -> Module:
         return super().module(symbol, *map(as_number, arguments))

@@ -1,4 +1,4 @@
-"""cpfg's notation (seed 002), the language of the Virtual Laboratory; its grammar is `cpfg.lark`."""
+"""cpfg's notation (seed 002), the language of the Virtual Laboratory; its grammar is `grammar.lark`."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class _Expressions(Expressions):
 
 @v_args(inline=True)
 class _Statements(_Expressions, Statements):
-    """What `grogra.lark` names."""
+    """What `grammar.lark` names."""
 
     def glued(self, token: Token) -> Module:
         """A command with its number: in `L*0.6` the symbol is `L*`."""

@@ -9,9 +9,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import count
 
-from lsys_kit.notation.dialects.grogra.variables import Variable, draw, expressions_of, names_of
+from lsys_kit.notation.dialects.grogra.variables import Variable, draw, names_of
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Production, Repeat
+from lsys_kit.notation.model.system import Item, LSystem, Production, Repeat, expressions_of
 
 _Function = tuple[int, int]
 """A function of the turtle: its number, and how many values it is asked with."""

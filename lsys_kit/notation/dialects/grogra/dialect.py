@@ -1,4 +1,4 @@
-"""GROGRA's notation (Kurth; seed 003): rules parted by commas, the turtle's numbers glued on; the grammar is `grogra.lark`.
+"""GROGRA's notation (Kurth; seed 003): rules parted by commas, the turtle's numbers glued on; the grammar is `grammar.lark`.
 
 Its turtle: positive angles turn to the right on the screen, and `L*0.6`, `D+3` change what is set. What only GROGRA's
 slides spell so (arrows, comparisons in TeX, "Startwort") is read with a note.

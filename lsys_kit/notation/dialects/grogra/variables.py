@@ -7,7 +7,7 @@ counts in its `Repeat`. Written back, each distinct draw becomes a variable agai
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import isqrt
@@ -16,7 +16,7 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import tidy
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, Place, names_in
-from lsys_kit.notation.model.system import Item, Production, Repeat
+from lsys_kit.notation.model.system import Item, Production, Repeat, expressions_of
 
 KINDS: Mapping[str, tuple[int, int, str]] = {
     "uniform": (2, 2, "0 360"), "normal": (2, 2, "0 15"), "binomial": (2, 2, "10 0.5"), "poisson": (1, 1, "3"),
@@ -215,13 +215,3 @@ def meant_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[It
 def names_of(items: Iterable[Item]) -> frozenset[str]:
     """The names that a word uses."""
     return frozenset(name for expression in expressions_of(items) for name in names_in(expression))
-
-
-def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
-    """All expressions of a word, in the order written."""
-    for item in items:
-        if isinstance(item, Repeat):
-            yield item.count
-            yield from expressions_of(item.body)
-        else:
-            yield from item.arguments  # type: ignore[misc]

@@ -1,4 +1,4 @@
-"""Text to a map L-system. The grammar is `map.lark`.
+"""Text to a map L-system. The grammar is `grammar.lark`.
 
 Map systems are no strings: what reads as a branch in an L-system, `A -> B[-A][+A]B`, is here a wall that becomes two walls,
 with a marker on either side. No text can say by itself which of both is meant, so that a map has a reader of its own; as the
@@ -15,13 +15,13 @@ from lark import Token, Transformer, v_args
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
 from lsys_kit.notation.analysis.map_checks import check_map, idle_parts
-from lsys_kit.notation.dialects.abop.dialect import printed
 from lsys_kit.notation.dialects.map.diagnostics import QUESTIONS
 from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, Part
-from lsys_kit.notation.read import bounded, check_text
 from lsys_kit.notation.syntax.actions import Misread
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
+from lsys_kit.notation.syntax.printed import printed_statements
+from lsys_kit.notation.syntax.statements import bounded, check_text
 
 _LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")
 
@@ -59,7 +59,7 @@ def read_map(text: str) -> MapSystem:
     check_text(text)
     said: dict[str, Any] = {}
     productions: list[EdgeProduction] = []
-    for start, end in bounded(printed(text), text):
+    for start, end in bounded(printed_statements(text), text):
         kind, record = parse(MAP, "statement", text, start, end)
         if kind == "production":
             productions.append(record)
@@ -85,7 +85,7 @@ _TWICE = {"first": ("A second first cell stands here", "A map begins with one ce
 
 @v_args(inline=True)
 class _Records(Transformer[Any, Any]):
-    """What `map.lark` names."""
+    """What `grammar.lark` names."""
 
     def edge(self, label: Token, *points: Token) -> Edge:
         at = label.start_pos or 0, (points or (label,))[-1].end_pos or 0

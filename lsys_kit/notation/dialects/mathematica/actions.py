@@ -1,4 +1,4 @@
-"""What `mathematica.lark` names, as records: a method for each name."""
+"""What `grammar.lark` names, as records: a method for each name."""
 
 from __future__ import annotations
 

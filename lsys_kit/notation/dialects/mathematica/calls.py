@@ -1,4 +1,4 @@
-"""What the expressions of `mathematica.lark` name, as records: functions, angles in degrees, random numbers."""
+"""What the expressions of `grammar.lark` name, as records: functions, angles in degrees, random numbers."""
 
 from __future__ import annotations
 

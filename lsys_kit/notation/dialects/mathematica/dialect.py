@@ -1,5 +1,5 @@
 """Mathematica's notation, after C. Jacob (seed 000): definitions of an axiom, of rules and of an L-system; its grammar is
-`mathematica.lark`."""
+`grammar.lark`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plant strings (seed 004): symbols of one letter, both kinds of brackets as branches; the grammar is `plant_string.lark`."""
+"""Plant strings (seed 004): symbols of one letter, both kinds of brackets as branches; the grammar is `grammar.lark`."""
 
 from __future__ import annotations
 

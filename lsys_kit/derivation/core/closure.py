@@ -1,0 +1,34 @@
+"""All the states of a system: those that may be met from the axiom on, where each decides for itself what becomes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lsys_kit.derivation.core.states import States
+from lsys_kit.errors import ModelValueError
+
+
+def check_settled(states: States, what: str) -> None:
+    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
+    if not states.settled:
+        raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
+                              hint="Derive this system, and look at its words; where it leaves its productions to chance, "
+                                   "stages(system).expected(n) counts on average.")
+
+
+def closure(states: States, limit: int) -> Sequence[int] | None:
+    """All states that are met from the axiom on, in the order of their numbers; None where they are more than `limit`.
+
+    >>> from lsys_kit.notation.read import read
+    >>> closure(States(read("axiom: A\\nA -> A B")), 100)
+    range(0, 2)
+    >>> closure(States(read("axiom: A(0)\\nA(t) -> A(t+1)")), 100) is None
+    True
+    """
+    done = 0
+    while done < len(states):
+        if len(states) > limit:
+            return None
+        states.successor(done)
+        done += 1
+    return range(done)
