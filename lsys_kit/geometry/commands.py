@@ -67,7 +67,7 @@ _LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 
 _DOWN, _OPEN = Command("droop", 0.0, math.inf, ""), Command("open", argument="")
 _LEAF, _FLOWER = Command("surface", 1 / 2, surface="leaf"), Command("surface", 1 / 4, surface="rosette")
 
-TABLE: tuple[Row, ...] = (
+COMMAND_TABLE: tuple[Row, ...] = (
     #   ABOP    GROGRA  plants in words; x is the argument                               what to do
     Row("F",    "F",    "I",   "a stroke forward, as long as the step or x",           Command("draw")),
     Row("",     "",     "A",   "a stroke of two thirds of the step",                   Command("draw", 2 / 3)),
@@ -142,7 +142,7 @@ TABLE: tuple[Row, ...] = (
 )
 
 COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
-    tradition: {symbol: row.commands for row in TABLE for symbol in row[:3][column].split()}
+    tradition: {symbol: row.commands for row in COMMAND_TABLE for symbol in row[:3][column].split()}
     for column, tradition in enumerate(("abop", "grogra", "plant-string"))}
 """For each tradition its commands, by symbol."""
 
@@ -159,12 +159,12 @@ REACH = 1e50
 """Numbers beyond this are not drawn."""
 
 
-def first_step(system: LSystem) -> float:
+def initial_step(system: LSystem) -> float:
     """How long a step is at first."""
     return STEP[system.turtle] if system.length is None else float(system.length)
 
 
-class Order(NamedTuple):
+class Instruction(NamedTuple):
     """A command with its numbers: the amount is factor * quantity + addend.
 
     Attributes
@@ -189,7 +189,7 @@ _CALLED = (Command("called"),)
 """Draw the surface of the symbol's name, if a tilde stands before it."""
 
 
-def orders(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, list[Order]]:
+def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, list[Instruction]]:
     """What the modules tell the turtle that each state is drawn as.
 
     Raises
@@ -199,7 +199,7 @@ def orders(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, l
 
     Examples
     --------
-    >>> told = orders({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
+    >>> told = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
     >>> {state: [(order.action, order.factor, order.addend) for order in found] for state, found in told.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
     """
@@ -210,7 +210,7 @@ def orders(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, l
             for state, image in drawn.items()}
 
 
-def _order(command: Command, module: Module) -> Order:
+def _order(command: Command, module: Module) -> Instruction:
     """A command with a module's argument."""
     values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, command.factor, command.addend
@@ -222,7 +222,7 @@ def _order(command: Command, module: Module) -> Order:
         factor, addend = 1.0, values[0]
     else:
         factor, addend = values[0], 0.0
-    return Order(action, factor, addend, values, module.symbol, command.surface)
+    return Instruction(action, factor, addend, values, module.symbol, command.surface)
 
 
 def values_of(module: Module) -> tuple[float, ...]:
@@ -245,12 +245,12 @@ def values_of(module: Module) -> tuple[float, ...]:
     return values
 
 
-def unknown(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
+def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
     """The symbols without a meaning that look like commands: signs, and commands of another tradition.
 
     Letters without a meaning are normal, and so are symbols that productions rewrite: they are apices, buds and signals.
 
-    >>> unknown({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
+    >>> unknown_commands({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
     ('RH', '=')
     """
     own = {production.predecessor.symbol for production in (*system.productions, *system.decomposition)}

@@ -18,7 +18,7 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.expressions import Expression, is_random
 from lsys_kit.notation.model.system import LSystem, Module, flat
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import NOTATIONS, recognised
+from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write
 
@@ -26,7 +26,7 @@ MOST_MS, MOST_SECONDS = 0.3, 2.0
 MILLION = 1_000_000
 MOST = 49_000
 """How many characters are read in every notation, even where they are one statement."""
-WITH_EXPRESSIONS = [name for name in NOTATIONS if name != "plant-string"]
+WITH_EXPRESSIONS = [name for name in DIALECTS if name != "plant-string"]
 RULE = {
     "abop": "A(t) : t < {} && t > 2 -> B(t+1)[+C(2*t)]F(t^2) A(t)\n", "plant-string": "A -> I[A]A(I)AFFI[L](L)IFA[A]B(B)\n",
     "cpfg": "A(t) : t < {} && t > 2 --> B(t+1)[+C(2*t)]F(t^2)A(t)\n",
@@ -112,7 +112,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
 
     GROGRA declares random numbers on lines of their own.
     """
-    chosen = NOTATIONS[notation]
+    chosen = DIALECTS[notation]
     spelt = {chosen.module(Module("a", (expression,)))[2:-1] for id in systems() if not chosen.lacking(system(id))
              for expression in expressions(system(id)) if notation != "grogra" or not is_random(expression)}
     taken = dict.fromkeys(spelt, float("inf"))
@@ -131,7 +131,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
                         f"{milliseconds[-1]:.3f} ms", f"{MOST_MS} ms"))
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
     """Each text is recognised, then read in the notation or refused with an explanation."""
     texts, taken = million(notation), dict[str, float]()
@@ -140,7 +140,7 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
     def read_all() -> None:
         for name, text in texts.items():
             started = time.perf_counter()
-            recognised(text)
+            recognise(text)
             with suppress(LSystemError):
                 read(text, notation)
             taken[name] = time.perf_counter() - started
@@ -151,14 +151,14 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
                         f"{taken[slowest]:.2f} s", f"{MOST_SECONDS:g} s"))
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_a_model_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
     """A plant and a parametric filament where the notation can express it: from text to system."""
-    texts = [write(system(id), notation) for id in ("K5", "P4") if not NOTATIONS[notation].lacking(system(id))]
+    texts = [write(system(id), notation) for id in ("K5", "P4") if not DIALECTS[notation].lacking(system(id))]
     assert benchmark(lambda: [read(text, notation) for text in texts])
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_the_largest_model_that_is_read(notation: str) -> None:
     """The productions of the long texts are what they are taken for."""
     found = read(million(notation)["the most that is read"], notation).productions

@@ -16,9 +16,9 @@ from lsys_kit.notation.model.system import LSystem, Module
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
-    from lsys_kit.notation.syntax.failure import Stumble
+    from lsys_kit.notation.syntax.failure import ParseFailure
 
-Question: TypeAlias = "Callable[[Stumble], ModelSyntaxError | None]"
+Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
 """Something to ask about the place where a parser stumbled; an answer is what the person is told."""
 
 
@@ -32,7 +32,7 @@ class Grammar:
         What the notation is called.
     records
         What its grammar names, as records.
-    questions
+    diagnostics
         What is asked about a slip, the most telling first.
     starts
         What can be parsed: a statement, and perhaps a word or an expression alone.
@@ -40,7 +40,7 @@ class Grammar:
 
     name: str
     records: Callable[[], Transformer[Any, Any]]
-    questions: Sequence[Question]
+    diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
 
     @property
@@ -50,7 +50,7 @@ class Grammar:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Notation(Grammar):
+class Dialect(Grammar):
     """One notation of L-systems, by the name that it has in `read` and `write`.
 
     Attributes
