@@ -19,6 +19,7 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
@@ -100,7 +101,7 @@ class MapPicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": self.text}
