@@ -27,7 +27,8 @@ from lsys_kit.classroom.magic import underlined
 from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.classroom.typeset import shown
 from lsys_kit.notation.model.expressions import Apply, Name, Number
-from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import DIALECTS
 

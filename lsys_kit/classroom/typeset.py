@@ -16,8 +16,9 @@ from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.modules import Item, Module, Repeat
 from lsys_kit.notation.model.operators import OPERATORS
-from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.syntax.formatting import settings
 from lsys_kit.pictures.style.labels import escaped, html_label

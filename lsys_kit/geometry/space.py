@@ -23,7 +23,8 @@ from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Instruction
 from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 Vector: TypeAlias = tuple[float, float, float]
 TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]

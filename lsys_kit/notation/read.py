@@ -17,7 +17,8 @@ from lsys_kit.notation.analysis.lint import check_decomposition, unused_producti
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Module, flat
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import DIALECTS, dialect_named, recognise
 from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect

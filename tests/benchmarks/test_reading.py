@@ -16,7 +16,8 @@ import pytest
 from lsys_kit import system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.expressions import Expression, is_random
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Module, flat
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import parse

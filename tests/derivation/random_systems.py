@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Module, Repeat
+from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
 SYMBOLS = ("A", "B", "al", "u_1")
 """Symbols that productions rewrite; each has as many parameters as `ARITY` says."""

@@ -12,7 +12,8 @@ from fractions import Fraction
 
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
-from lsys_kit.notation.model.system import CLOSING, END, OPENING, Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Item, Module, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 
 PlainModule = tuple[str, tuple[float | Fraction, ...]]
 OPERATIONS = {"+": op.add, "-": op.sub, "*": op.mul, "/": op.truediv, "^": op.pow, "-x": op.neg, "abs": abs, "min": min,

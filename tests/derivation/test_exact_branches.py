@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.analysis.lint import unused_productions
-from lsys_kit.notation.model.system import END, LSystem, Module, Production, symbols
+from lsys_kit.notation.model.modules import END, Module
+from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read_word
 from tests.derivation import reference
 from tests.derivation.random_systems import systems_with

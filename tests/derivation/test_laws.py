@@ -26,7 +26,8 @@ from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.expressions import Number, is_random
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.modules import Module, Repeat, flat
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, derive, pnml, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from tests.derivation.random_systems import systems as random_systems
 from tests.derivation.test_laws import ends
 

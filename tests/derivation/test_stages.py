@@ -20,7 +20,8 @@ from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 
 FILAMENT = """

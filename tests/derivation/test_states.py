@@ -10,7 +10,8 @@ from lsys_kit.derivation.core.closure import closure
 from lsys_kit.derivation.core.interpretation import interpretations, is_filament
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 
 AGES = read("k = 2\naxiom: A(k) B\nA(t) : t < 3 -> A(t+1)\nA(3) -> A(1) A(1)\nA(k) -> C\nC ->  ε\nA(t) -> ε")

@@ -13,7 +13,8 @@ from lsys_kit.geometry import space, turtle
 from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
 from lsys_kit.geometry.space import in_plane, trace_in_space
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 README = Path(__file__).parents[2] / "README.md"
 

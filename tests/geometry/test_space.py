@@ -17,7 +17,8 @@ from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
 from lsys_kit.geometry.space import OFTEN, SPACE_ACTS, SpaceTurtle, in_plane, prepared, trace_in_space
 from lsys_kit.geometry.turtle import place_path, trace
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 
 LISTINGS = Path(__file__).parents[1] / "listings"
 

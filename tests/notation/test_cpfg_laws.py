@@ -18,7 +18,8 @@ from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, is_random
-from lsys_kit.notation.model.system import END, LSystem, Module, Production
+from lsys_kit.notation.model.modules import END, Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, systems, systems_with

@@ -17,7 +17,8 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.grogra.conditions import exclusive
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Module, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.registry import dialect_named, recognise
 from lsys_kit.notation.write import write

@@ -13,7 +13,8 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import recognise
 from lsys_kit.notation.write import write

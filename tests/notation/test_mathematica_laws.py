@@ -18,7 +18,8 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write

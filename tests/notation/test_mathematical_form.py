@@ -11,7 +11,8 @@ from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import Module, symbols
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import symbols
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.syntax.printed import printed_statements
 from lsys_kit.notation.write import write

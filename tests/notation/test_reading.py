@@ -10,7 +10,8 @@ from lsys_kit.budget import limits
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_word
 from lsys_kit.notation.model.expressions import Name, Number
-from lsys_kit.notation.model.system import Constant, LSystem, Module, Production, symbols
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_expression, read_number, read_word
 from lsys_kit.notation.syntax.statements import statements, without_comments
 from lsys_kit.notation.write import write

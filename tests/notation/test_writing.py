@@ -8,7 +8,8 @@ import pytest
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Name, Number
-from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import write

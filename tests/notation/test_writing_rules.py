@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Module, Repeat
+from lsys_kit.notation.model.system import LSystem, MetaRule, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import conditions, expressions

@@ -17,7 +17,8 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.engines import SteppingEngine
 from lsys_kit.geometry.space import trace_in_space
 from lsys_kit.notation.model.expressions import Apply, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.worlds.sight import TurtleObservation, observe
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 

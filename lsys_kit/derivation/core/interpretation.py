@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.rules import rules_of
 from lsys_kit.derivation.core.states import States
-from lsys_kit.notation.model.system import CELLS, WALL, LSystem, Module, flat
+from lsys_kit.notation.model.modules import CELLS, WALL, Module, flat
+from lsys_kit.notation.model.system import LSystem
 
 
 def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:

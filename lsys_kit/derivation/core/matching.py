@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from lsys_kit.derivation.core.rules import Branch, Rule, is_branch
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import CLOSING, END, OPENING, Module
+from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
 
 NO_NEIGHBOUR = -1
 """The position of a neighbour that is not there."""

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, reason_of
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 

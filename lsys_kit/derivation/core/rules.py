@@ -18,7 +18,8 @@ from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
-from lsys_kit.notation.model.system import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, expressions_of
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Repeat, expressions_of
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read_number
 
 ModuleKind: TypeAlias = tuple[str, int]

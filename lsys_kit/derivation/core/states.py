@@ -25,7 +25,8 @@ from lsys_kit.derivation.core.rules import (
 )
 from lsys_kit.errors import ModelLimitError, ModelNameError
 from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.write import as_written
 
 EXACT_BITS = 128

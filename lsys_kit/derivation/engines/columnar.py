@@ -17,7 +17,8 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Module, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 
 Array: TypeAlias = np.ndarray[Any, Any]
 ColumnFunction: TypeAlias = Callable[..., Any]

@@ -12,7 +12,8 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from lsys_kit.notation.model.expressions import Expression, Name, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.modules import Item, Module, Repeat, flat
+from lsys_kit.notation.model.system import LSystem, Production
 
 ArgumentPosition: TypeAlias = tuple[str, int, int]
 """A parameter: the symbol of its module, how many parameters that has, and which of them it is, from 0."""

@@ -18,7 +18,8 @@ from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, function_of, names_in
-from lsys_kit.notation.model.system import Item, Module, Repeat, flat, joined, symbols
+from lsys_kit.notation.model.modules import Item, Module, Repeat, flat, joined
+from lsys_kit.notation.model.system import symbols
 
 
 def by_symbol(states: States) -> Stages:

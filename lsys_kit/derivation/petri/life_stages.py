@@ -20,7 +20,7 @@ from lsys_kit.derivation.timed.ages import AgeModel, age_model
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.system import Module
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.write import as_written
 
 End: TypeAlias = tuple[Rule, Value] | None

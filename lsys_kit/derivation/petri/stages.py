@@ -29,7 +29,8 @@ from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes, has_fates
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import CELLS, LSystem, Module
+from lsys_kit.notation.model.modules import CELLS, Module
+from lsys_kit.notation.model.system import LSystem
 
 MOST_PLACES = 40
 """A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""

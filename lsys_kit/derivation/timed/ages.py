@@ -14,7 +14,8 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, is_random, names_in
-from lsys_kit.notation.model.system import Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Production
 
 _COMPARED = {">=": 1, ">": 1, "<=": -1, "<": -1}
 """For each comparison whether its left side must be the greater."""

@@ -20,7 +20,8 @@ from lsys_kit.derivation.timed.cell_lineage import CellDivisions, CellGrowth, Ce
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 MOST_CELLS = 100_000
 """A lineage has at most so many cells."""

@@ -20,7 +20,8 @@ from lsys_kit.notation.model.expressions import (
     function_of,
     names_in,
 )
-from lsys_kit.notation.model.system import Constant, Item, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Module, Repeat
+from lsys_kit.notation.model.system import Constant, MetaRule, Production
 
 
 def span(thing: object) -> tuple[int | None, int | None]:

@@ -8,7 +8,8 @@ from graphlib import CycleError, TopologicalSorter
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.expressions import Name, Number
-from lsys_kit.notation.model.system import END, Item, LSystem, Module, Production, flat, joined
+from lsys_kit.notation.model.modules import END, Item, Module, flat, joined
+from lsys_kit.notation.model.system import LSystem, Production
 
 _Kind = tuple[str, int]
 """What a rule is found by: the symbol of a module and its number of parameters."""

@@ -17,7 +17,8 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
-from lsys_kit.notation.model.system import Constant, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Module, Repeat
+from lsys_kit.notation.model.system import Constant, MetaRule, Production
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
               "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}

@@ -17,7 +17,8 @@ from lsys_kit.notation.analysis.checks import (
     value_of,
 )
 from lsys_kit.notation.model.expressions import names_in
-from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
 _ROWS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are rows of symbols, and where a system has them."""

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from lark import Transformer
 
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft

@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.modules import Item, Module, Repeat, flat
+from lsys_kit.notation.model.system import LSystem, Production
 
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""

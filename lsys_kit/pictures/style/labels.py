@@ -15,7 +15,8 @@ from typing import cast
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.system import LSystem, Module, symbols
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, symbols
 
 
 def escaped(text: str) -> str:

@@ -15,7 +15,8 @@ from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
 from lsys_kit.notation.dialects.cpfg.wording import in_cpfg
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
-from lsys_kit.notation.model.system import END, Constant, Module
+from lsys_kit.notation.model.modules import END, Module
+from lsys_kit.notation.model.system import Constant
 from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
 
 _SPELLINGS = {"<>": "!=", "%": "mod"}

@@ -10,7 +10,8 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name
-from lsys_kit.notation.model.system import Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Production
 
 Bindings: TypeAlias = Mapping[str, Expression]
 """What names stand for at some place of a rule."""

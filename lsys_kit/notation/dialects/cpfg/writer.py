@@ -10,7 +10,8 @@ from lsys_kit.notation.dialects.cpfg.actions import SYMBOL_PATTERN
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
-from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.model.modules import END, Module, flat
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")

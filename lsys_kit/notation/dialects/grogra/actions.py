@@ -12,7 +12,8 @@ from lark.visitors import merge_transformers
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.dialects.grogra.variables import Variable
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name
-from lsys_kit.notation.model.system import Constant, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
 from lsys_kit.notation.syntax.statements import without_comments
 

@@ -11,7 +11,8 @@ from itertools import count
 
 from lsys_kit.notation.dialects.grogra.variables import Variable, names_of, random_call
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Production, Repeat, expressions_of
+from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
+from lsys_kit.notation.model.system import LSystem, Production
 
 _Function = tuple[int, int]
 """A function of the turtle: its number, and how many values it is asked with."""

@@ -18,7 +18,8 @@ from lsys_kit.notation.dialects.grogra.probabilities import complete_probabiliti
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
 from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import Expression, Name, Number, expression_type, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Module, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse

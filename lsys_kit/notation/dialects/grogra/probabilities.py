@@ -19,7 +19,8 @@ from lsys_kit.notation.analysis.checks import value_of
 from lsys_kit.notation.dialects.grogra.conditions import exclusive
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Module, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 
 _Condition = Expression | None
 _COMPARED = 100

@@ -16,7 +16,8 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in
-from lsys_kit.notation.model.system import Item, Production, Repeat, expressions_of
+from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
+from lsys_kit.notation.model.system import Production
 
 VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
     "uniform": (2, 2, "0 360"), "normal": (2, 2, "0 15"), "binomial": (2, 2, "10 0.5"), "poisson": (1, 1, "3"),

@@ -10,7 +10,8 @@ from lsys_kit.notation.dialects.grogra.probabilities import complete_probabiliti
 from lsys_kit.notation.dialects.grogra.variables import Variable
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, styled_text
-from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import END, Module, Repeat
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
 _STYLE = Style({"==": "="})

@@ -16,7 +16,8 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
 from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
-from lsys_kit.notation.model.system import Constant, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
 
 WordDefinition: TypeAlias = tuple[Module, ...]

@@ -13,7 +13,8 @@ from lsys_kit.notation.dialects.mathematica.definitions import Definitions, axio
 from lsys_kit.notation.dialects.mathematica.expressions import expression_text
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Constant, LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import Constant, LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.segmentation import segment_with_notes
 

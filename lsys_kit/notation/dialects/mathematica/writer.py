@@ -9,7 +9,8 @@ from lsys_kit.notation.dialects.mathematica.actions import condition_of
 from lsys_kit.notation.dialects.mathematica.expressions import expression_text
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
-from lsys_kit.notation.model.system import Argument, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.model.modules import Argument, Module, flat
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import OWN_NOTATION
 
 _NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)

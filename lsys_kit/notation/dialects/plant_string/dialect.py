@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterable, Iterator
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Module, flat
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.actions import Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
