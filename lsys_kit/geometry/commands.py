@@ -237,7 +237,7 @@ def values_of(module: Module) -> tuple[float, ...]:
     if not module.arguments:
         return ()
     try:
-        values = tuple(map(float, module.arguments))  # type: ignore[arg-type]
+        values = tuple(map(float, module.arguments))
     except (TypeError, OverflowError):
         values = (math.nan,)
     for value in values:

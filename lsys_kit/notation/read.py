@@ -116,8 +116,7 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     check_word(word, (), text)
     if system is not None and notation == "abop":
         word = segment_word(word, system)
-    return tuple(replace(module, arguments=tuple(value_of(a, text) for a in module.arguments if isinstance(a, Expression)))
-                 for module in flat(word))
+    return tuple(Module(part.symbol, tuple(value_of(a, text) for a in part.arguments), part.at) for part in flat(word))
 
 
 def read_expression(text: str) -> Expression:

@@ -120,7 +120,7 @@ def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], ar
 
 def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
     """The values of the modules at some positions, one after another."""
-    return tuple(value for at in positions for value in word[at].arguments)  # type: ignore[misc]
+    return tuple(value for at in positions for value in word[at].arguments)
 
 
 def _kind(module: Module) -> tuple[str, int]:

@@ -196,6 +196,6 @@ def _numbered(keys: Sequence[Hashable]) -> list[int]:
 
 def _look(states: States, module: Module) -> Hashable:
     """What a module looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
-    state = states.number(module.symbol, module.arguments)  # type: ignore[arg-type]
+    state = states.number(module.symbol, module.arguments)
     image = interpretations(states, (state,))[state]
     return tuple(cell.arguments for cell in image) if all(cell.symbol in CELLS for cell in image) else module

@@ -183,7 +183,7 @@ def _in_time(system: Timed, end: Value) -> Lineage:
     while todo:
         module, since, cell = todo.pop()
         last = system.at_end(module)
-        moment: Value = end if last is None else since + (last.arguments[0] - module.arguments[0])  # type: ignore[operator]
+        moment: Value = end if last is None else since + (last.arguments[0] - module.arguments[0])
         if last is None or moment >= end:
             growth.found(cell, 1, word[len(growth.places)])
             continue

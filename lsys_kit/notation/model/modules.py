@@ -1,4 +1,4 @@
-"""The units of words, `Module`, and of rules, `Pattern`; the parts of a successor; symbols that mean the same in all notations."""
+"""The units of words, `Module`, and of rules, `Pattern`; parts of successors; the symbols that mean the same everywhere."""
 
 from __future__ import annotations
 
@@ -22,27 +22,40 @@ WALL = "W"
 """A wall between two cells, `W(age, shade)`, as in seed 002's figure 8; the shade, 0 to 1, may be left out."""
 
 
-Argument: TypeAlias = Expression | Value
-"""What stands in a module's parentheses: an expression in a production, a value in a word."""
-
-
 @dataclass(frozen=True)
 class Module:
-    """A symbol with its arguments: one unit of the organism (seed 002, section 1).
+    """A unit of a word: a symbol with the values of its parameters (Prusinkiewicz, section 1).
 
     >>> print(Module("M", (5, -1)))
     M(5,-1)
     """
 
     symbol: str
-    arguments: tuple[Argument, ...] = ()
+    arguments: tuple[Value, ...] = ()
     at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
-        if not self.arguments:
-            return self.symbol
-        texts = (str(a) if isinstance(a, Expression) else number_text(a) for a in self.arguments)
-        return f"{self.symbol}({','.join(texts)})"
+        return f"{self.symbol}({','.join(map(number_text, self.arguments))})" if self.arguments else self.symbol
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """A module as an axiom or a rule writes it: a symbol with expressions.
+
+    Before the arrow a `Name` that is no constant is a parameter, and any other expression is a value that the module must have;
+    in a successor an expression computes a value.
+
+    >>> from lsys_kit.notation.model.expressions import Apply, Name, Number
+    >>> print(Pattern("M", (Apply("+", (Name("t"), Number(1))),)))
+    M(t + 1)
+    """
+
+    symbol: str
+    arguments: tuple[Expression, ...] = ()
+    at: TextSpan = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"{self.symbol}({','.join(map(str, self.arguments))})" if self.arguments else self.symbol
 
 
 def joined(texts: Iterable[str]) -> str:
@@ -74,7 +87,7 @@ class Repeat:
     """A part of a successor that is written several times (GROGRA's `&(n) < ... >`).
 
     >>> from lsys_kit.notation.model.expressions import Name
-    >>> print(Repeat(Name("n"), (Module("F"), Module("B", (Name("i"),))), "i"))
+    >>> print(Repeat(Name("n"), (Pattern("F"), Pattern("B", (Name("i"),))), "i"))
     repeat(n,i) <F B(i)>
 
     Attributes
@@ -88,7 +101,7 @@ class Repeat:
     """
 
     count: Expression
-    body: tuple[Module | Repeat, ...]
+    body: tuple[Item, ...]
     index: str = ""
     at: TextSpan = field(default=None, compare=False, repr=False)
     depth: int = field(init=False, compare=False, repr=False)
@@ -102,14 +115,15 @@ class Repeat:
         return f"repeat({self.count}{f',{self.index}' if self.index else ''}) <{body}{end}"
 
 
-Item: TypeAlias = Module | Repeat
+Item: TypeAlias = Pattern | Repeat
 """What stands in a successor."""
 
 
-def flat(items: Iterable[Item]) -> Iterator[Module]:
+def flat(items: Iterable[Item]) -> Iterator[Pattern]:
     """The modules of a successor, those of repeated parts once.
 
-    >>> [str(module) for module in flat((Module("A"), Repeat(2, (Module("B"),))))]
+    >>> from lsys_kit.notation.model.expressions import Number
+    >>> [str(module) for module in flat((Pattern("A"), Repeat(Number(2), (Pattern("B"),))))]
     ['A', 'B']
     """
     for item in items:
@@ -126,4 +140,4 @@ def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
             yield item.count
             yield from expressions_of(item.body)
         else:
-            yield from item.arguments  # type: ignore[misc]
+            yield from item.arguments

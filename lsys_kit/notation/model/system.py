@@ -14,7 +14,7 @@ from typing import Any
 
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, TextSpan
-from lsys_kit.notation.model.modules import END, Item, Module, flat, joined
+from lsys_kit.notation.model.modules import END, Item, Pattern, flat, joined
 
 
 @dataclass(frozen=True)
@@ -35,11 +35,11 @@ class Production:
         How likely it is chosen among the productions with a probability that match; None where nothing is left to chance.
     """
 
-    predecessor: Module
+    predecessor: Pattern
     successor: tuple[Item, ...]
     condition: Expression | None = None
-    left: tuple[Module, ...] = ()
-    right: tuple[Module, ...] = ()
+    left: tuple[Pattern, ...] = ()
+    right: tuple[Pattern, ...] = ()
     probability: Expression | None = None
     at: TextSpan = field(default=None, compare=False, repr=False)
 
@@ -51,13 +51,13 @@ class Production:
         return f"{left}{self.predecessor}{right}{condition} -> {joined(map(str, self.successor)) or 'ε'}{probability}"
 
     @property
-    def modules(self) -> Iterator[Module]:
+    def modules(self) -> Iterator[Pattern]:
         """All its modules, in the order written."""
         yield from (*self.left, self.predecessor, *self.right)
         yield from flat(self.successor)
 
     @property
-    def parameters(self) -> tuple[Module, ...]:
+    def parameters(self) -> tuple[Pattern, ...]:
         """The modules whose arguments name its parameters."""
         return *self.left, self.predecessor, *self.right
 
@@ -67,12 +67,12 @@ class MetaRule:
     """A rule that shortens a word after a step: neighbouring modules and what stands for them (seed 003, on movement).
 
     >>> from lsys_kit.notation.model.expressions import Apply, Name
-    >>> print(MetaRule((Module("f", (Name("a"),)), Module("f", (Name("b"),))),
-    ...                (Module("f", (Apply("+", (Name("a"), Name("b"))),)),)))
+    >>> print(MetaRule((Pattern("f", (Name("a"),)), Pattern("f", (Name("b"),))),
+    ...                (Pattern("f", (Apply("+", (Name("a"), Name("b"))),)),)))
     meta: f(a)f(b) -> f(a + b)
     """
 
-    predecessors: tuple[Module, ...]
+    predecessors: tuple[Pattern, ...]
     successor: tuple[Item, ...]
     condition: Expression | None = None
     at: TextSpan = field(default=None, compare=False, repr=False)
@@ -144,7 +144,7 @@ class LSystem:
         The text it was read from, and what the reader found worth telling. Equality ignores them too.
     """
 
-    axiom: tuple[Module, ...]
+    axiom: tuple[Pattern, ...]
     productions: tuple[Production, ...]
     constants: tuple[Constant, ...] = ()
     interpretation: tuple[Production, ...] = ()
@@ -180,7 +180,7 @@ class LSystem:
     def picture(self, n: int | None = None, **choices: Any) -> Any:
         """The picture that `draw(system, n)` makes.
 
-        >>> LSystem((Module("F"),), (Production(Module("F"), (Module("F"), Module("F"))),)).picture(3)
+        >>> LSystem((Pattern("F"),), (Production(Pattern("F"), (Pattern("F"), Pattern("F"))),)).picture(3)
         8 segments, width 0, height 8
         """
         return import_module("lsys_kit").draw(self, n, **choices)  # asked for by name: this room knows no pictures
@@ -191,7 +191,7 @@ class LSystem:
         return *self.productions, *self.decomposition, *self.interpretation
 
     @property
-    def modules(self) -> Iterator[Module]:
+    def modules(self) -> Iterator[Pattern]:
         """All modules of the axiom and the rules, in the order written."""
         yield from self.axiom
         for rule in self.rules:
@@ -207,7 +207,7 @@ WRITERS: dict[str, Callable[[LSystem], str]] = {}
 def symbols(system: LSystem) -> tuple[str, ...]:
     """All symbols of a system, in the order in which they are first read.
 
-    >>> symbols(LSystem((Module("A"),), (Production(Module("A"), (Module("A"), Module("B"))),)))
+    >>> symbols(LSystem((Pattern("A"),), (Production(Pattern("A"), (Pattern("A"), Pattern("B"))),)))
     ('A', 'B')
     """
     modules = [*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)]

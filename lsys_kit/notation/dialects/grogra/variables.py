@@ -208,7 +208,7 @@ def resolve_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[
             inner = replace(scope, counting={**scope.counting, **dict.fromkeys(counters, index)})
             found.append(Repeat(resolve(item.count, scope), resolve_items(item.body, inner, depth + 1), index, item.at))
         elif item.arguments:
-            found.append(replace(item, arguments=tuple(resolve(a, scope) for a in item.arguments)))  # type: ignore[arg-type]
+            found.append(replace(item, arguments=tuple(resolve(a, scope) for a in item.arguments)))
         else:
             found.append(item)
     return tuple(found)
