@@ -27,7 +27,8 @@ from lsys_kit.classroom.magic import underlined
 from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.classroom.typeset import shown
 from lsys_kit.notation.model.expressions import Apply, Name, Number
-from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import DIALECTS
 
@@ -153,11 +154,11 @@ def typed(text: str) -> Iterator[str]:
 
 def made(text: str) -> LSystem:
     """A system made by hand, all of whose names are a text."""
-    name, t = Name(text), Module(text, (Name(text),))
-    grown = Module(text, (Apply("+", (name, Number(1))),))
-    return LSystem((Module(text, (Number(1),)), Module("F")), (
-        Production(t, (grown, Module("F"), Module("[["), Module(text + "_r"))),
-        Production(t, (grown,), Apply("<", (name, Number(5))), left=(Module(text + "_l"),), probability=Number(1))),
+    name, t = Name(text), Pattern(text, (Name(text),))
+    grown = Pattern(text, (Apply("+", (name, Number(1))),))
+    return LSystem((Pattern(text, (Number(1),)), Pattern("F")), (
+        Production(t, (grown, Pattern("F"), Pattern("[["), Pattern(text + "_r"))),
+        Production(t, (grown,), Apply("<", (name, Number(5))), left=(Pattern(text + "_l"),), probability=Number(1))),
         (Constant(f"{text}2", Number(1), (Number(0), Number(2), Number(1))),), notes=(f"A note on {text}.",))
 
 

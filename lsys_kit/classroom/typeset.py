@@ -16,8 +16,9 @@ from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.modules import Item, Module, Pattern, Repeat
 from lsys_kit.notation.model.operators import OPERATORS
-from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.syntax.formatting import settings
 from lsys_kit.pictures.style.labels import escaped, html_label
@@ -196,8 +197,8 @@ def _word(items: tuple[Item, ...], system: LSystem) -> str:
 
 def _item(item: Item, system: LSystem) -> str:
     """A module, or a repeated part in parentheses with how often it is written."""
-    if isinstance(item, Module):
-        values = ", ".join(formula(a, system) if isinstance(a, Expression) else number_text(a) for a in item.arguments)
+    if isinstance(item, Pattern):
+        values = ", ".join(formula(a, system) for a in item.arguments)
         return html_label(Module(item.symbol), system) + (f"({values})" if values else "")
     return _repeated(item, system)
 

@@ -11,7 +11,8 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.stepwise import ParentWord, Stepper, surviving
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Name, names_in
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 
 @dataclass(frozen=True)
@@ -236,7 +237,7 @@ def values_of(module: Module) -> tuple[float, ...]:
     if not module.arguments:
         return ()
     try:
-        values = tuple(map(float, module.arguments))  # type: ignore[arg-type]
+        values = tuple(map(float, module.arguments))
     except (TypeError, OverflowError):
         values = (math.nan,)
     for value in values:

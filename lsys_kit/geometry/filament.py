@@ -17,7 +17,7 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.commands import values_of
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
-from lsys_kit.notation.model.system import CELLS, WALL, Module
+from lsys_kit.notation.model.modules import CELLS, WALL, Module
 
 
 def filament(word: Word) -> Scene:

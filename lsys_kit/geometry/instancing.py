@@ -22,7 +22,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.commands import COMMANDS, Instruction, initial_step, instructions, unknown_commands
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, in_plane, initial_frame, prepared
-from lsys_kit.notation.model.system import CLOSING, OPENING
+from lsys_kit.notation.model.modules import CLOSING, OPENING
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a piece depends on: the state, how many steps it is from the word that is drawn, and what the turtle carries."""

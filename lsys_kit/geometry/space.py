@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -23,7 +22,8 @@ from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Instruction
 from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem
 
 Vector: TypeAlias = tuple[float, float, float]
 TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
@@ -278,10 +278,9 @@ def in_plane(system: LSystem) -> bool:
     return all(_stays(command, module) for module in system.modules for command in table.get(module.symbol, ()))
 
 
-def _stays(command: Command, module: Module) -> bool:
+def _stays(command: Command, module: Pattern) -> bool:
     """Whether a command with a module's argument stays in the plane."""
     if command.action == "roll" and module.arguments:
-        value = module.arguments[0]
-        value = value.value if isinstance(value, Number) else value
-        return isinstance(value, int | Fraction | float) and value % 180 == 0
+        angle = module.arguments[0]
+        return isinstance(angle, Number) and angle.value % 180 == 0
     return command.action not in _OUT_OF_THE_PLANE

@@ -11,7 +11,8 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from lsys_kit.geometry.commands import COMMANDS
-from lsys_kit.notation.model.system import LSystem, flat
+from lsys_kit.notation.model.modules import flat
+from lsys_kit.notation.model.system import LSystem
 
 Corner: TypeAlias = tuple[float, float, float]
 """A point in the turtle's own axes: ahead, to the left, up."""

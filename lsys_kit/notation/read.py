@@ -17,7 +17,8 @@ from lsys_kit.notation.analysis.lint import check_decomposition, unused_producti
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Module, flat
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import DIALECTS, dialect_named, recognise
 from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
@@ -115,8 +116,7 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     check_word(word, (), text)
     if system is not None and notation == "abop":
         word = segment_word(word, system)
-    return tuple(replace(module, arguments=tuple(value_of(a, text) for a in module.arguments if isinstance(a, Expression)))
-                 for module in flat(word))
+    return tuple(Module(part.symbol, tuple(value_of(a, text) for a in part.arguments), part.at) for part in flat(word))
 
 
 def read_expression(text: str) -> Expression:

@@ -25,7 +25,7 @@ from lsys_kit.geometry.commands import initial_step
 from lsys_kit.geometry.interpreter import compile_word
 from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, TurtleFrame, Vector, initial_frame, prepared, strokes_of
 from lsys_kit.notation.model.arithmetic import Value, short_text
-from lsys_kit.notation.model.system import Module
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoots
 
 DECIMALS = 9

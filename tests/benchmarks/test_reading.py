@@ -16,7 +16,8 @@ import pytest
 from lsys_kit import system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.expressions import Expression, is_random
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Pattern, flat
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import parse
@@ -113,7 +114,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
     GROGRA declares random numbers on lines of their own.
     """
     chosen = DIALECTS[notation]
-    spelt = {chosen.module(Module("a", (expression,)))[2:-1] for id in systems() if not chosen.lacking(system(id))
+    spelt = {chosen.module(Pattern("a", (expression,)))[2:-1] for id in systems() if not chosen.lacking(system(id))
              for expression in expressions(system(id)) if notation != "grogra" or not is_random(expression)}
     taken = dict.fromkeys(spelt, float("inf"))
     parse(chosen, "expression", "1", 0, 1)  # the first makes the parser

@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
 SYMBOLS = ("A", "B", "al", "u_1")
 """Symbols that productions rewrite; each has as many parameters as `ARITY` says."""
@@ -62,23 +63,23 @@ def conditions(draw: st.DrawFn, names: tuple[str, ...], depth: int = 1) -> Expre
 
 
 @st.composite
-def modules(draw: st.DrawFn, names: tuple[str, ...], aged: bool = True) -> Module:
+def modules(draw: st.DrawFn, names: tuple[str, ...], aged: bool = True) -> Pattern:
     """A module of any symbol; often a parameter grows by one, as ages do."""
     symbol = draw(st.sampled_from((*SYMBOLS, *SYMBOLS, *INERT)))
     arity = ARITY.get(symbol, 0)
     if arity and draw(st.integers(0, 15)) == 0:
         arity -= 1  # no production rewrites it
     older = st.sampled_from(names).map(lambda name: Apply("+", (Name(name), Number(1)))) if names and aged else st.nothing()
-    return Module(symbol, tuple(draw(st.lists(older | expressions(names) | older, min_size=arity, max_size=arity))))
+    return Pattern(symbol, tuple(draw(st.lists(older | expressions(names) | older, min_size=arity, max_size=arity))))
 
 
 @st.composite
-def successors(draw: st.DrawFn, names: tuple[str, ...], least: int = 0) -> tuple[Module, ...]:
+def successors(draw: st.DrawFn, names: tuple[str, ...], least: int = 0) -> tuple[Pattern, ...]:
     """Up to three modules, perhaps some of them on a branch."""
     word = draw(st.lists(modules(names), min_size=least, max_size=3))
     if word and draw(st.booleans()):
         start, end = sorted((draw(st.integers(0, len(word))), draw(st.integers(0, len(word)))))
-        word[start:end] = [Module("["), *word[start:end], Module("]")]
+        word[start:end] = [Pattern("["), *word[start:end], Pattern("]")]
     return tuple(word)
 
 
@@ -92,13 +93,13 @@ def productions(draw: st.DrawFn, constants: tuple[str, ...]) -> Production:
     parameters = tuple(e.name for e in formal if isinstance(e, Name) and e.name not in constants)
     names = (*parameters, *constants)
     condition = draw(conditions(names)) if parameters and draw(st.integers(0, 3)) else None
-    return Production(Module(symbol, tuple(formal)), draw(successors(names)), condition)
+    return Production(Pattern(symbol, tuple(formal)), draw(successors(names)), condition)
 
 
 @st.composite
-def instances(draw: st.DrawFn, formal: Module, constants: tuple[str, ...] = ()) -> Module:
+def instances(draw: st.DrawFn, formal: Pattern, constants: tuple[str, ...] = ()) -> Pattern:
     """A module as a pattern says: its parameters have some values, what it asks for is there."""
-    return Module(formal.symbol, tuple(
+    return Pattern(formal.symbol, tuple(
         Number(draw(numbers)) if isinstance(argument, Name) and argument.name not in constants else argument
         for argument in formal.arguments))
 
@@ -123,7 +124,7 @@ CONTEXT, CHANCE, DECOMPOSITION, CUT, REPETITION, META = KINDS = (
 ARITIES = {"A": 0, "B": 0, "S": 1, "F": 0, "+": 0, "f": 1, "%": 0, "D": 1, "E": 0}
 LIVELY = ("A", "B", "S")
 WEIGHTS: tuple[Expression, ...] = (*map(Number, (1, 2, Fraction(1, 2), Fraction(33, 100))), Apply("/", (Number(1), Number(3))))
-OPEN, CLOSE = Module("["), Module("]")
+OPEN, CLOSE = Pattern("["), Pattern("]")
 
 
 @st.composite
@@ -142,11 +143,11 @@ def arguments(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str]) -
 
 
 @st.composite
-def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more: tuple[str, ...] = ()) -> Module:
+def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more: tuple[str, ...] = ()) -> Pattern:
     rare = tuple(symbol for kind, symbol in ((CUT, "%"), (DECOMPOSITION, "D"), (DECOMPOSITION, "E"), (META, "f"), (META, "f"))
                  if kind in kinds)
     symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+", *rare, *more)))
-    return Module(symbol, tuple(draw(arguments(names, kinds)) for _ in range(ARITIES[symbol])))
+    return Pattern(symbol, tuple(draw(arguments(names, kinds)) for _ in range(ARITIES[symbol])))
 
 
 @st.composite
@@ -154,7 +155,7 @@ def items(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], least
     """A part of a word, perhaps with a branch in it, perhaps with a part written several times."""
     word: list[Item] = list(draw(st.lists(lively(names, kinds), min_size=least, max_size=most)))
     if word and CUT in kinds and draw(st.booleans()):
-        word.insert(draw(st.integers(0, len(word))), Module("%"))
+        word.insert(draw(st.integers(0, len(word))), Pattern("%"))
     if word and draw(st.integers(0, 2)) == 0:
         start, end = sorted((draw(st.integers(0, len(word))), draw(st.integers(0, len(word)))))
         word[start:end] = [OPEN, *word[start:end], CLOSE]
@@ -178,14 +179,14 @@ def repeats(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], dep
 
 
 @st.composite
-def patterns(draw: st.DrawFn, names: str, branches: bool) -> tuple[Module, ...]:
+def patterns(draw: st.DrawFn, names: str, branches: bool) -> tuple[Pattern, ...]:
     """Up to two neighbours, of which values may be asked for; to the right some of them may stand on branches."""
     word = []
     named = branches and draw(st.integers(0, 2)) == 0
     for name in names[:draw(st.sampled_from((1, 1, 2)))]:
         symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+")))
         asked = Number(draw(st.integers(0, 2))) if not named and draw(st.integers(0, 7)) == 0 else Name(name)
-        word.append(Module(symbol, (asked,) * ARITIES[symbol]))
+        word.append(Pattern(symbol, (asked,) * ARITIES[symbol]))
     if named:
         ways = [[OPEN, word[0], CLOSE, *word[1:]], [OPEN, *word, CLOSE]]
         if len(word) == 2:
@@ -200,7 +201,7 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
     """A rule, or two between which chance decides."""
     symbol = draw(st.sampled_from(("S", *LIVELY, "S", "+")))
     asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name("x")
-    predecessor = Module(symbol, (asked,) * ARITIES[symbol])
+    predecessor = Pattern(symbol, (asked,) * ARITIES[symbol])
     sides = draw(st.sampled_from(("left", "right", "right", "both", ""))) if CONTEXT in kinds else ""
     left = draw(patterns("lm", branches=False)) if sides in ("left", "both") else ()
     right = draw(patterns("rs", branches=True)) if sides in ("right", "both") else ()
@@ -215,8 +216,8 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
 @st.composite
 def apices(draw: st.DrawFn, kinds: Collection[str]) -> Production:
     """A rule for an apex that ages and grows where no other rule has a say."""
-    older = Module("S", (Apply("+", (Name("x"), Number(1))),))
-    return Production(Module("S", (Name("x"),)), (*draw(items(("x",), kinds, most=1)), older))
+    older = Pattern("S", (Apply("+", (Name("x"), Number(1))),))
+    return Production(Pattern("S", (Name("x"),)), (*draw(items(("x",), kinds, most=1)), older))
 
 
 @st.composite
@@ -225,12 +226,12 @@ def decompositions(draw: st.DrawFn, kinds: Collection[str]) -> Production:
     plain = tuple(kind for kind in kinds if kind not in (DECOMPOSITION, CUT))
     probability = draw(st.sampled_from(WEIGHTS)) if CHANCE in kinds and draw(st.booleans()) else None
     if draw(st.integers(0, 2)) == 0:
-        return Production(Module("E"), draw(items((), plain, least=1)), probability=probability)
+        return Production(Pattern("E"), draw(items((), plain, least=1)), probability=probability)
     less = draw(st.sampled_from((Apply("-", (Name("n"), Number(1))), Apply("/", (Name("n"), Number(2))))))
     rest = draw(items(("n",), plain, most=1))
-    successor = (Module("D", (less,)), *rest, *draw(st.sampled_from(((), (Module("E"),)))))
+    successor = (Pattern("D", (less,)), *rest, *draw(st.sampled_from(((), (Pattern("E"),)))))
     bound = Number(draw(st.sampled_from((1, 1, 2))))
-    return Production(Module("D", (Name("n"),)), successor[::draw(st.sampled_from((1, 1, -1))) if not rest else 1],
+    return Production(Pattern("D", (Name("n"),)), successor[::draw(st.sampled_from((1, 1, -1))) if not rest else 1],
                       Apply(">=", (Name("n"), bound)), probability=probability)
 
 
@@ -238,11 +239,11 @@ def decompositions(draw: st.DrawFn, kinds: Collection[str]) -> Production:
 def metas(draw: st.DrawFn) -> MetaRule:
     """A rule that joins two modules, or removes them."""
     if draw(st.booleans()):
-        moves = Module("f", (Name("x"),)), Module("f", (Name("y"),))
-        made = draw(st.sampled_from(((Module("f", (Apply("+", (Name("x"), Name("y"))),)),), ())))
+        moves = Pattern("f", (Name("x"),)), Pattern("f", (Name("y"),))
+        made = draw(st.sampled_from(((Pattern("f", (Apply("+", (Name("x"), Name("y"))),)),), ())))
         return MetaRule(moves, made, draw(conditions(("x", "y"), 0)) if draw(st.booleans()) else None)
-    pair = tuple(Module(draw(st.sampled_from("ABF"))) for _ in range(2))
-    return MetaRule(pair, tuple(Module(symbol) for symbol in draw(st.sampled_from(("", "A", "F")))))
+    pair = tuple(Pattern(draw(st.sampled_from("ABF"))) for _ in range(2))
+    return MetaRule(pair, tuple(Pattern(symbol) for symbol in draw(st.sampled_from(("", "A", "F")))))
 
 
 @st.composite
@@ -258,7 +259,7 @@ def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
         rewriting.append(draw(apices(kinds)))
     meta = tuple(draw(st.lists(metas(), min_size=1, max_size=3))) if META in kinds else ()
     plain = tuple(kind for kind in kinds if kind not in (CHANCE, REPETITION, CUT))
-    decomposed = (Module("D", (Number(draw(st.integers(1, 3))),)), Module("E")) if DECOMPOSITION in kinds else ()
+    decomposed = (Pattern("D", (Number(draw(st.integers(1, 3))),)), Pattern("E")) if DECOMPOSITION in kinds else ()
     found = [m for rule in rewriting[:4] for m in (*rule.left, rule.predecessor, *rule.right)]
     found += [m for rule in meta for m in rule.predecessors]
     axiom = [*draw(items((), plain, most=4)), *decomposed, *(draw(instances(module)) for module in found)]

@@ -12,7 +12,8 @@ from fractions import Fraction
 
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
-from lsys_kit.notation.model.system import CLOSING, END, OPENING, Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Item, Module, Pattern, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 
 PlainModule = tuple[str, tuple[float | Fraction, ...]]
 OPERATIONS = {"+": op.add, "-": op.sub, "*": op.mul, "/": op.truediv, "^": op.pow, "-x": op.neg, "abs": abs, "min": min,
@@ -53,7 +54,7 @@ def follow(pattern: Sequence, neighbours: Iterator, names: dict) -> Iterator[dic
     elif isinstance(near, list):  # a side branch, which is passed over unless the pattern means it
         inside = list(follow(wanted, iter(near), names)) if isinstance(wanted, list) else []
         yield from follow(pattern[1:], neighbours, inside[0]) if inside else follow(pattern, neighbours, names)
-    elif isinstance(wanted, Module) and (wanted.symbol, len(wanted.arguments)) == (near.symbol, len(near.arguments)):
+    elif isinstance(wanted, Pattern) and (wanted.symbol, len(wanted.arguments)) == (near.symbol, len(near.arguments)):
         names = {a.name: v for a, v in zip(wanted.arguments, near.arguments, strict=True) if isinstance(a, Name)} | names
         if [value(a, names) for a in wanted.arguments] == list(near.arguments):
             yield from follow(pattern[1:], neighbours, names)

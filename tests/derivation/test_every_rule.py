@@ -13,7 +13,8 @@ import pytest
 
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.derive import derive
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference

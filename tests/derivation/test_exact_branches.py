@@ -12,16 +12,18 @@ from hypothesis import strategies as st
 
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.analysis.lint import unused_productions
-from lsys_kit.notation.model.system import END, LSystem, Module, Production, symbols
-from lsys_kit.notation.read import read_word
+from lsys_kit.notation.model.modules import END, Pattern
+from lsys_kit.notation.model.system import LSystem, Production, symbols
+from lsys_kit.notation.read import read
 from tests.derivation import reference
 from tests.derivation.random_systems import systems_with
 
 
 def matches(right: str, word: str, ignored: str = "") -> bool:
     """Whether the first module of a word has a right context; `.` stands for the end of a branch."""
-    context = tuple(Module(END if letter == "." else letter) for letter in right)
-    system = LSystem(read_word(word), (Production(Module("A"), (Module("X"),), right=context),), ignored=tuple(ignored))
+    context = tuple(Pattern(END if letter == "." else letter) for letter in right)
+    rule = Production(Pattern("A"), (Pattern("X"),), right=context)
+    system = LSystem(read(f"axiom: {word}").axiom, (rule,), ignored=tuple(ignored))
     return derive(system, 1)[-1][0].symbol == "X"
 
 
@@ -64,17 +66,18 @@ def test_an_empty_branch_is_one_that_ends_at_once() -> None:
 
 
 def test_the_end_of_a_branch_is_no_module() -> None:
-    system = LSystem(read_word("A[B]"), (Production(Module("A"), (), right=tuple(map(Module, ("[", "B", END, "]")))),))
+    rule = Production(Pattern("A"), (), right=tuple(map(Pattern, ("[", "B", END, "]"))))
+    system = LSystem(read("axiom: A[B]").axiom, (rule,))
     assert END not in symbols(system)
     assert unused_productions(system) == []
 
 
-def with_ends(word: tuple[Module, ...], ends: Iterator[bool], end: str) -> tuple[Module, ...]:
+def with_ends(word: tuple[Pattern, ...], ends: Iterator[bool], end: str) -> tuple[Pattern, ...]:
     """A word with something more at the ends of some of its branches."""
-    found: list[Module] = []
+    found: list[Pattern] = []
     for module in word:
         if module.symbol == "]" and next(ends):
-            found.append(Module(end))
+            found.append(Pattern(end))
         found.append(module)
     return tuple(found)
 

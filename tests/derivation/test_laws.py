@@ -26,7 +26,8 @@ from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.expressions import Number, is_random
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.modules import Module, Pattern, Repeat, flat
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
 from tests.derivation import reference
@@ -46,11 +47,11 @@ from tests.derivation.random_systems import (
 STEPS = 4
 
 
-def plain(word: Iterable[Module]) -> list[reference.PlainModule]:
+def plain(word: Iterable[Pattern]) -> list[reference.PlainModule]:
     return [(module.symbol, module.arguments) for module in word]  # type: ignore[misc]
 
 
-def modules(word: Iterable[Module]) -> list[Module]:
+def modules(word: Iterable[Pattern]) -> list[Pattern]:
     return list(word)
 
 
@@ -62,8 +63,7 @@ def exact(derivation: Derivation) -> Derivation:
 
 def from_word(system: LSystem, word: Iterable[Module]) -> LSystem:
     """The system with a word as its axiom."""
-    return replace(system, axiom=tuple(replace(m, arguments=tuple(map(Number,
-    m.arguments))) for m in word))  # type: ignore[arg-type]
+    return replace(system, axiom=tuple(Pattern(m.symbol, tuple(map(Number, m.arguments))) for m in word))
 
 
 @given(systems())
@@ -124,7 +124,7 @@ def test_parts_of_a_word_derive_on_their_own(system: LSystem, other: LSystem) ->
     assert modules(ends[0]) == modules(ends[1]) + modules(ends[2])
 
 
-def reference_names(module: Module) -> set[str]:
+def reference_names(module: Pattern) -> set[str]:
     from lsys_kit.notation.model.expressions import names_in
 
     return {name for argument in module.arguments for name in names_in(argument)}  # type: ignore[arg-type]
@@ -177,15 +177,15 @@ def test_all_tokens_move_at_once(system: LSystem) -> None:
         assert net.tokens(after) == net.fired(net.tokens(before))
 
 
-def rewritten(system: LSystem, change: Callable[[tuple[Module, ...]], tuple[Module, ...]],
-              predecessor: Callable[[Module], Module]) -> LSystem:
+def rewritten(system: LSystem, change: Callable[[tuple[Pattern, ...]], tuple[Pattern, ...]],
+              predecessor: Callable[[Pattern], Pattern]) -> LSystem:
     """The system with every word in it changed."""
     rules = tuple(Production(predecessor(rule.predecessor), change(rule.successor), rule.condition)
                   for rule in system.productions)
     return replace(system, axiom=change(system.axiom), productions=rules, alphabet=())
 
 
-def renamed(names: Mapping[str, str]) -> Callable[[Module], Module]:
+def renamed(names: Mapping[str, str]) -> Callable[[Pattern], Pattern]:
     return lambda module: replace(module, symbol=names.get(module.symbol, module.symbol))
 
 
@@ -196,7 +196,7 @@ def test_renaming_commutes_with_deriving(system: LSystem, new: list[str]) -> Non
     assert [modules(w) for w in derive(other, STEPS)] == [list(map(rename, w)) for w in derive(system, STEPS)]
 
 
-def mirrored(word: Iterable[Module]) -> tuple[Module, ...]:
+def mirrored(word: Iterable[Pattern]) -> tuple[Pattern, ...]:
     turn = renamed({"[": "]", "]": "[", "+": "-", "-": "+"})
     return tuple(turn(module) for module in reversed(tuple(word)))
 
@@ -302,7 +302,7 @@ def test_the_random_systems_of_every_kind_are_not_idle(kinds: tuple[str, ...]) -
 def test_an_empty_context_is_none(system: LSystem) -> None:
     for rule in system.productions:
         condition = f": {rule.condition}" if rule.condition is not None else ""
-        bare = replace(rule, left=(), right=(), condition=None, successor=(Module("B"),))
+        bare = replace(rule, left=(), right=(), condition=None, successor=(Pattern("B"),))
         assert read(f"axiom: A\n < {rule.predecessor} > -> B").productions == (bare,)
         if not set(condition) & set("lmrs"):
             text = f"axiom: A\n < {rule.predecessor} > {condition} -> B"
@@ -323,7 +323,7 @@ def test_what_has_no_rival_happens_whatever_its_probability(system: LSystem, pro
 def test_interpretation_never_changes_a_word(system: LSystem, other: LSystem) -> None:
     defined(system)
     drawn = replace(system, interpretation=tuple(
-        Production(Module(symbol), (Module("F"), Module("%"), Module("B"))) for symbol in ("A", "B", "F", "+", "E")))
+        Production(Pattern(symbol), (Pattern("F"), Pattern("%"), Pattern("B"))) for symbol in ("A", "B", "F", "+", "E")))
     assert list(map(modules, derive(drawn, STEPS))) == list(map(modules, derive(system, STEPS)))
 
 
@@ -345,7 +345,7 @@ def test_a_shortened_word_cannot_be_shortened(system: LSystem) -> None:
 def test_what_stands_behind_a_cut_makes_no_difference(system: LSystem, other: LSystem) -> None:
     known = {constant.name for constant in system.constants}
     behind = tuple(module for module in other.axiom if not reference_names(module) - known)
-    cut = derive(replace(system, axiom=(*system.axiom, Module("%"), *behind)), STEPS)
+    cut = derive(replace(system, axiom=(*system.axiom, Pattern("%"), *behind)), STEPS)
     assert list(map(modules, cut))[1:] == list(map(modules, derive(system, STEPS)))[1:]
 
 

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, derive, pnml, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from tests.derivation.random_systems import systems as random_systems
 from tests.derivation.test_laws import ends
 
@@ -114,7 +115,7 @@ def test_durations_and_conditions_are_told() -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_name_is_text(name: str) -> None:
-    hostile = LSystem((Module(name),), (Production(Module(name), (Module(name), Module(f"{name}2"), Module(f"{name}2"))),))
+    hostile = LSystem((Pattern(name),), (Production(Pattern(name), (Pattern(name), Pattern(f"{name}2"), Pattern(f"{name}2"))),))
     text = pnml(stages(hostile))
     root = ET.fromstring(text.encode())
     tags = {element.tag.rpartition("}")[2] for element in root.iter()}

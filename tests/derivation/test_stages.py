@@ -20,7 +20,8 @@ from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 
 FILAMENT = """
@@ -173,7 +174,7 @@ def test_every_transition_of_the_catalogue_makes_what_its_production_makes(name:
     if not net.grouped:
         met = {net.place_of(module): module for word in derive(system, 4) for module in word}
         for place, module in met.items():
-            alone = replace(system, axiom=(replace(module, arguments=tuple(map(Number, module.arguments))),))  # type: ignore[arg-type]
+            alone = replace(system, axiom=(Pattern(module.symbol, tuple(map(Number, module.arguments))),))
             for seed in range(3):
                 assert net.tokens(derive(alone, 1, seed=seed)[1]) in outcomes(net, place)  # type: ignore[arg-type]
 
@@ -200,7 +201,7 @@ def test_the_probabilities_at_a_place_sum_to_one(name: str) -> None:
 
 
 BUDS = ("A", "B", "C")
-words = st.lists(st.sampled_from((*BUDS, "F", "[", "]")).map(Module), max_size=3).map(tuple)
+words = st.lists(st.sampled_from((*BUDS, "F", "[", "]")).map(Pattern), max_size=3).map(tuple)
 weights = st.sampled_from((0, 1, 2, Fraction(1, 3), Fraction(33, 100))).map(Number)
 
 
@@ -210,9 +211,9 @@ def systems_of_chance(draw: st.DrawFn) -> LSystem:
     rules = []
     for bud in BUDS:
         ways = draw(st.lists(st.tuples(words, weights), max_size=3))
-        rules += [Production(Module(bud), made, probability=weight if number else Number(Fraction(13, 20)))
+        rules += [Production(Pattern(bud), made, probability=weight if number else Number(Fraction(13, 20)))
                   for number, (made, weight) in enumerate(ways)]
-    return LSystem(tuple(map(Module, BUDS)), tuple(rules))
+    return LSystem(tuple(map(Pattern, BUDS)), tuple(rules))
 
 
 def mean(system: LSystem, counts: Mapping[str, Fraction]) -> dict[str, Fraction]:
@@ -221,7 +222,7 @@ def mean(system: LSystem, counts: Mapping[str, Fraction]) -> dict[str, Fraction]
     for symbol, count in counts.items():
         rules = [rule for rule in system.productions if rule.predecessor.symbol == symbol]
         total = sum(Fraction(rule.probability.value) for rule in rules)  # type: ignore[union-attr]
-        for rule in rules or [Production(Module(symbol), (Module(symbol),))]:
+        for rule in rules or [Production(Pattern(symbol), (Pattern(symbol),))]:
             share = Fraction(rule.probability.value) / total if rules else 1  # type: ignore[union-attr]
             for module in rule.successor:
                 found[module.symbol] += count * share  # type: ignore[union-attr, assignment]
@@ -244,7 +245,7 @@ def test_a_token_goes_one_way(system: LSystem, seed: int) -> None:
     for place in range(len(net.places)):
         one = tuple(int(place == other) for other in range(len(net.places)))
         assert net.fired(one, Chance(seed, 0, 0)) in outcomes(net, place)
-        alone = replace(system, axiom=net.places[place].modules)
+        alone = replace(system, axiom=tuple(Pattern(module.symbol) for module in net.places[place].modules))
         assert net.tokens(derive(alone, 1, seed=seed)[1]) in outcomes(net, place)
 
 

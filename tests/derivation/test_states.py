@@ -10,7 +10,8 @@ from lsys_kit.derivation.core.closure import closure
 from lsys_kit.derivation.core.interpretation import interpretations, is_filament
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 
 AGES = read("k = 2\naxiom: A(k) B\nA(t) : t < 3 -> A(t+1)\nA(3) -> A(1) A(1)\nA(k) -> C\nC ->  ε\nA(t) -> ε")
@@ -51,8 +52,8 @@ def test_the_number_of_parameters_belongs_to_the_symbol() -> None:
 
 
 def test_a_production_made_by_hand_has_no_place_in_a_text() -> None:
-    system = replace(AGES, source="", axiom=(Module("axiom"),), productions=(
-        Production(Module("axiom"), read("axiom: A(1/0)").axiom),))
+    system = replace(AGES, source="", axiom=(Pattern("axiom"),), productions=(
+        Production(Pattern("axiom"), read("axiom: A(1/0)").axiom),))
     with pytest.raises(ModelValueError) as caught:
         States(system).successor(0)
     assert caught.value.message == "axiom under production 1, axiom -> A(1/0), has no value: division by zero"

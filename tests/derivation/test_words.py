@@ -7,7 +7,7 @@ import pytest
 
 from lsys_kit.derivation.core.words import Word, abridged, state_counts
 from lsys_kit.derivation.derive import derive
-from lsys_kit.notation.model.system import Module
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
 AGEING = read("axiom: A(1)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(1) C\nB -> ε")

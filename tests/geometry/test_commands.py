@@ -13,7 +13,8 @@ from lsys_kit.geometry import space, turtle
 from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
 from lsys_kit.geometry.space import in_plane, trace_in_space
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem
 
 README = Path(__file__).parents[2] / "README.md"
 
@@ -31,7 +32,7 @@ def test_each_command_is_one_that_the_turtle_in_space_follows():
 def test_each_command_that_stays_in_the_plane_is_one_that_the_turtle_there_follows():
     for tradition, column in COMMANDS.items():
         for symbol, commands in column.items():
-            if in_plane(LSystem((Module(symbol, (Number(180),)),), (), turtle=tradition)):
+            if in_plane(LSystem((Pattern(symbol, (Number(180),)),), (), turtle=tradition)):
                 assert {command.action for command in commands} <= turtle.PLANE_ACTS.keys()
 
 

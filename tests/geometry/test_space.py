@@ -17,13 +17,14 @@ from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
 from lsys_kit.geometry.space import OFTEN, SPACE_ACTS, SpaceTurtle, in_plane, prepared, trace_in_space
 from lsys_kit.geometry.turtle import place_path, trace
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 
 LISTINGS = Path(__file__).parents[1] / "listings"
 
 
 def word_of(modules, turtle="abop", **settings):
-    axiom = tuple(Module(symbol, tuple(map(Number, values))) for symbol, *values in modules)
+    axiom = tuple(Pattern(symbol, tuple(map(Number, values))) for symbol, *values in modules)
     return derive(LSystem(axiom, (), turtle=turtle, **settings), 0)[0]
 
 
@@ -366,8 +367,8 @@ def test_a_roll_by_half_a_turn_stays_in_the_plane_and_any_other_leaves_it():
 
 @pytest.mark.parametrize("symbol", ["&", "^", "$", "@v", "@Ts", "@M"])
 def test_a_command_that_leads_out_of_the_plane_is_seen_in_rules_and_interpretations(symbol):
-    apex = Module("A")
-    growing, leading = Production(apex, (Module("F"), apex)), Production(apex, (Module(symbol), apex))
+    apex = Pattern("A")
+    growing, leading = Production(apex, (Pattern("F"), apex)), Production(apex, (Pattern(symbol), apex))
     assert in_plane(LSystem((apex,), (growing,)))
     assert not in_plane(LSystem((apex,), (leading,)))
     assert not in_plane(LSystem((apex,), (growing,), interpretation=(leading,)))

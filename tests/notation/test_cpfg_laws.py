@@ -18,7 +18,8 @@ from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, is_random
-from lsys_kit.notation.model.system import END, LSystem, Module, Production
+from lsys_kit.notation.model.modules import END, Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, systems, systems_with
@@ -38,8 +39,8 @@ def spelt(expression: Any) -> Any:
     return Apply(expression.operator, operands)
 
 
-def lettered(module: Module) -> Module:
-    return Module(LETTERS.get(module.symbol, module.symbol), tuple(map(spelt, module.arguments)))
+def lettered(module: Pattern) -> Pattern:
+    return Pattern(LETTERS.get(module.symbol, module.symbol), tuple(map(spelt, module.arguments)))
 
 
 def in_letters(rule: Production) -> Production:
@@ -56,7 +57,7 @@ def in_cpfg(system: LSystem) -> LSystem:
 def with_ends(system: LSystem) -> LSystem:
     """The branches of every other right context end where they are named."""
     def ended(rule: Production) -> Production:
-        right = [part for module in rule.right for part in ((Module(END), module) if module.symbol == "]" else (module,))]
+        right = [part for module in rule.right for part in ((Pattern(END), module) if module.symbol == "]" else (module,))]
         return replace(rule, right=tuple(right))
 
     return replace(system, productions=tuple(ended(rule) if i % 2 else rule for i, rule in enumerate(system.productions)))
@@ -94,7 +95,7 @@ def test_what_is_written_reads_back_as_the_same_system(system: LSystem) -> None:
 def test_the_same_words_come_out_of_what_is_written(system: LSystem) -> None:
     assume(writable(system))
 
-    def words(system: LSystem) -> list[tuple[Module, ...]] | str:
+    def words(system: LSystem) -> list[tuple[Pattern, ...]] | str:
         try:
             return [tuple(word) for word in derive(system, 3)]
         except LSystemError as error:
@@ -143,13 +144,13 @@ def expressions(draw: st.DrawFn, truth: bool = False, depth: int = 3) -> Express
 def test_what_binds_otherwise_in_cpfg_is_put_in_parentheses(kit: str, cpfg: str) -> None:
     expression = read_expression(kit)
     assert expression_text(expression) == cpfg
-    assert read(f"Axiom: A\nA(t,x) --> B({cpfg})", "cpfg").productions[0].successor == (Module("B", (expression,)),)
+    assert read(f"Axiom: A\nA(t,x) --> B({cpfg})", "cpfg").productions[0].successor == (Pattern("B", (expression,)),)
 
 
 @given(expressions(), expressions(True))
 def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expression) -> None:
     assume(not missing_function(number) and not missing_function(truth))
-    made = Production(Module("A", (Name("t"), Name("x"))), (Module("B", (number, number)),), truth)
+    made = Production(Pattern("A", (Name("t"), Name("x"))), (Pattern("B", (number, number)),), truth)
     assume(not is_random(truth))
     text = f"Axiom: A(0,1)\nA(t,x) : {expression_text(truth)} --> B({expression_text(number)},{expression_text(number)})"
     assert read(text, "cpfg").productions == (made,)
@@ -174,7 +175,7 @@ def test_what_cpfg_lacks_is_named(text: str, feature: str) -> None:
 
 
 def test_the_end_of_a_branch_is_nothing_by_itself() -> None:
-    system = LSystem((Module("A"),), (Production(Module("A"), (Module(END),)),))
+    system = LSystem((Pattern("A"),), (Production(Pattern("A"), (Pattern(END),)),))
     with pytest.raises(ModelValueError, match='The notation cpfg has no symbol "ε", which this system needs'):
         write(system, "cpfg")
 

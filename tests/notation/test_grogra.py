@@ -17,7 +17,8 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.grogra.conditions import exclusive
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Module, Pattern, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.registry import dialect_named, recognise
 from lsys_kit.notation.write import write
@@ -109,11 +110,11 @@ def test_two_signs_say_how_a_symbol_is_drawn() -> None:
 
 def test_the_axiom_may_say_how_many_steps_are_shown() -> None:
     assert grogra("\\axiom a 1-8, a # F").steps == grogra("\\axiom a 8, a # F").steps == 8
-    assert grogra("\\axiom a(2) F, a(x) # F").axiom == (Module("a", (Number(2),)), Module("F"))
+    assert grogra("\\axiom a(2) F, a(x) # F").axiom == (Pattern("a", (Number(2),)), Pattern("F"))
 
 
 def test_without_an_axiom_the_star_is_the_first_word() -> None:
-    assert grogra("a # b, * # F a").axiom == (Module("*"),)
+    assert grogra("a # b, * # F a").axiom == (Pattern("*"),)
     assert grogra("a # b, * # F a").notes == ()
 
 
@@ -175,7 +176,7 @@ def test_an_index_counts_the_repetitions_of_its_level() -> None:
     system = grogra("\\var i index, \\var j index 1, * # &2 < a(i) &3 < b(i, j) > >")
     assert str(derive(system, 1)[1]) == ("a(0) b(0, 0) b(0, 1) b(0, 2) a(1) b(1, 0) b(1, 1) b(1, 2)")
     assert system.productions[0].successor == (Repeat(Number(2), (
-        Module("a", (Name("i"),)), Repeat(Number(3), (Module("b", (Name("i"), Name("j"))),), "j")), "i"),)
+        Pattern("a", (Name("i"),)), Repeat(Number(3), (Pattern("b", (Name("i"), Name("j"))),), "j")), "i"),)
 
 
 def test_two_indexes_of_one_level_count_alike() -> None:
@@ -400,8 +401,8 @@ def test_what_the_notation_lacks_is_named(text: str, lacking: str) -> None:
 
 
 def test_no_text_has_an_empty_axiom_or_a_depth_of_decomposition() -> None:
-    assert dialect_named("grogra").lacking(LSystem((), (Production(Module("a"), ()),))) == "empty axiom"
-    assert dialect_named("grogra").lacking(LSystem((Module("a"),), (), decomposition_depth=2)) == "depth of decomposition"
+    assert dialect_named("grogra").lacking(LSystem((), (Production(Pattern("a"), ()),))) == "empty axiom"
+    assert dialect_named("grogra").lacking(LSystem((Pattern("a"),), (), decomposition_depth=2)) == "depth of decomposition"
 
 
 def test_whoever_else_deviates_is_no_variance() -> None:
@@ -436,7 +437,7 @@ def test_the_same_words_come_out(system: LSystem, seed: int) -> None:
         assert one == other
 
 
-def _words(system: LSystem, seed: int) -> list[tuple[Module, ...]] | str:
+def _words(system: LSystem, seed: int) -> list[tuple[Pattern, ...]] | str:
     """The words of three steps, or what stops them."""
     try:
         return [tuple(word) for word in derive(system, 3, seed=seed)]

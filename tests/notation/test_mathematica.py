@@ -13,7 +13,8 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import recognise
 from lsys_kit.notation.write import write
@@ -163,7 +164,7 @@ def test_a_printed_rule_is_an_lrule() -> None:
 @pytest.mark.parametrize("arrow", ["->", "→"])
 def test_a_printed_rule_has_an_arrow(arrow: str) -> None:
     assert read(f"Axiom: ab\nRules: a < b > {arrow} ba\na {arrow}").productions == (
-        Production(Module("b"), (Module("b"), Module("a")), left=(Module("a"),)), Production(Module("a"), ()))
+        Production(Pattern("b"), (Pattern("b"), Pattern("a")), left=(Pattern("a"),)), Production(Pattern("a"), ()))
 
 
 def test_a_name_of_several_letters_stays_whole_between_commas() -> None:
@@ -186,8 +187,8 @@ def test_a_condition_may_stand_behind_any_parameter() -> None:
 
 
 def test_a_value_is_asked_for_by_its_name() -> None:
-    assert rule("LEFT[], PRED[a[w]], RIGHT[], SUCC[b]").predecessor == Module("a", (Name("w"),))
-    assert rule("LEFT[], PRED[a[w + 1]], RIGHT[], SUCC[b]").predecessor == Module("a", (Apply("+", (Name("w"), Number(1))),))
+    assert rule("LEFT[], PRED[a[w]], RIGHT[], SUCC[b]").predecessor == Pattern("a", (Name("w"),))
+    assert rule("LEFT[], PRED[a[w + 1]], RIGHT[], SUCC[b]").predecessor == Pattern("a", (Apply("+", (Name("w"), Number(1))),))
 
 
 def test_an_underscore_alone_stands_for_any_value() -> None:
@@ -203,9 +204,9 @@ def test_a_comparison_may_go_on() -> None:
 
 def test_symbols_that_are_no_names_stand_in_quotation_marks() -> None:
     assert rule(r'LEFT[], PRED["+"[i_]], RIGHT["[", b, "]"], SUCC[F, "[", "+"[i], "\\", "L*"[0.5], "]"]') == Production(
-        Module("+", (Name("i"),)), (*map(Module, ("F", "[")), Module("+", (Name("i"),)), Module("\\"),
-                                    Module("L*", (Number(Fraction(1, 2)),)), Module("]")),
-        right=tuple(map(Module, "[b]")))
+        Pattern("+", (Name("i"),)), (*map(Pattern, ("F", "[")), Pattern("+", (Name("i"),)), Pattern("\\"),
+                                    Pattern("L*", (Number(Fraction(1, 2)),)), Pattern("]")),
+        right=tuple(map(Pattern, "[b]")))
 
 
 @pytest.mark.parametrize(("text", "same"), [
@@ -232,13 +233,13 @@ def test_every_function_that_is_written_is_read() -> None:
         operands: tuple[Expression, ...] = (Number(1),) * counts.get(function, 1)
         if function == "if":
             operands = (Apply("<", (Number(1), Number(2))), *operands[1:])
-        system = LSystem((Module("a"),), (Production(Module("a"), (Module("b", (Apply(function, operands),)),)),))
+        system = LSystem((Pattern("a"),), (Production(Pattern("a"), (Pattern("b", (Apply(function, operands),)),)),))
         assert read(write(system, "mathematica")) == system, function
 
 
 def test_comments_may_stand_in_comments() -> None:
     text = 'w = 11 (* of (* the layer (* of cells *) *); *); axiom (* first *) = AXIOM[a, "+" (* + *)] (* "*)'
-    assert read(text, "mathematica").axiom == (Module("a"), Module("+"))
+    assert read(text, "mathematica").axiom == (Pattern("a"), Pattern("+"))
 
 
 def test_a_range_stands_in_a_comment() -> None:

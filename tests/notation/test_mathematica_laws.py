@@ -18,7 +18,8 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write
@@ -86,7 +87,7 @@ def test_what_mathematica_lacks_is_named(text: str, lacking: str) -> None:
 
 
 def test_the_end_of_a_branch_is_lacking() -> None:
-    system = LSystem((Module("A"),), (Production(Module("A"), (), right=tuple(map(Module, ("[", "B", "ε", "]")))),))
+    system = LSystem((Pattern("A"),), (Production(Pattern("A"), (), right=tuple(map(Pattern, ("[", "B", "ε", "]")))),))
     assert MATHEMATICA.lacking(system) == "branch ends in contexts"
 
 
@@ -121,9 +122,9 @@ def test_the_systems_written_had_everything() -> None:
 @given(conditions(("i", "t", "j"), 1), conditions(("i", "t", "j"), 1), conditions(("i", "t", "j"), 1), st.booleans())
 def test_every_condition_is_read_again(one: Expression, two: Expression, three: Expression, leftward: bool) -> None:
     joined = Apply("&&", (Apply("&&", (one, two)), three)) if leftward else Apply("&&", (one, Apply("&&", (two, three))))
-    production = Production(Module("B", (Name("t"),)), (), joined, (Module("A", (Name("i"),)), Module("x")),
-                            (Module("["), Module("C", (Name("j"),)), Module("]")))
-    system = LSystem((Module("B", (Number(1),)),), (production,))
+    production = Production(Pattern("B", (Name("t"),)), (), joined, (Pattern("A", (Name("i"),)), Pattern("x")),
+                            (Pattern("["), Pattern("C", (Name("j"),)), Pattern("]")))
+    system = LSystem((Pattern("B", (Number(1),)),), (production,))
     assert read(write(system, "mathematica"), "mathematica") == system
 
 

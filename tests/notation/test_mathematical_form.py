@@ -11,7 +11,8 @@ from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import Module, symbols
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import symbols
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.syntax.printed import printed_statements
 from lsys_kit.notation.write import write
@@ -298,4 +299,4 @@ def test_a_condition_without_its_colon_is_no_context(rule: str, column: int) -> 
 
 def test_a_context_whose_symbol_is_also_a_parameter_stays_a_context() -> None:
     model = read("axiom: A(1) t B\nA(t) t < B -> t")
-    assert model.productions[0].left[1] == Module("t")
+    assert model.productions[0].left[1] == Pattern("t")

@@ -10,12 +10,13 @@ from lsys_kit.budget import limits
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_word
 from lsys_kit.notation.model.expressions import Name, Number
-from lsys_kit.notation.model.system import Constant, LSystem, Module, Production, symbols
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import Constant, LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_expression, read_number, read_word
 from lsys_kit.notation.syntax.statements import statements, without_comments
 from lsys_kit.notation.write import write
 
-A, B = Module("A"), Module("B")
+A, B = Pattern("A"), Pattern("B")
 
 
 def test_a_model_is_read_line_by_line() -> None:
@@ -31,7 +32,7 @@ def test_a_model_is_read_line_by_line() -> None:
         interpretation:
         B -> F(2)
     """)
-    assert system.axiom == (Module("A", (Number(1),)), Module("["), B, Module("]"))
+    assert system.axiom == (Pattern("A", (Number(1),)), Pattern("["), B, Pattern("]"))
     assert system.constants == (Constant("lifeTime", Number(3), (Number(1), Number(6), Number(1))),)
     assert (system.angle, system.heading, system.steps) == (Fraction(257, 10), 0, 4)
     assert [str(rule) for rule in system.productions] == ["A(t) : t < lifeTime -> A(t + 1)", "A(t) -> ε"]
@@ -131,9 +132,9 @@ def test_a_name_with_parameters_gives_them_to_its_last_letter() -> None:
 
 def test_words_and_numbers_can_be_read_alone() -> None:
     assert read_word("") == read_word("ε") == read_word(" * ") == ()
-    assert read_word("A(1/2, 2*3)[B]") == (Module("A", (Fraction(1, 2), 6)), Module("["), B, Module("]"))
+    assert read_word("A(1/2, 2*3)[B]") == (Module("A", (Fraction(1, 2), 6)), Module("["), Module("B"), Module("]"))
     assert read_word("I(A)", "plant-string") == tuple(map(Module, "I(A)"))
-    assert read_word("BAB", system=read("axiom: A\nA -> B A")) == (B, A, B)
+    assert read_word("BAB", system=read("axiom: A\nA -> B A")) == tuple(map(Module, "BAB"))
     assert read_word("BAB") == (Module("BAB"),)
     assert read_number("1.5e2") == 150
 
@@ -147,7 +148,7 @@ def test_a_word_has_numbers_and_closed_brackets(text: str, kind: type[Exception]
 
 
 def test_values_are_what_a_word_may_have() -> None:
-    check_word((Module("A", (Fraction(1, 2), 3.5)), Module("["), Module("]")), (), "")
+    check_word((Pattern("A", (Number(Fraction(1, 2)), Number(3.5))), Pattern("["), Pattern("]")), (), "")
 
 
 def test_a_long_expression_is_refused() -> None:

@@ -8,7 +8,8 @@ import pytest
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Name, Number
-from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import write
@@ -78,7 +79,7 @@ def test_an_unknown_notation_is_named() -> None:
 
 
 def test_names_are_kept_apart_and_nothing_else() -> None:
-    word = tuple(map(Module, ("A", "B", "[", "+", "F", "]", "al", "_b", "(")))
+    word = tuple(map(Pattern, ("A", "B", "[", "+", "F", "]", "al", "_b", "(")))
     assert dialect_named("abop").word(word) == "A B[+F]al _b("
     assert dialect_named("plant-string").word(word) == "AB[+F]al_b("
 
@@ -113,6 +114,6 @@ def test_equality_ignores_where_a_system_was_read() -> None:
 
 def test_records_print_as_the_notation() -> None:
     assert str(Module("M", (Fraction(1, 2), -1))) == "M(0.5,-1)"
-    assert str(Production(Module("A"), ())) == "A -> ε"
+    assert str(Production(Pattern("A"), ())) == "A -> ε"
     assert str(Constant("k", Number(3))) == "k = 3"
-    assert str(LSystem((Module("A"),), ())) == "axiom: A"
+    assert str(LSystem((Pattern("A"),), ())) == "axiom: A"

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import Item, LSystem, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.system import LSystem, MetaRule, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import conditions, expressions
@@ -58,13 +59,13 @@ def words(draw: st.DrawFn, names: tuple[str, ...], most: int = 3, chance: bool =
     for _ in range(draw(st.integers(0, most))):
         symbol = draw(st.sampled_from(SYMBOLS))
         value = drawn(names) if chance else expressions(names, 1)
-        word.append(Module(symbol, tuple(draw(value) for _ in range(COUNTS.get(symbol, 0)))))
+        word.append(Pattern(symbol, tuple(draw(value) for _ in range(COUNTS.get(symbol, 0)))))
     if chance and deep and draw(st.integers(0, 2)) == 0:
         index = draw(st.sampled_from(("", f"i{deep}")))
-        inner = draw(words((*names, index) if index else names, most, chance, deep - 1)) or (Module("B"),)
+        inner = draw(words((*names, index) if index else names, most, chance, deep - 1)) or (Pattern("B"),)
         word.append(Repeat(draw(drawn(names) if names else st.integers(0, 5).map(Number)), inner, index))
     if word and draw(st.integers(0, 2)) == 0:
-        word[0:len(word) // 2] = [Module("["), *word[0:len(word) // 2], Module("]")]
+        word[0:len(word) // 2] = [Pattern("["), *word[0:len(word) // 2], Pattern("]")]
     return tuple(word)
 
 
@@ -76,17 +77,17 @@ def counted(items: tuple[Item, ...]) -> bool:
 
 
 @st.composite
-def rows(draw: st.DrawFn, prefix: str, least: int, most: int) -> tuple[Module, ...]:
+def rows(draw: st.DrawFn, prefix: str, least: int, most: int) -> tuple[Pattern, ...]:
     """Modules that name parameters, each name its own."""
     row = []
     for place in range(draw(st.integers(least, most))):
         symbol = draw(st.sampled_from(SYMBOLS))
         free = [Name(f"{prefix}{place}{number}") for number in range(COUNTS.get(symbol, 0))]
-        row.append(Module(symbol, tuple(draw(st.sampled_from((name, name, Number(Fraction(1, 2))))) for name in free)))
+        row.append(Pattern(symbol, tuple(draw(st.sampled_from((name, name, Number(Fraction(1, 2))))) for name in free)))
     return tuple(row)
 
 
-def names_of(modules: tuple[Module, ...]) -> tuple[str, ...]:
+def names_of(modules: tuple[Pattern, ...]) -> tuple[str, ...]:
     return tuple(argument.name for module in modules for argument in module.arguments if isinstance(argument, Name))
 
 
@@ -96,7 +97,7 @@ def rules(draw: st.DrawFn, section: str) -> Production:
     (own,) = draw(rows("t", 1, 1))
     right = draw(rows("r", 0, 2)) if section == "productions" else ()
     if right and draw(st.booleans()):
-        right = (Module("["), *right[:1], Module("]"), *right[1:])
+        right = (Pattern("["), *right[:1], Pattern("]"), *right[1:])
     names = names_of((*left, own, *right))
     ends = section == "decomposition"  # without a condition it might lead to itself
     condition = draw(conditions(names)) if ends or draw(st.booleans()) else None

@@ -8,7 +8,8 @@ import pytest
 
 from lsys_kit import derive, draw, explain, read, system, write
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 NEIGHBOURS = {"[t(0 - 4)]": 0, "[RU90 f600 RU-90 t(0)]": 1, "[RU-90 f600 RU90 t(0 - 8)]": 2}
 

@@ -17,20 +17,21 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.engines import SteppingEngine
 from lsys_kit.geometry.space import trace_in_space
 from lsys_kit.notation.model.expressions import Apply, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.worlds.sight import TurtleObservation, observe
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 
 FUNCTIONS = {1: (1,), 2: (1,), 4: (60, 1), 7: (), 9: (60, 1)}
-ASKING = tuple(Production(Module("x"), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
+ASKING = tuple(Production(Pattern("x"), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
                for number, values in FUNCTIONS.items())
 """Rules that make modules x ask; they are never applied here."""
 
 
-def word_of(modules: str | list[Module], **settings) -> Word:
+def word_of(modules: str | list[Pattern], **settings) -> Word:
     """A word as it is: its modules parted by blanks, such as `F(2)` or `+(45)`, and those called x ask."""
     if isinstance(modules, str):
-        modules = [Module(symbol, tuple(Number(float(value)) for value in values.rstrip(")").split(",") if value))
+        modules = [Pattern(symbol, tuple(Number(float(value)) for value in values.rstrip(")").split(",") if value))
                    for symbol, _, values in (part.partition("(") for part in modules.split())]
     return derive(LSystem(tuple(modules), ASKING, **settings), 0)[0]
 
@@ -48,11 +49,11 @@ def all_answers(word: Word) -> list[list[float]]:
 degrees = st.integers(-72, 72).map(lambda tens: Number(5 * tens))
 lengths = st.integers(1, 6).map(lambda halves: Number(halves / 2))
 moves = st.one_of(
-    st.builds(lambda symbol, value: [Module(symbol, (value,)), Module("x")], st.sampled_from("FFf"), lengths),
-    st.builds(lambda symbol, value: [Module(symbol, (value,))], st.sampled_from("+&/"), degrees))
+    st.builds(lambda symbol, value: [Pattern(symbol, (value,)), Pattern("x")], st.sampled_from("FFf"), lengths),
+    st.builds(lambda symbol, value: [Pattern(symbol, (value,))], st.sampled_from("+&/"), degrees))
 plants = st.recursive(
     st.lists(moves, min_size=1, max_size=5).map(lambda parts: list(chain.from_iterable(parts))),
-    lambda inner: st.lists(inner | inner.map(lambda word: [Module("["), *word, Module("]")]), min_size=1, max_size=4).map(
+    lambda inner: st.lists(inner | inner.map(lambda word: [Pattern("["), *word, Pattern("]")]), min_size=1, max_size=4).map(
         lambda parts: list(chain.from_iterable(parts))), max_leaves=8)
 
 
@@ -68,8 +69,8 @@ def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem)
 
 @given(plants)
 @settings(max_examples=80, deadline=None)
-def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[Module]) -> None:
-    query = Module("?P", tuple(map(Number, (0, 0, 0))))
+def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[Pattern]) -> None:
+    query = Pattern("?P", tuple(map(Number, (0, 0, 0))))
     word = word_of([query if module.symbol == "x" else module for module in modules])
     places = [module.arguments for module in observe(word).word if module.symbol == "?P"]
     behind = [modules[at - 1].symbol == "F" for at, module in enumerate(modules) if module.symbol == "x"]
@@ -81,9 +82,9 @@ def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[
 
 @given(plants, st.tuples(degrees, degrees, degrees))
 @settings(max_examples=80, deadline=None)
-def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns: tuple[Number, ...]) -> None:
-    queries = [Module(symbol, tuple(map(Number, (0, 0, 0)))) for symbol in ("?H", "?L", "?U")]
-    prefix = [Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True)]
+def test_the_turtles_axes_are_told_at_right_angles(modules: list[Pattern], turns: tuple[Number, ...]) -> None:
+    queries = [Pattern(symbol, tuple(map(Number, (0, 0, 0)))) for symbol in ("?H", "?L", "?U")]
+    prefix = [Pattern(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True)]
     word = [module for module in observe(word_of([*prefix, *modules, *queries])).word if module.symbol in ("?H", "?L", "?U")]
     head, left, up = (np.array(module.arguments, float) for module in word)
     assert np.cross(head, left) == pytest.approx(up, abs=1e-8)
@@ -92,27 +93,27 @@ def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns:
 
 @given(plants, lengths, st.tuples(degrees, degrees, degrees))
 @settings(max_examples=80, deadline=None)
-def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Module], far: Number,
+def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Pattern], far: Number,
                                                               turns: tuple[Number, ...]) -> None:
-    prefix = [Module("f", (far,)), *(Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
-    here, there = observe(word_of(modules)), observe(word_of([*prefix, Module("f", (far,)), *modules]))
+    prefix = [Pattern("f", (far,)), *(Pattern(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
+    here, there = observe(word_of(modules)), observe(word_of([*prefix, Pattern("f", (far,)), *modules]))
     for number, values in ((2, (1,)), (9, (180, 1))):
         assert asked(there, number, *values) == pytest.approx(asked(here, number, *values), abs=1e-8)
 
 
 @given(plants, lengths, degrees)
 @settings(max_examples=80, deadline=None)
-def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Module], far: Number, turn: Number) -> None:
+def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Pattern], far: Number, turn: Number) -> None:
     back = Number(-float(turn.value))
-    prefix = [Module("+", (turn,)), Module("f", (far,)), Module("+", (back,))]
+    prefix = [Pattern("+", (turn,)), Pattern("f", (far,)), Pattern("+", (back,))]
     inclinations = asked(observe(word_of(modules)), 7)
     assert asked(observe(word_of([*prefix, *modules])), 7) == pytest.approx(inclinations, abs=1e-6)
 
 
 @given(plants)
 @settings(max_examples=80, deadline=None)
-def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Module]) -> None:
-    larger = [Module(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
+def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Pattern]) -> None:
+    larger = [Pattern(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
     assert asked(observe(word_of(larger)), 2, 2) == pytest.approx(
         [2 * d for d in asked(observe(word_of(modules)), 2, 1)], abs=1e-8)
 
@@ -139,8 +140,8 @@ def by_definition(word: Word, at: int, least: float) -> float:
 
 @given(plants, st.sampled_from((0.5, 1, 2)))
 @settings(max_examples=120, deadline=None)
-def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Module], least: float) -> None:
-    word = word_of([Module("F", (Number(1),)), *modules])
+def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Pattern], least: float) -> None:
+    word = word_of([Pattern("F", (Number(1),)), *modules])
     sight = observe(word)
     for position, module in enumerate(word):
         if module.symbol == "x":
@@ -160,7 +161,7 @@ def test_the_nearest_of_many_shoots_is_found_wherever_they_stand() -> None:
 
 @given(plants, st.integers(0, 18))
 @settings(max_examples=80, deadline=None)
-def test_a_wider_cone_shows_nothing_farther(modules: list[Module], tens: int) -> None:
+def test_a_wider_cone_shows_nothing_farther(modules: list[Pattern], tens: int) -> None:
     sight = observe(word_of(modules))
     narrow, wide, all_around = (asked(sight, 9, angle, 1) for angle in (10 * tens, 10 * tens + 10, 180))
     assert all(a >= b >= c for a, b, c in zip(narrow, wide, all_around, strict=True))
@@ -175,7 +176,7 @@ def test_the_nearest_point_may_lie_straight_behind() -> None:
 
 @given(plants)
 @settings(max_examples=60, deadline=None)
-def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Module]) -> None:
+def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Pattern]) -> None:
     answers = [answer for row in all_answers(word_of(modules)) for answer in row]
     assert all(answer >= 0 for answer in answers)
 

@@ -14,7 +14,7 @@ from lsys_kit import derive, draw, explain, explore, growth, read, stages, syste
 from lsys_kit.__main__ import main
 from lsys_kit.derivation.derive import derive as words_alone
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.notation.model.system import Module
+from lsys_kit.notation.model.modules import Module
 
 OUTSIDE = "x < -2.6 || x > 2.6 || y < 0 || y > 5.2"
 BOX = "[;(5)^(90)f(1)&(90)+(90)F(2.6)[F(0.05)]-(90)F(5.2)[F(0.05)]-(90)F(5.2)[F(0.05)]-F(5.2)[F(0.05)]-F(2.6)]"

@@ -23,7 +23,8 @@ from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, span, suggestion
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Expression, expression_type
-from lsys_kit.notation.model.system import LSystem, Module, symbols
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.worlds.derive import derive
 

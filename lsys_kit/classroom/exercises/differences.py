@@ -9,7 +9,7 @@ from typing import TypeAlias
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, to_sympy
-from lsys_kit.notation.model.system import Module
+from lsys_kit.notation.model.modules import Module
 
 Valuations: TypeAlias = Mapping[str, Value]
 """A value for each name."""

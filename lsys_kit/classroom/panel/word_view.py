@@ -6,7 +6,8 @@ from collections.abc import Collection
 from functools import lru_cache
 
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.style.labels import html_label
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, QUIET, colours, tinted
 

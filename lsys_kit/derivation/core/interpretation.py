@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.rules import rules_of
 from lsys_kit.derivation.core.states import States
-from lsys_kit.notation.model.system import CELLS, WALL, LSystem, Module, flat
+from lsys_kit.notation.model.modules import CELLS, WALL, Module, Pattern, flat
+from lsys_kit.notation.model.system import LSystem
 
 
 def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
@@ -40,7 +41,7 @@ def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
         yield from _image(states, Module(*made), depth - 1)
 
 
-def is_cell(made: Module) -> bool:
+def is_cell(made: Module | Pattern) -> bool:
     """Whether what a module is drawn as is a cell: with a length and a width.
 
     >>> is_cell(Module("L", (2, 1))), is_cell(Module("L"))

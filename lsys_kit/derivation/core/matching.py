@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from lsys_kit.derivation.core.rules import Branch, Rule, is_branch
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import CLOSING, END, OPENING, Module
+from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
 
 NO_NEIGHBOUR = -1
 """The position of a neighbour that is not there."""
@@ -120,7 +120,7 @@ def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], ar
 
 def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
     """The values of the modules at some positions, one after another."""
-    return tuple(value for at in positions for value in word[at].arguments)  # type: ignore[misc]
+    return tuple(value for at in positions for value in word[at].arguments)
 
 
 def _kind(module: Module) -> tuple[str, int]:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, reason_of
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 
@@ -15,7 +16,7 @@ AXIOM = Module("axiom")
 """What the axiom is made of."""
 
 
-def rule_error(system: LSystem, module: Module, rule: Rule, fault: Exception) -> LSystemError:
+def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exception) -> LSystemError:
     """A value that cannot be computed."""
     shown, production = dialect_named(system.notation).module(module), as_written(system, rule.production)
     what = "The axiom" if module is AXIOM else f"{shown} under production {rule.number + 1}, {production},"

@@ -17,8 +17,9 @@ from typing import Any, TypeAlias, TypeGuard
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
-from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
-from lsys_kit.notation.model.system import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, expressions_of
+from lsys_kit.notation.model.expressions import Apply, Function, Name, function_of, is_random, sensed_in
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Pattern, Repeat, expressions_of
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read_number
 
 ModuleKind: TypeAlias = tuple[str, int]
@@ -124,7 +125,7 @@ def _rules(system: LSystem, source: str, arithmetic: str, section: str) -> Rules
     return {kind: tuple(found) for kind, found in rules.items()}
 
 
-def kind_of(module: Module) -> ModuleKind:
+def kind_of(module: Module | Pattern) -> ModuleKind:
     """A module's symbol and the number of its parameters."""
     return module.symbol, len(module.arguments)
 
@@ -135,12 +136,12 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     arguments = [argument for module in production.parameters for argument in module.arguments]
     order = {name: len(arguments) + index for index, name in enumerate(constants)}
     formal = [isinstance(a, Name) and a.name not in order for a in arguments]
-    order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
+    order.update({a.name: i for i, a in enumerate(arguments) if isinstance(a, Name) and formal[i]})
 
     def ready(expression: Any) -> Function:
         return function_of(expression, order, arithmetic)
 
-    made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
+    made = [*expressions_of(production.successor)]
     asked = [part for part in (production.condition, production.probability, *made) if part is not None]
     return Rule(
         number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
@@ -162,7 +163,7 @@ def _parts(items: Sequence[Item], order: Mapping[str, int], size: int,
             body = _parts(item.body, inner, size + 1, arithmetic)
             found.append(RepeatTemplate(function_of(item.count, order, arithmetic), body))
         else:
-            found.append(ModuleTemplate(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
+            found.append(ModuleTemplate(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))
     return tuple(found)
 
 
@@ -171,7 +172,7 @@ def is_branch(item: ModuleKind | Branch) -> TypeGuard[Branch]:
     return not item or not isinstance(item[0], str)
 
 
-def _nested(modules: Sequence[Module]) -> Branch:
+def _nested(modules: Sequence[Pattern]) -> Branch:
     """A right context with its branches as rows of their own."""
     rows: list[list[Any]] = [[]]
     for module in modules:

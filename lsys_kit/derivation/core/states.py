@@ -25,7 +25,8 @@ from lsys_kit.derivation.core.rules import (
 )
 from lsys_kit.errors import ModelLimitError, ModelNameError
 from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.write import as_written
 
 EXACT_BITS = 128
@@ -152,7 +153,7 @@ class States:
 
     def matched(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[tuple[Rule, tuple[Value, ...]]]:
         """The rules that match a module, up to a first that leaves nothing to chance, each with the module's values."""
-        values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
+        values: tuple[Value, ...] = module.arguments
         found: list[tuple[Rule, tuple[Value, ...]]] = []
         for rule in rules.get(kind_of(module), ()):
             if self.holds(rule, values, module, chance):
@@ -221,7 +222,7 @@ class States:
     def made_numbers(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
                      chance: Chance | None = None) -> tuple[int, ...]:
         """The states that a rule makes of a module, before any decomposition."""
-        return tuple(self.number(made.symbol, made.arguments) for made in self._made(rule, module, values, chance))  # type: ignore[arg-type]
+        return tuple(self.number(made.symbol, made.arguments) for made in self._made(rule, module, values, chance))
 
     def replaced(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
                  chance: Chance | None = None) -> tuple[int, ...]:
@@ -261,7 +262,7 @@ class States:
             part, depth = todo.pop()
             rule = self.matching(part, self.decomposition, chance) if depth != asked else None
             if rule is None:
-                found.append(self.number(part.symbol, part.arguments))  # type: ignore[arg-type]
+                found.append(self.number(part.symbol, part.arguments))
             elif depth == deepest:
                 start, end = rule.production.at or (None, None)
                 raise ModelLimitError(f"{part} is decomposed more than {deepest} times, last by "
@@ -277,7 +278,7 @@ class States:
     def _axiom(self) -> Iterable[int]:
         """The axiom's states: its arguments may use the constants, so it is made like a successor."""
         places = [module.at for module in self.system.axiom if module.at]
-        start = Production(AXIOM, self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
+        start = Production(Pattern(AXIOM.symbol), self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
         return self.made_numbers(rule_for(self.system, 0, start, self.arithmetic), AXIOM)
 
     def _kept(self, value: Value) -> Value:

@@ -9,7 +9,7 @@ from typing import Any, overload
 import numpy as np
 
 from lsys_kit.derivation.core.states import States
-from lsys_kit.notation.model.system import Module, joined
+from lsys_kit.notation.model.modules import Module, joined
 from lsys_kit.notation.registry import dialect_named
 
 MOST_SHOWN = 2_000

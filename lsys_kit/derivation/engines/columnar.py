@@ -17,7 +17,8 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Module, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 
 Array: TypeAlias = np.ndarray[Any, Any]
 ColumnFunction: TypeAlias = Callable[..., Any]
@@ -138,11 +139,11 @@ class ColumnarSteps:
         production = rule.production
         asked = production.predecessor.arguments
         formal = [isinstance(a, Name) and a.name not in self._constants for a in asked]
-        equal = [Apply("==", (Name(f"#{i}"), a)) for i, a in enumerate(asked) if not formal[i]]  # type: ignore[arg-type]
+        equal = [Apply("==", (Name(f"#{i}"), a)) for i, a in enumerate(asked) if not formal[i]]
         condition = [production.condition] if production.condition is not None else []
-        parts = tuple((self.kinds.index(kind_of(m)), tuple(map(column_function, m.arguments)))  # type: ignore[arg-type]
+        parts = tuple((self.kinds.index(kind_of(m)), tuple(map(column_function, m.arguments)))
                       for m in production.modules if m is not production.predecessor)
-        return ColumnRule(tuple(a.name if formal[i] else None for i, a in enumerate(asked)),  # type: ignore[union-attr]
+        return ColumnRule(tuple(a.name if isinstance(a, Name) and formal[i] else None for i, a in enumerate(asked)),
                           tuple(map(column_function, [*equal, *condition])), parts)
 
     def word(self, modules: Sequence[Module]) -> ColumnWord:
@@ -151,7 +152,7 @@ class ColumnarSteps:
         kinds = np.array([numbers[kind_of(module)] for module in modules], dtype=np.min_scalar_type(len(self.kinds)))
         values = np.zeros((len(modules), self.width))
         for row, module in enumerate(modules):
-            values[row, :len(module.arguments)] = module.arguments  # type: ignore[assignment]
+            values[row, :len(module.arguments)] = module.arguments
         return ColumnWord(self.states, kinds, values, self.kinds)
 
     def bytes(self, modules: int) -> int:

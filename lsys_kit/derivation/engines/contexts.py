@@ -17,7 +17,7 @@ from lsys_kit.derivation.core.rules import is_branch
 from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.derivation.engines.expansion import Letters, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
-from lsys_kit.notation.model.system import CLOSING, OPENING
+from lsys_kit.notation.model.modules import CLOSING, OPENING
 
 Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)

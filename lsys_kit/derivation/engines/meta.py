@@ -59,7 +59,7 @@ def _applied(states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]
         last = [states.modules[code] for code in done[-len(kinds):]]
         if tuple(map(kind_of, last)) != kinds:
             continue
-        values: tuple[Value, ...] = tuple(value for module in last for value in module.arguments)  # type: ignore[misc]
+        values: tuple[Value, ...] = tuple(value for module in last for value in module.arguments)
         if states.holds(rule, values, last[-1]):
             return len(kinds), states.made_numbers(rule, last[-1], values)
     return None

@@ -16,7 +16,8 @@ from lsys_kit.derivation.core.matching import Neighbours, match_context, neighbo
 from lsys_kit.derivation.core.rules import Rule, is_branch
 from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import CLOSING, OPENING, LSystem, Module
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
+from lsys_kit.notation.model.system import LSystem
 
 Matches = list[tuple[Rule, tuple[Value, ...]]]
 """The rules that match a module, in the order written, with the values of the parameters that they name."""

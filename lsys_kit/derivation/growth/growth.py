@@ -32,7 +32,8 @@ from lsys_kit.derivation.growth.recurrences import (
 )
 from lsys_kit.derivation.growth.slicing import slice_system
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 if TYPE_CHECKING:
     import sympy

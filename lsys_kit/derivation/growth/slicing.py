@@ -9,13 +9,15 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Set
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from lsys_kit.notation.model.expressions import Expression, Name, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.modules import Item, Module, Pattern, Repeat, flat
+from lsys_kit.notation.model.system import LSystem, Production
 
 ArgumentPosition: TypeAlias = tuple[str, int, int]
 """A parameter: the symbol of its module, how many parameters that has, and which of them it is, from 0."""
+_UnitT = TypeVar("_UnitT", Module, Pattern)
 
 
 def slice_system(system: LSystem) -> LSystem:
@@ -76,7 +78,7 @@ def _sources(rule: Production, found: Set[ArgumentPosition]) -> Iterator[Argumen
     for module in flat(rule.successor):
         size = len(module.arguments)
         made = [argument for i, argument in enumerate(module.arguments) if (module.symbol, size, i) in found]
-        yield from _named(rule, made)  # type: ignore[arg-type]  # a production's arguments are expressions
+        yield from _named(rule, made)
 
 
 def _named(rule: Production, expressions: Iterable[Expression]) -> Iterator[ArgumentPosition]:
@@ -115,7 +117,7 @@ def _items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ..
                  for item in items)
 
 
-def without_arguments(module: Module, kept: Set[ArgumentPosition]) -> Module:
+def without_arguments(module: _UnitT, kept: Set[ArgumentPosition]) -> _UnitT:
     """A module without those of its parameters that decide nothing.
 
     >>> print(without_arguments(Module("A", (1, 2)), {("A", 2, 0)}))

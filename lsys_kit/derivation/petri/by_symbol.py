@@ -18,7 +18,8 @@ from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, function_of, names_in
-from lsys_kit.notation.model.system import Item, Module, Repeat, flat, joined, symbols
+from lsys_kit.notation.model.modules import Item, Module, Pattern, Repeat, flat, joined
+from lsys_kit.notation.model.system import symbols
 
 
 def by_symbol(states: States) -> Stages:
@@ -104,7 +105,7 @@ def _made(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, i
 def _parts(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, int, str]]:
     """The modules of a successor, each with how often it is written: a number and, where that is not known, a factor."""
     for item in items:
-        if isinstance(item, Module):
+        if isinstance(item, Pattern):
             yield kind_of(item), 1, ""
             continue
         count = _settled(item.count, states)

@@ -20,7 +20,7 @@ from lsys_kit.derivation.timed.ages import AgeModel, age_model
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.system import Module
+from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.write import as_written
 
 End: TypeAlias = tuple[Rule, Value] | None
@@ -52,7 +52,7 @@ class AgeingStates:
         """A module's symbol and other values, and its age; 0 where it has none."""
         at, values = self.age_at(module), module.arguments
         return ((module.symbol, values), 0) if at is None else (
-            (module.symbol, values[:at] + values[at + 1:]), values[at])  # type: ignore[return-value]
+            (module.symbol, values[:at] + values[at + 1:]), values[at])
 
     def aged(self, module: Module, age: Value) -> Module:
         """A module at another age."""
@@ -70,7 +70,7 @@ def ageing_in_time(system: Timed) -> AgeingStates:
     def end(module: Module) -> End:
         found = system.at_end(module)
         rule = system.states.rules.get(kind_of(module), (None,))[0]
-        return None if found is None or rule is None else (rule, found.arguments[0])  # type: ignore[return-value]
+        return None if found is None or rule is None else (rule, found.arguments[0])
 
     return AgeingStates(system.states, lambda module: 0 if module.arguments else None, end)
 
@@ -108,7 +108,7 @@ def _lets_time_pass(rule: Rule, ageing: AgeModel) -> bool:
     """Whether all that a rule does is make a module of some kind older."""
     made = rule.production.successor
     return (rule.settled and rule.condition is None and not rule.equalities and len(made) == 1
-            and isinstance(made[0], Module) and kind_of(made[0]) == kind_of(rule.production.predecessor) in ageing.parameters)
+            and isinstance(made[0], Pattern) and kind_of(made[0]) == kind_of(rule.production.predecessor) in ageing.parameters)
 
 
 def _decomposed(ageing: AgeModel, module: Module) -> End:
@@ -118,7 +118,7 @@ def _decomposed(ageing: AgeModel, module: Module) -> End:
         age = ageing.applies_from(rule, module)
         if age is not None:
             older = ageing.aged(module, age + 1)
-            if ageing.states.holds(rule, older.arguments, module):  # type: ignore[arg-type]
+            if ageing.states.holds(rule, older.arguments, module):
                 found.append((age, rule.number, rule))
     return (min(found)[2], min(found)[0]) if found else None
 

@@ -15,7 +15,8 @@ from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 
 @dataclass(frozen=True)

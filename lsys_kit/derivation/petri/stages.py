@@ -29,7 +29,8 @@ from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes, has_fates
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import CELLS, LSystem, Module
+from lsys_kit.notation.model.modules import CELLS, Module
+from lsys_kit.notation.model.system import LSystem
 
 MOST_PLACES = 40
 """A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""
@@ -195,6 +196,6 @@ def _numbered(keys: Sequence[Hashable]) -> list[int]:
 
 def _look(states: States, module: Module) -> Hashable:
     """What a module looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
-    state = states.number(module.symbol, module.arguments)  # type: ignore[arg-type]
+    state = states.number(module.symbol, module.arguments)
     image = interpretations(states, (state,))[state]
     return tuple(cell.arguments for cell in image) if all(cell.symbol in CELLS for cell in image) else module

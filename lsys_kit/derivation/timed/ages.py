@@ -14,7 +14,8 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, is_random, names_in
-from lsys_kit.notation.model.system import Module, Production
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import Production
 
 _COMPARED = {">=": 1, ">": 1, "<=": -1, "<": -1}
 """For each comparison whether its left side must be the greater."""
@@ -42,7 +43,7 @@ class AgeModel:
     def age(self, module: Module) -> Value | None:
         """A module's age; None where it has none."""
         at = self.parameters.get(kind_of(module))
-        return None if at is None else module.arguments[at]  # type: ignore[return-value]
+        return None if at is None else module.arguments[at]
 
     def aged(self, module: Module, age: Value) -> Module:
         """A module with another age."""
@@ -99,7 +100,7 @@ def age_model(states: States) -> AgeModel:
 def _grown(states: States, production: Production) -> Iterator[tuple[int, Value]]:
     """The first parameter to which a production adds a declared constant or 1, and how much that is."""
     before, after = production.predecessor, production.successor
-    if len(after) != 1 or not isinstance(after[0], Module) or kind_of(after[0]) != kind_of(before):
+    if len(after) != 1 or not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
         return
     for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True)):
         added = _added(old, new)

@@ -13,7 +13,8 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.notation.model.arithmetic import Value, normalised
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Module, flat
+from lsys_kit.notation.model.system import LSystem
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,8 @@ from lsys_kit.derivation.timed.timed import Timed, timed
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 
 if TYPE_CHECKING:
     import sympy

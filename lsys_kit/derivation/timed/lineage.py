@@ -20,7 +20,8 @@ from lsys_kit.derivation.timed.cell_lineage import CellDivisions, CellGrowth, Ce
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 MOST_CELLS = 100_000
 """A lineage has at most so many cells."""
@@ -182,7 +183,7 @@ def _in_time(system: Timed, end: Value) -> Lineage:
     while todo:
         module, since, cell = todo.pop()
         last = system.at_end(module)
-        moment: Value = end if last is None else since + (last.arguments[0] - module.arguments[0])  # type: ignore[operator]
+        moment: Value = end if last is None else since + (last.arguments[0] - module.arguments[0])
         if last is None or moment >= end:
             growth.found(cell, 1, word[len(growth.places)])
             continue

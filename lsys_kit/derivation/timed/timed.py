@@ -25,7 +25,8 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.write import as_written
 
 if TYPE_CHECKING:
@@ -86,8 +87,8 @@ class Timed:
             module, left, instant = todo.pop()
             rest, daughters = self._division(module, left)
             if daughters is None:
-                aged = (*(age + left for age in module.arguments[:1]), *module.arguments[1:])  # type: ignore[operator]
-                found.append(self.states.number(module.symbol, aged))  # type: ignore[arg-type]
+                aged = (*(age + left for age in module.arguments[:1]), *module.arguments[1:])
+                found.append(self.states.number(module.symbol, aged))
             elif instant > deepest:
                 raise ModelValueError(f"{module} divides without end in no time at all",
                                       hint="Let a daughter begin younger than the age at which she divides.")
@@ -125,7 +126,7 @@ class Timed:
         at_end = self.at_end(module)
         if at_end is None:
             return left, None
-        rest: Value = left - (at_end.arguments[0] - module.arguments[0])  # type: ignore[operator]
+        rest: Value = left - (at_end.arguments[0] - module.arguments[0])
         try:
             return (left, None) if rest <= 0 else (rest, self.daughters(at_end))
         except TypeError:

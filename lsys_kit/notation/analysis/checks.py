@@ -20,7 +20,8 @@ from lsys_kit.notation.model.expressions import (
     function_of,
     names_in,
 )
-from lsys_kit.notation.model.system import Constant, Item, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.system import Constant, MetaRule, Production
 
 
 def span(thing: object) -> tuple[int | None, int | None]:
@@ -173,7 +174,7 @@ def check_meta(rule: MetaRule, constants: Collection[str], source: str) -> None:
                                "Let fewer modules stand behind the arrow than before it.")
 
 
-def check_parameters(modules: Iterable[Module], constants: Collection[str], source: str) -> list[str]:
+def check_parameters(modules: Iterable[Pattern], constants: Collection[str], source: str) -> list[str]:
     """The parameters that some modules name: each once, each alone."""
     parameters: list[str] = []
     for argument in (argument for module in modules for argument in module.arguments):
@@ -193,7 +194,7 @@ def check_parameters(modules: Iterable[Module], constants: Collection[str], sour
 
 def check_word(word: Iterable[Item], names: Collection[str], source: str, arguments: bool = True, chance: bool = False) -> None:
     """The arguments are numbers, not too many, and the brackets close."""
-    opened: list[Module] = []
+    opened: list[Pattern] = []
     closing = {"]": "[", ")": "("}
     for module in word:
         if isinstance(module, Repeat):
@@ -202,8 +203,7 @@ def check_word(word: Iterable[Item], names: Collection[str], source: str, argume
         if len(module.arguments) > current().parameters:
             raise ModelSyntaxError(f'"{module.symbol}" has more than {current().parameters} parameters', source, *span(module))
         for argument in module.arguments if arguments else ():
-            if isinstance(argument, Expression):
-                check_expression(argument, names, source, chance=chance)
+            check_expression(argument, names, source, chance=chance)
         if module.symbol in closing.values():
             opened.append(module)
             if len(opened) > current().brackets:

@@ -8,13 +8,14 @@ from graphlib import CycleError, TopologicalSorter
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.expressions import Name, Number
-from lsys_kit.notation.model.system import END, Item, LSystem, Module, Production, flat, joined
+from lsys_kit.notation.model.modules import END, Item, Pattern, flat, joined
+from lsys_kit.notation.model.system import LSystem, Production
 
 _Kind = tuple[str, int]
 """What a rule is found by: the symbol of a module and its number of parameters."""
 
 
-def _kind(module: Module) -> _Kind:
+def _kind(module: Pattern) -> _Kind:
     return module.symbol, len(module.arguments)
 
 
@@ -67,7 +68,7 @@ def _head(rule: Production) -> str:
     return f"{left}{rule.predecessor}{right}"
 
 
-def _described(module: Module, symbols: Iterable[str]) -> str:
+def _described(module: Pattern, symbols: Iterable[str]) -> str:
     """A module's symbol, with its number of parameters where others with that symbol occur."""
     count = len(module.arguments)
     if module.symbol not in symbols:
@@ -100,10 +101,10 @@ def _always(rule: Production, constants: Iterable[str]) -> bool:
     return free and rule.condition is None and rule.probability is None
 
 
-def _surely(items: Iterable[Item]) -> Iterator[Module]:
+def _surely(items: Iterable[Item]) -> Iterator[Pattern]:
     """The modules of a successor that are there however often its parts are repeated."""
     for item in items:
-        if isinstance(item, Module):
+        if isinstance(item, Pattern):
             yield item
         elif isinstance(item.count, Number) and item.count.value >= 1:
             yield from _surely(item.body)

@@ -17,7 +17,8 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
-from lsys_kit.notation.model.system import Constant, MetaRule, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Pattern, Repeat
+from lsys_kit.notation.model.system import Constant, MetaRule, Production
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
               "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}
@@ -120,25 +121,25 @@ class Expressions(Transformer[Any, Any]):
 class Statements(Transformer[Any, Any]):
     """What the grammars of the notations name."""
 
-    def module(self, symbol: Token, *arguments: Any) -> Module:
+    def module(self, symbol: Token, *arguments: Any) -> Pattern:
         at = _around(symbol, *arguments)
         if symbol.type == "TIMED":
             symbol, arguments = arguments[0], arguments[1:]
-        return Module(_symbol(symbol), arguments, at)
+        return Pattern(_symbol(symbol), arguments, at)
 
-    def word(self, *modules: Module) -> tuple[Module, ...]:
+    def word(self, *modules: Pattern) -> tuple[Pattern, ...]:
         return modules
 
-    def successor(self, word: tuple[Module, ...]) -> tuple[Module, ...]:
+    def successor(self, word: tuple[Pattern, ...]) -> tuple[Pattern, ...]:
         return word
 
-    def erased(self, _: Token) -> tuple[Module, ...]:
+    def erased(self, _: Token) -> tuple[Pattern, ...]:
         return ()
 
-    def left(self, *modules: Any) -> tuple[str, tuple[Module, ...]]:
+    def left(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
         return "left", modules[0] if modules else ()
 
-    def right(self, *modules: Any) -> tuple[str, tuple[Module, ...]]:
+    def right(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
         return "right", modules[0] if modules else ()
 
     def probability(self, expression: Expression) -> tuple[str, Expression]:
@@ -157,11 +158,11 @@ class Statements(Transformer[Any, Any]):
         return repeat
 
     def production(self, *parts: Any) -> tuple[str, Production]:
-        modules = [part for part in parts if isinstance(part, Module)]
+        modules = [part for part in parts if isinstance(part, Pattern)]
         successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
         return "production", Production(modules[0], successor, **dict(part for part in parts if _named(part)))
 
-    def meta(self, _: Token, predecessors: tuple[Module, ...], *parts: Any) -> tuple[str, MetaRule]:
+    def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Any) -> tuple[str, MetaRule]:
         successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
         return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _named(part)))
 
@@ -172,10 +173,10 @@ class Statements(Transformer[Any, Any]):
                           "Contexts follow the branches in any case.")
         return keyword.rstrip(": \t").lower(), tuple(dict.fromkeys(map(_symbol, names)))
 
-    def axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, tuple[Module, ...]]:
+    def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "axiom", word
 
-    def plain_axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, Any]:
+    def plain_axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
         return "more", ("axiom", word)
 
     def delta(self, _: Token, value: Expression, *sign: Token) -> tuple[str, Any]:
@@ -213,5 +214,5 @@ class Statements(Transformer[Any, Any]):
     def how_many(self, _: Token, number: Token) -> tuple[str, Any]:
         return "more", ("how many", _number(number))
 
-    def stage(self, _: Token, word: tuple[Module, ...]) -> tuple[str, Any]:
+    def stage(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
         return "more", ("stage", word)

@@ -17,7 +17,8 @@ from lsys_kit.notation.analysis.checks import (
     value_of,
 )
 from lsys_kit.notation.model.expressions import names_in
-from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
 _ROWS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are rows of symbols, and where a system has them."""
@@ -46,7 +47,7 @@ class Draft:
     source: str
     notation: str
     turtle: str = "abop"
-    axiom: tuple[Module, ...] | None = None
+    axiom: tuple[Pattern, ...] | None = None
     constants: list[Constant] = field(default_factory=list)
     sections: dict[str, list[Production]] = field(
         default_factory=lambda: {"productions": [], "decomposition": [], "interpretation": []})

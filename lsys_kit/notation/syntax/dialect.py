@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from lark import Transformer
 
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
-from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
@@ -75,7 +76,7 @@ class Dialect(Grammar):
 
     statements: Callable[[str], Iterator[tuple[int, int]]]
     finish: Callable[[Draft], LSystem]
-    module: Callable[[Module], str]
+    module: Callable[[Module | Pattern], str]
     joined: Callable[[Iterable[str]], str]
     write: Callable[[LSystem], str]
     lacking: Callable[[LSystem], str | None]
@@ -95,6 +96,6 @@ class Dialect(Grammar):
             raise ModelValueError(f"The notation {self.name} has no {lacking}, which this system needs")
         return self.write(system)
 
-    def word(self, modules: Iterable[Module]) -> str:
+    def word(self, modules: Iterable[Module | Pattern]) -> str:
         """The text of a word."""
         return self.joined(map(self.module, modules))

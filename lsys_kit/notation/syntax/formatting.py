@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.system import LSystem, Repeat
+from lsys_kit.notation.model.modules import Repeat
+from lsys_kit.notation.model.system import LSystem
 
 OWN_NOTATION = "abop"
 """The tradition of turtle commands that is meant where nothing is said."""

@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
+from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
+from lsys_kit.notation.model.system import LSystem, Production
 
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
@@ -35,7 +36,7 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
     The symbols of which one name is made may part another: names are parted until none is left.
 
     >>> from lsys_kit.notation.read import read
-    >>> segment_system(replace(read("axiom: F\\nF -> F J J"), axiom=(Module("JF"),)))[1]
+    >>> segment_system(replace(read("axiom: F\\nF -> F J J"), axiom=(Pattern("JF"),)))[1]
     {'JF': ['J', 'F']}
     """
     made: dict[str, list[str]] = {}
@@ -55,7 +56,7 @@ def segment_with_notes(system: LSystem) -> LSystem:
     return replace(parted, notes=(*system.notes, *notes)) if made else system
 
 
-def _modules(system: LSystem) -> Iterable[Module]:
+def _modules(system: LSystem) -> Iterable[Pattern]:
     """The modules that may be glued: a predecessor is what it is."""
     yield from system.axiom
     for rule in system.rules:
@@ -76,14 +77,14 @@ def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]
         if isinstance(module, Repeat):
             result.append(replace(module, body=_parted(module.body, made)))
         elif pieces := made.get(module.symbol):
-            result += [Module(symbol, at=module.at) for symbol in pieces[:-1]]
+            result += [Pattern(symbol, at=module.at) for symbol in pieces[:-1]]
             result.append(replace(module, symbol=pieces[-1]))
         else:
             result.append(module)
     return tuple(result)
 
 
-def _glued(modules: Iterable[Module], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
+def _glued(modules: Iterable[Pattern], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
     """The glued names among some modules, and the symbols of which each is made."""
     names = dict.fromkeys(module.symbol for module in modules if len(module.symbol) > 1 and module.symbol not in whole)
     return {name: pieces for name in names if (pieces := _pieces(name, whole, parts))}

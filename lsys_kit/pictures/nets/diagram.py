@@ -159,7 +159,7 @@ def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, str]]:
 
 
 def _rank(place: Place) -> tuple[float, ...]:
-    return tuple(float(value) for value in place.modules[0].arguments) if place.modules else ()  # type: ignore[arg-type]
+    return tuple(float(value) for value in place.modules[0].arguments) if place.modules else ()
 
 
 def _stage(net: Stages, number: int, centre: Point, colours_: tuple[str, str]) -> str:

@@ -10,12 +10,12 @@ import re
 from collections.abc import Mapping
 from functools import lru_cache
 from html import escape
-from typing import cast
 
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
-from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.system import LSystem, Module, symbols
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, symbols
 
 
 def escaped(text: str) -> str:
@@ -58,7 +58,7 @@ def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
 def values_text(module: Module) -> str:
     """A module's values in parentheses, or nothing."""
     values = ",".join(number_text(value) if abs(float(value)) < 1e6 else f"{float(value):.3g}"
-                      for value in cast(tuple[Value, ...], module.arguments))
+                      for value in module.arguments)
     return f"({values})" if values else ""
 
 

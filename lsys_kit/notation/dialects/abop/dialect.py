@@ -9,7 +9,8 @@ from typing import Any
 from lark import Transformer
 from lark.visitors import merge_transformers
 
-from lsys_kit.notation.model.system import LSystem, flat, joined
+from lsys_kit.notation.model.modules import flat, joined
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.actions import Expressions, Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon

@@ -15,7 +15,8 @@ from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
 from lsys_kit.notation.dialects.cpfg.wording import in_cpfg
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
-from lsys_kit.notation.model.system import END, Constant, Module
+from lsys_kit.notation.model.modules import END, Pattern
+from lsys_kit.notation.model.system import Constant
 from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
 
 _SPELLINGS = {"<>": "!=", "%": "mod"}
@@ -32,9 +33,9 @@ def _around(first: Expression, last: Expression | None = None) -> tuple[int, int
 
 
 @cache
-def _plain(symbol: str) -> Module:
+def _plain(symbol: str) -> Pattern:
     """A module without values."""
-    return Module("-" if symbol == "−" else symbol)
+    return Pattern("-" if symbol == "−" else symbol)
 
 
 def _flat(parts: Iterable[Any]) -> Iterator[Any]:
@@ -88,19 +89,19 @@ class _Expressions(Expressions):
 class Records(_Expressions, Statements):
     """What `grammar.lark` names."""
 
-    def module(self, symbol: Token, *arguments: Expression) -> Module:
+    def module(self, symbol: Token, *arguments: Expression) -> Pattern:
         return super().module(symbol, *map(as_number, arguments))
 
-    def row(self, token: Token) -> tuple[Module, ...]:
+    def row(self, token: Token) -> tuple[Pattern, ...]:
         """Symbols without values; brackets know their places, in case one is not closed."""
-        found: list[Module] = []
+        found: list[Pattern] = []
         at = token.start_pos or 0
         for piece in re.split(r"([\[\]])", token):
-            found += (Module(piece, at=(at, at + 1)),) if piece in ("[", "]") else map(_plain, SYMBOL_PATTERN.findall(piece))
+            found += (Pattern(piece, at=(at, at + 1)),) if piece in ("[", "]") else map(_plain, SYMBOL_PATTERN.findall(piece))
             at += len(piece)
         return tuple(found)
 
-    def word(self, *parts: Module | tuple[Module, ...]) -> tuple[Module, ...]:
+    def word(self, *parts: Pattern | tuple[Pattern, ...]) -> tuple[Pattern, ...]:
         return tuple(_flat(parts))
 
     def constant(self, name: Token, value: Expression, *rest: Expression) -> tuple[str, Constant]:
@@ -130,9 +131,9 @@ class Records(_Expressions, Statements):
         always = isinstance(expression, Number) and expression.value != 0
         return "condition", None if always else as_truth(expression)
 
-    def pattern(self, *parts: Module | Token | tuple[Module, ...]) -> tuple[Module, ...]:
+    def pattern(self, *parts: Pattern | Token | tuple[Pattern, ...]) -> tuple[Pattern, ...]:
         """A right context, in which a branch ends at its bracket unless "=" stands for the rest of it."""
-        found: list[Module] = []
+        found: list[Pattern] = []
         modules = tuple(_flat(parts))
         for index, module in enumerate(modules):
             if isinstance(module, Token):
@@ -140,7 +141,7 @@ class Records(_Expressions, Statements):
                     raise _misplaced(module)
                 continue
             if module.symbol == "]" and not isinstance(modules[index - 1], Token):
-                found.append(Module(END))
+                found.append(Pattern(END))
             found.append(module)
         return tuple(found)
 

@@ -10,7 +10,8 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name
-from lsys_kit.notation.model.system import Module, Production
+from lsys_kit.notation.model.modules import Pattern, flat
+from lsys_kit.notation.model.system import Production
 
 Bindings: TypeAlias = Mapping[str, Expression]
 """What names stand for at some place of a rule."""
@@ -48,7 +49,7 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     """A rule with what its blocks compute: one before its condition, one behind it.
 
     >>> x, doubled = Name("x"), Apply("+", (Name("t"), Name("t")))
-    >>> rule = Production(Module("M", (Name("t"),)), (Module("I", (x,)),))
+    >>> rule = Production(Pattern("M", (Name("t"),)), (Pattern("I", (x,)),))
     >>> print(substitute(rule, (), (Assignment(x, doubled),), (), ""))
     M(t) -> I(t + t)
     """
@@ -61,14 +62,14 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     condition, probability = production.condition, production.probability
     done = replace(
         production, condition=None if condition is None else rule.replaced(condition, first),
-        successor=tuple(_module(rule, module, last) for module in production.successor),  # type: ignore[arg-type]
+        successor=tuple(_module(rule, module, last) for module in flat(production.successor)),
         probability=None if probability is None else rule.replaced(probability, last))
     _check_draws(done, (*before, *after), source)
     return done
 
 
-def _module(rule: _Rule, module: Module, values: Bindings) -> Module:
-    return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))  # type: ignore[arg-type]
+def _module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
+    return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))
 
 
 @dataclass(frozen=True)
@@ -125,7 +126,7 @@ def _replaced(expression: Expression, values: Bindings) -> Expression:
     return expression if same else replace(expression, operands=operands)
 
 
-def _operators(expression: Expression) -> Iterator[Apply]:
+def _operators(expression: Expression | None) -> Iterator[Apply]:
     """The operators of an expression with their operands; what stands in two places comes twice."""
     if isinstance(expression, Apply):
         yield expression
@@ -147,10 +148,10 @@ def _assignments(block: Block) -> Iterator[Assignment]:
 
 def _check_draws(production: Production, block: Block, source: str) -> None:
     """No random number that was drawn once in a block is drawn twice in what became of the rule."""
-    arguments = [argument for module in production.successor for argument in module.arguments]  # type: ignore[union-attr]
+    arguments = [argument for module in flat(production.successor) for argument in module.arguments]
     drawn: set[int] = set()
     for expression in (production.condition, production.probability, *arguments):
-        for applied in _operators(expression):  # type: ignore[arg-type]
+        for applied in _operators(expression):
             if OPERATORS[applied.operator].random and id(applied) in drawn:
                 raise _drawn_twice(applied, block, source)
             drawn.add(id(applied))

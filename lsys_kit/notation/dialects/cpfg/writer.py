@@ -10,13 +10,14 @@ from lsys_kit.notation.dialects.cpfg.actions import SYMBOL_PATTERN
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
-from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.model.modules import END, Module, Pattern, flat
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
 
 
-def module_text(module: Module) -> str:
+def module_text(module: Module | Pattern) -> str:
     """A module in cpfg's notation.
 
     >>> module_text(Module("M", (2, -1)))
@@ -87,7 +88,7 @@ def _rule(rule: Production) -> str:
     return f"{re.sub('^//', '/ /', left)}{module_text(rule.predecessor)}{right}{condition} --> {successor}{probability}"
 
 
-def _pattern(modules: Iterable[Module]) -> Iterator[str]:
+def _pattern(modules: Iterable[Pattern]) -> Iterator[str]:
     """A right context, with "=" for the rest of each branch whose end it does not name."""
     before = ""
     for module in modules:
@@ -126,7 +127,7 @@ def _lacking_symbol(symbol: str) -> str | None:
 
 def _expressions(system: LSystem) -> Iterator[Expression]:
     yield from (constant.value for constant in system.constants)
-    yield from (argument for module in system.modules for argument in module.arguments if isinstance(argument, Expression))
+    yield from (argument for module in system.modules for argument in module.arguments)
     for rule in system.rules:
         yield from (expression for expression in (rule.condition, rule.probability) if expression is not None)
 

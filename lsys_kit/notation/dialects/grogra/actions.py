@@ -12,7 +12,8 @@ from lark.visitors import merge_transformers
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.dialects.grogra.variables import Variable
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name
-from lsys_kit.notation.model.system import Constant, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
 from lsys_kit.notation.syntax.statements import without_comments
 
@@ -73,13 +74,13 @@ class _Expressions(Expressions):
 class _Statements(_Expressions, Statements):
     """What `grammar.lark` names."""
 
-    def glued(self, token: Token) -> Module:
+    def glued(self, token: Token) -> Pattern:
         """A command with its number: in `L*0.6` the symbol is `L*`."""
         symbol, sign, number = (_part(token, *match) for match in _pieces(token))
         value = self.number(number)
         return self.module(symbol, self.unary(sign, value) if sign else value)
 
-    def axiom(self, _: Token, word: tuple[Module, ...], *steps: Token) -> tuple[str, Any]:
+    def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> tuple[str, Any]:
         ends = [int(end) for end in steps[0].split("-")] if steps else []
         if ends and ends[0] > ends[-1]:
             raise Misread(ModelValueError, f'"{steps[0]}" runs backwards', (steps[0].start_pos or 0, steps[0].end_pos or 0),
@@ -122,7 +123,7 @@ def _part(token: Token, text: str, offset: int) -> Token:
 
 def _production(parts: tuple[Any, ...]) -> Production:
     """A rule, whose successor may be nothing at all."""
-    predecessor = next(part for part in parts if isinstance(part, Module))
+    predecessor = next(part for part in parts if isinstance(part, Pattern))
     named = {part[0]: part[1] for part in parts if isinstance(part, tuple) and part and isinstance(part[0], str)}
     successor = next((part for part in parts if isinstance(part, tuple) and not (part and isinstance(part[0], str))), ())
     return Production(predecessor, successor, **named)

@@ -11,7 +11,8 @@ from itertools import count
 
 from lsys_kit.notation.dialects.grogra.variables import Variable, names_of, random_call
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Production, Repeat, expressions_of
+from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
+from lsys_kit.notation.model.system import LSystem, Production
 
 _Function = tuple[int, int]
 """A function of the turtle: its number, and how many values it is asked with."""
@@ -88,9 +89,9 @@ def _asked(expression: Expression) -> Iterator[Apply]:
 
 
 def _function(asked: Apply) -> _Function:
-    number = asked.operands[0]
-    known = isinstance(number, Number) and isinstance(number.value, int)
-    return (number.value if known else -1), len(asked.operands) - 1  # type: ignore[union-attr,return-value]
+    first, count = asked.operands[0], len(asked.operands) - 1
+    number = first.value if isinstance(first, Number) else -1
+    return (number if isinstance(number, int) else -1), count
 
 
 def _repeats(system: LSystem) -> Iterator[tuple[Repeat, int]]:
@@ -162,4 +163,4 @@ def _named_items(items: Iterable[Item], names: Declared) -> Iterator[Item]:
         if isinstance(item, Repeat):
             yield Repeat(with_variables(item.count, names), tuple(_named_items(item.body, names)), item.index, item.at)
         else:
-            yield replace(item, arguments=tuple(with_variables(a, names) for a in item.arguments))  # type: ignore[arg-type]
+            yield replace(item, arguments=tuple(with_variables(a, names) for a in item.arguments))

@@ -18,7 +18,8 @@ from lsys_kit.notation.dialects.grogra.probabilities import complete_probabiliti
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
 from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import Expression, Name, Number, expression_type, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
@@ -145,7 +146,7 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     if not ones:
         return system, []
 
-    def module(m: Module) -> Module:
+    def module(m: Pattern) -> Pattern:
         return replace(m, symbol=ones.get(m.symbol, m.symbol))
 
     def word(items: Iterable[Item]) -> tuple[Item, ...]:
@@ -169,13 +170,13 @@ def _lacking(system: LSystem) -> str | None:
     if found := missing_feature(system):
         return found
     for symbol, count in dict.fromkeys((module.symbol, len(module.arguments)) for module in system.modules):
-        if not _reads_back(Module(symbol, (Name("t"),) * count)):
+        if not _reads_back(Pattern(symbol, (Name("t"),) * count)):
             return f'symbol "{symbol}"' + (f" with {count} values" if count else "")
     changed = with_ones(system)[1]
     return f"such difference between 1 and l ({changed[0][:-1]})" if changed else None
 
 
-def _reads_back(module: Module) -> bool:
+def _reads_back(module: Pattern) -> bool:
     text = module_text(module)
     try:
         return bool(parse(GROGRA, "word", text, 0, len(text)) == (module,))

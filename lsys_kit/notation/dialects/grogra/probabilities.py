@@ -19,7 +19,8 @@ from lsys_kit.notation.analysis.checks import value_of
 from lsys_kit.notation.dialects.grogra.conditions import exclusive
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.system import LSystem, Production
 
 _Condition = Expression | None
 _COMPARED = 100
@@ -54,8 +55,8 @@ def _left_side(rule: Production, constants: frozenset[str]) -> object:
     """What rules share that are for the same modules: contexts and predecessor, whatever the parameters are called."""
     names = {name: Name(f"?{number}") for number, name in enumerate(_parameters(rule, constants))}
 
-    def plain(module: Module) -> Module:
-        return replace(module, arguments=tuple(renamed(a, names) for a in module.arguments))  # type: ignore[arg-type]
+    def plain(module: Pattern) -> Pattern:
+        return replace(module, arguments=tuple(renamed(a, names) for a in module.arguments))
 
     return tuple(map(plain, rule.left)), plain(rule.predecessor), tuple(map(plain, rule.right))
 
@@ -75,9 +76,9 @@ def _candidates(rules: Sequence[Production], row: Sequence[int], constants: froz
             yield number, rule
         elif rule.probability is None and _is_for_all(rule, first, constants):
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
-            condition = None if rule.condition is None else renamed(rule.condition, names)  # type: ignore[arg-type]
+            condition = None if rule.condition is None else renamed(rule.condition, names)
             if condition is None or names_in(condition) or value_of(condition, source):
-                yield number, replace(first, successor=renamed_items(rule.successor, names), probability=None,  # type: ignore[arg-type]
+                yield number, replace(first, successor=renamed_items(rule.successor, names), probability=None,
                                       condition=condition if condition and names_in(condition) else None)
 
 
@@ -105,7 +106,7 @@ def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tup
     """A word with others in place of some names."""
     return tuple(
         Repeat(renamed(item.count, names), renamed_items(item.body, names), item.index, item.at) if isinstance(item, Repeat)
-        else replace(item, arguments=tuple(renamed(a, names) for a in item.arguments))  # type: ignore[arg-type]
+        else replace(item, arguments=tuple(renamed(a, names) for a in item.arguments))
         for item in items)
 
 

@@ -16,7 +16,8 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in
-from lsys_kit.notation.model.system import Item, Production, Repeat, expressions_of
+from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
+from lsys_kit.notation.model.system import Production
 
 VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
     "uniform": (2, 2, "0 360"), "normal": (2, 2, "0 15"), "binomial": (2, 2, "10 0.5"), "poisson": (1, 1, "3"),
@@ -207,7 +208,7 @@ def resolve_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[
             inner = replace(scope, counting={**scope.counting, **dict.fromkeys(counters, index)})
             found.append(Repeat(resolve(item.count, scope), resolve_items(item.body, inner, depth + 1), index, item.at))
         elif item.arguments:
-            found.append(replace(item, arguments=tuple(resolve(a, scope) for a in item.arguments)))  # type: ignore[arg-type]
+            found.append(replace(item, arguments=tuple(resolve(a, scope) for a in item.arguments)))
         else:
             found.append(item)
     return tuple(found)

@@ -10,17 +10,18 @@ from lsys_kit.notation.dialects.grogra.probabilities import complete_probabiliti
 from lsys_kit.notation.dialects.grogra.variables import Variable
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, styled_text
-from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
 _STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
 _PLAIN = re.compile(r"-?\d+(\.\d+)?")
-START = (Module("*"),)
+START = (Pattern("*"),)
 """The axiom of a text that names none."""
 
 
-def module_text(module: Module) -> str:
+def module_text(module: Module | Pattern) -> str:
     """A module; a plain number is glued to a built-in command.
 
     >>> print(module_text(Module("RU", (45,))), module_text(Module("L*", (0.6,))), module_text(Module("a", (1, 2))))
@@ -46,7 +47,7 @@ def joined_word(texts: Iterable[str]) -> str:
     return "".join(parts)
 
 
-def successor_text(items: Iterable[Module | Repeat]) -> str:
+def successor_text(items: Iterable[Item]) -> str:
     """The text of a successor, with what is repeated as `&(n) < ... >`."""
     return joined_word(f"&{_count(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
                        else module_text(item) for item in items)

@@ -16,10 +16,11 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
 from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
-from lsys_kit.notation.model.system import Constant, Module, Production
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
 
-WordDefinition: TypeAlias = tuple[Module, ...]
+WordDefinition: TypeAlias = tuple[Pattern, ...]
 SYMBOL_PATTERN = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
 """What may stand between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
 
@@ -107,11 +108,11 @@ def condition_of(conditions: Iterable[Expression]) -> Expression | None:
 class _Statements(MathematicaExpressions):
     """What the definitions name."""
 
-    def word(self, *modules: Module) -> WordDefinition:
+    def word(self, *modules: Pattern) -> WordDefinition:
         return modules
 
-    def module(self, symbol: Token, *arguments: Expression) -> Module:
-        return Module(str(symbol), arguments, _around(symbol, *arguments))
+    def module(self, symbol: Token, *arguments: Expression) -> Pattern:
+        return Pattern(str(symbol), arguments, _around(symbol, *arguments))
 
     def symbol(self, token: Token) -> Token:
         """The symbol, without its quotation marks."""
@@ -249,11 +250,11 @@ def _rule(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, right
     return RuleDefinition(production, tuple(asked for one in every for asked in one.asked), at)
 
 
-def _module(pattern: PatternDefinition, numbers: Iterator[int]) -> Module:
+def _module(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
     """The module of a pattern; a parameter that is only "_" is named by the next number."""
     arguments = tuple(Name(f"_{next(numbers)}", asked.value.at) if asked.value == Name("") else asked.value
                       for asked in pattern.asked)
-    return Module(str(pattern.symbol), arguments, _around(pattern.symbol, *arguments))
+    return Pattern(str(pattern.symbol), arguments, _around(pattern.symbol, *arguments))
 
 
 def transformer() -> Transformer[Any, Any]:

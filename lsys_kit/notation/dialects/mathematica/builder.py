@@ -13,7 +13,8 @@ from lsys_kit.notation.dialects.mathematica.definitions import Definitions, axio
 from lsys_kit.notation.dialects.mathematica.expressions import expression_text
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.system import Constant, LSystem, Module
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import Constant, LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.segmentation import segment_with_notes
 
@@ -157,7 +158,7 @@ def _in_own_words(error: LSystemError, draft: Draft) -> LSystemError:
     return error.with_hint(hint or "")
 
 
-def _modules(draft: Draft) -> list[Module]:
+def _modules(draft: Draft) -> list[Pattern]:
     """All modules of a text."""
     return [*(draft.axiom or ()), *(module for rule in draft.sections["productions"] for module in rule.modules)]
 

@@ -7,9 +7,10 @@ from collections.abc import Collection, Iterable, Iterator
 
 from lsys_kit.notation.dialects.mathematica.actions import condition_of
 from lsys_kit.notation.dialects.mathematica.expressions import expression_text
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
-from lsys_kit.notation.model.system import Argument, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.model.modules import Module, Pattern, flat
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import OWN_NOTATION
 
 _NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
@@ -25,7 +26,7 @@ def symbol_text(symbol: str) -> str:
     return symbol if _NAME.fullmatch(symbol) else '"' + re.sub(r'(["\\])', r"\\\1", symbol) + '"'
 
 
-def module_text(module: Module) -> str:
+def module_text(module: Module | Pattern) -> str:
     """A module of a word.
 
     >>> module_text(Module("a", (1, 2)))
@@ -34,11 +35,11 @@ def module_text(module: Module) -> str:
     return _with_arguments(module, map(_value, module.arguments))
 
 
-def _with_arguments(module: Module, texts: Iterable[str]) -> str:
+def _with_arguments(module: Module | Pattern, texts: Iterable[str]) -> str:
     return symbol_text(module.symbol) + (f"[{', '.join(texts)}]" if module.arguments else "")
 
 
-def _value(argument: Argument) -> str:
+def _value(argument: Expression | Value) -> str:
     return expression_text(argument) if isinstance(argument, Expression) else number_text(argument)
 
 
@@ -77,7 +78,7 @@ def _settings(system: LSystem) -> Iterator[str]:
             yield f"{name} = {number_text(value)};"
 
 
-def _words(modules: Iterable[Module]) -> str:
+def _words(modules: Iterable[Pattern]) -> str:
     return ", ".join(map(module_text, modules))
 
 
@@ -95,7 +96,7 @@ def _rule(production: Production, constants: Collection[str]) -> str:
             f"SUCC[{_words(flat(production.successor))}]]")
 
 
-def _pattern(module: Module, constants: Collection[str], condition: Expression | None) -> str:
+def _pattern(module: Pattern, constants: Collection[str], condition: Expression | None) -> str:
     """A module that is asked for, with its condition: inside, where it is about the only parameter, else behind."""
     parameters = _parameters(module, constants)
     texts = [f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _value(argument)
@@ -107,7 +108,7 @@ def _pattern(module: Module, constants: Collection[str], condition: Expression |
     return f"{_with_arguments(module, texts)} /; {expression_text(condition)}"
 
 
-def _parameters(module: Module, constants: Collection[str]) -> list[str]:
+def _parameters(module: Pattern, constants: Collection[str]) -> list[str]:
     return [argument.name for argument in module.arguments if isinstance(argument, Name) and argument.name not in constants]
 
 

@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterable, Iterator
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.model.system import LSystem, Module, flat
+from lsys_kit.notation.model.modules import Pattern, flat
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.actions import Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
@@ -51,7 +52,7 @@ def _of_others(failure: ParseFailure) -> ModelSyntaxError | None:
 def _finish(draft: Draft) -> LSystem:
     """The system; where a text counts its productions, as those of the lesson's applet do, the axiom is always I."""
     if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.more):
-        draft.axiom = (Module("I"),)
+        draft.axiom = (Pattern("I"),)
         draft.notes.append("No axiom is given: it is I.")
     return build_system(draft)
 

@@ -1,0 +1,143 @@
+"""The units of words, `Module`, and of rules, `Pattern`; parts of successors; the symbols that mean the same everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.expressions import Expression, TextSpan
+
+OPENING, CLOSING = frozenset("[("), frozenset("])")
+"""The brackets of branches; round ones stand in plant strings only."""
+END = "ε"
+"""What a right context has before the closing bracket of a branch of which it names all modules: the branch ends there."""
+
+CELLS = {"L": -1, "R": 1, "O": 0}
+"""The cells of a filament, and where they point: `L(length, width, shade)` left and `R(length, width, shade)` right, the
+modules that seed 002 (L-system 7, section 7) assumes to be predefined, and `O(length, width, shade)` nowhere; the shade of age,
+0 to 1, is that of seed 000's figures."""
+WALL = "W"
+"""A wall between two cells, `W(age, shade)`, as in seed 002's figure 8; the shade, 0 to 1, may be left out."""
+
+
+@dataclass(frozen=True)
+class Module:
+    """A unit of a word: a symbol with the values of its parameters (Prusinkiewicz, section 1).
+
+    >>> print(Module("M", (5, -1)))
+    M(5,-1)
+    """
+
+    symbol: str
+    arguments: tuple[Value, ...] = ()
+    at: TextSpan = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"{self.symbol}({','.join(map(number_text, self.arguments))})" if self.arguments else self.symbol
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """A module as an axiom or a rule writes it: a symbol with expressions.
+
+    Before the arrow a `Name` that is no constant is a parameter, and any other expression is a value that the module must have;
+    in a successor an expression computes a value.
+
+    >>> from lsys_kit.notation.model.expressions import Apply, Name, Number
+    >>> print(Pattern("M", (Apply("+", (Name("t"), Number(1))),)))
+    M(t + 1)
+    """
+
+    symbol: str
+    arguments: tuple[Expression, ...] = ()
+    at: TextSpan = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"{self.symbol}({','.join(map(str, self.arguments))})" if self.arguments else self.symbol
+
+
+def joined(texts: Iterable[str]) -> str:
+    """The texts of modules as one word, with a blank only where two would run together: two names, or a name behind a roll or
+    an @, which might be taken for a macro of LaTeX or for one symbol.
+
+    >>> joined(["A(1)", "[", "al", "br", "]", "C", "\\\\", "vec", "@", "o"])
+    'A(1)[al br]C\\\\ vec@ o'
+    """
+    parts: list[str] = []
+    for text in texts:
+        if parts and _word_like(text[:1]) and _runs_on(parts[-1], text):
+            parts.append(" ")
+        parts.append(text)
+    return "".join(parts)
+
+
+def _runs_on(last: str, name: str) -> bool:
+    """Whether a name directly behind a module would be read together with it."""
+    return _word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower())
+
+
+def _word_like(character: str) -> bool:
+    return character.isalnum() or character == "_"
+
+
+@dataclass(frozen=True)
+class Repeat:
+    """A part of a successor that is written several times (GROGRA's `&(n) < ... >`).
+
+    >>> from lsys_kit.notation.model.expressions import Name
+    >>> print(Repeat(Name("n"), (Pattern("F"), Pattern("B", (Name("i"),))), "i"))
+    repeat(n,i) <F B(i)>
+
+    Attributes
+    ----------
+    count
+        How many times.
+    body
+        What is written.
+    index
+        The name that counts 0, 1, 2, ... in the body; empty where nothing counts.
+    """
+
+    count: Expression
+    body: tuple[Item, ...]
+    index: str = ""
+    at: TextSpan = field(default=None, compare=False, repr=False)
+    depth: int = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "depth", 1 + max((item.depth for item in self.body if isinstance(item, Repeat)), default=0))
+
+    def __str__(self) -> str:
+        body = joined(map(str, self.body))
+        end = " >" if body.endswith("-") else ">"  # together they would be an arrow
+        return f"repeat({self.count}{f',{self.index}' if self.index else ''}) <{body}{end}"
+
+
+Item: TypeAlias = Pattern | Repeat
+"""What stands in a successor."""
+
+
+def flat(items: Iterable[Item]) -> Iterator[Pattern]:
+    """The modules of a successor, those of repeated parts once.
+
+    >>> from lsys_kit.notation.model.expressions import Number
+    >>> [str(module) for module in flat((Pattern("A"), Repeat(Number(2), (Pattern("B"),))))]
+    ['A', 'B']
+    """
+    for item in items:
+        if isinstance(item, Repeat):
+            yield from flat(item.body)
+        else:
+            yield item
+
+
+def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
+    """All expressions of a word or successor, in the order written."""
+    for item in items:
+        if isinstance(item, Repeat):
+            yield item.count
+            yield from expressions_of(item.body)
+        else:
+            yield from item.arguments
