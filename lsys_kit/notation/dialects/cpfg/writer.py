@@ -102,7 +102,8 @@ def _pattern(modules: Iterable[Module]) -> Iterator[str]:
 def lacking(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
-        return "turtle commands of " + {"grogra": "GROGRA", "plant-string": "plant strings"}[system.turtle]
+        whose = {"grogra": "GROGRA", "plant-string": "plant strings", "fractint": "Fractint"}
+        return f"turtle commands of {whose[system.turtle]}"
     found = chain((first_lacking(system, "round brackets as branches", "repetition", "meta-rules"),),
                   map(_lacking_symbol, _symbols(system)), map(lacking_in, _expressions(system)),
                   map(_lacking_range, system.constants))

@@ -81,7 +81,8 @@ def _directive(stumble: Stumble) -> ModelSyntaxError | None:
     if stumble.found.startswith("=") and stumble.before.split()[0] == "\\const":
         return stumble.error('No "=" is needed here', f'Type "{stumble.before} {printed(stumble.after[1:].strip())},".')
     if "TRADITION" in stumble.accepted:
-        return stumble.error(f"There is no turtle called {quoted(stumble.found)}", "Turtles are: abop, grogra, plant-string.")
+        return stumble.error(f"There is no turtle called {quoted(stumble.found)}",
+                             "Turtles are: abop, grogra, plant-string, fractint.")
     behind = stumble.text[stumble.start + len(word[0]):stumble.at].strip()
     if stumble.found or (behind and name not in ("const", "var")):
         return None
