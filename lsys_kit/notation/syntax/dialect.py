@@ -18,6 +18,13 @@ if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
     from lsys_kit.notation.syntax.failure import Stumble
 
+def whole(text: str, name: str | None) -> str:
+    """A text that holds one system, which has no name."""
+    if name is not None:
+        raise ModelValueError("A text in this notation holds one system, without a name", hint="Leave the name out.")
+    return text
+
+
 Question: TypeAlias = "Callable[[Stumble], ModelSyntaxError | None]"
 """Something to ask about the place where a parser stumbled; an answer is what the person is told."""
 
@@ -67,6 +74,8 @@ class Notation(Grammar):
         The text of a system that lacks nothing in the notation.
     lacking
         The first thing that a system has and the notation lacks, in words.
+    entry
+        The text with the system of a name in it alone; without a name, with the only one.
     turtle
         Whose turtle commands its symbols are, if the text says nothing.
     likely
@@ -80,6 +89,7 @@ class Notation(Grammar):
     write: Callable[[LSystem], str]
     lacking: Callable[[LSystem], str | None]
     likely: Callable[[str], int]
+    entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"
 
     def text(self, system: LSystem) -> str:
