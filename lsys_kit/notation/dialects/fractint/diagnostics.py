@@ -12,9 +12,14 @@ _RULE = 'A rule reads "F=F+F", each on a line of its own.'
 _LINES = f'A line is "Angle 6", "Axiom F--F--F" or a rule. {_RULE}'
 
 
+def _line(stumble: Stumble) -> str:
+    """The line, in which "/*" is no comment."""
+    return stumble.source[stumble.start:stumble.end]
+
+
 def _colon(stumble: Stumble) -> ModelSyntaxError | None:
     """A keyword with a colon, as in other notations."""
-    keyword = re.match(r"\s*(angle|axiom)\s*:", stumble.text[stumble.start:stumble.end], re.IGNORECASE)
+    keyword = re.match(r"\s*(angle|axiom)\s*:", _line(stumble), re.IGNORECASE)
     if keyword and stumble.at <= stumble.start + keyword.end():
         example = "Angle 6" if keyword[1].lower() == "angle" else "Axiom F--F--F"
         return stumble.error('No ":" stands here in Fractint', f'Type "{example}".', stumble.start + keyword.end() - 1, 1)
@@ -22,7 +27,7 @@ def _colon(stumble: Stumble) -> ModelSyntaxError | None:
 
 
 def _angle(stumble: Stumble) -> ModelSyntaxError | None:
-    if not re.match(r"angle\b", stumble.text[stumble.start:stumble.end], re.IGNORECASE):
+    if not re.match(r"angle\b", _line(stumble), re.IGNORECASE):
         return None
     whole = 'It is a whole number: "Angle 6" makes + and - turn by a sixth of a full turn, 60 degrees.'
     if "COUNT" in stumble.accepted or stumble.at == stumble.start:
@@ -31,14 +36,14 @@ def _angle(stumble: Stumble) -> ModelSyntaxError | None:
 
 
 def _axiom(stumble: Stumble) -> ModelSyntaxError | None:
-    if not stumble.found and re.fullmatch(r"axiom\s*=?", stumble.before, re.IGNORECASE):
+    if not stumble.found and re.fullmatch(r"axiom\s*=?", _line(stumble), re.IGNORECASE):
         return stumble.error("The axiom is missing", 'It is the word with which the system begins, as in "Axiom F--F--F".')
     return None
 
 
 def _arrow(stumble: Stumble) -> ModelSyntaxError | None:
     """An arrow where Fractint has an equals sign."""
-    line = stumble.text[stumble.start:stumble.end]
+    line = _line(stumble)
     arrow = ARROW.search(line)
     if arrow and re.fullmatch(r"\S\s*", line[:arrow.start()]):
         return stumble.error("Fractint has no arrow", f'Type "{line[0]}={line[arrow.end():].strip()[:20]}".',
@@ -52,7 +57,7 @@ def _beginning(stumble: Stumble) -> ModelSyntaxError | None:
         return None
     if stumble.found == "}":
         return stumble.error('This "}" closes nothing', 'A system begins with its name and "{", as in "Koch {".')
-    line = stumble.text[stumble.start:stumble.end]
+    line = _line(stumble)
     head = re.match(r"[^\s=]{2,}(?=\s*=)", line)
     if head:
         return stumble.error("A rule rewrites one character", f'{quoted(head[0])} are several. {_RULE}', None, len(head[0]))
