@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, quotable
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -167,6 +167,8 @@ def _found(name: str, notation: str | None, of: str | None) -> LSystem:
         found = system(name)
     except ModelNameError:
         return read(_file(name), notation, of)
+    if of is not None:
+        raise ModelValueError(f"{name} is one system of the catalogue", hint="Leave out --name.")
     if notation is not None:
         write(found, notation)  # says what the notation lacks
         return replace(found, notation=notation)
