@@ -129,11 +129,11 @@ def convert(options: argparse.Namespace) -> None:
 
 def open_lab(options: argparse.Namespace) -> None:
     """Copy the course and open it in JupyterLab."""
-    from lsys_kit.classroom.course import FOLDER, copy_course, told
+    from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
 
     folder = Path(options.folder or FOLDER)
     copied = copy_course(folder)
-    print(told(folder, copied), flush=True)
+    print(copy_report(folder, copied), flush=True)
     if importlib.util.find_spec("jupyterlab") is None:
         raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
     from jupyterlab.labapp import LabApp

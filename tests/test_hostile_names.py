@@ -29,7 +29,7 @@ from lsys_kit.classroom.typeset import shown
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
 from lsys_kit.notation.read import read_word
-from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.registry import DIALECTS
 
 HOSTILE = [
     "<script>alert(1)</script>",
@@ -176,14 +176,14 @@ def shows(found: LSystem) -> None:
             check_svg(refused(lambda picture=picture: picture.svg) or "<svg/>")
             assert_printable(repr(picture))
     refused(lambda: repr(growth(found)))
-    for notation in NOTATIONS:
+    for notation in DIALECTS:
         refused(lambda notation=notation: write(found, notation))
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_what_is_typed_is_refused_or_shown_as_text(text):
     for model in typed(text):
-        for notation in (None, *NOTATIONS):
+        for notation in (None, *DIALECTS):
             found = refused(lambda model=model, notation=notation: read(model, notation))
             if found is not None:
                 assert_printable("".join(found.notes))

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from lsys_kit.errors import ModelFileError
 
-PARTS = ("notebooks", "exercises")
+COURSE_PARTS = ("notebooks", "exercises")
 """The folders of the course."""
 FOLDER = "lsys_kit_course"
 """Where the course is copied to by default."""
@@ -53,11 +53,11 @@ class Copied:
 def course_files(source: Path | None = None) -> dict[str, Path]:
     """The files of the course that came with the kit, by their names in the course.
 
-    >>> all(name.split("/")[0] in PARTS for name in course_files())
+    >>> all(name.split("/")[0] in COURSE_PARTS for name in course_files())
     True
     """
     source = source or _home()
-    found = {f"{part}/{path.name}": path for part in PARTS for path in sorted((source / part).glob("*"))
+    found = {f"{part}/{path.name}": path for part in COURSE_PARTS for path in sorted((source / part).glob("*"))
              if _NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()}
     if not found:
         raise ModelFileError(f"The course is not where the kit was installed, {source}", hint="Install lsys-kit again.")
@@ -83,7 +83,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     Returns
     -------
     tuple of Copied
-        What became of each file. `told` says it in words.
+        What became of each file. `copy_report` says it in words.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     """
     folder, files = Path(folder), course_files(source)
     try:
-        for part in PARTS:
+        for part in COURSE_PARTS:
             _made_folder(folder / part)
         manifest = _manifest(folder)
         copied = tuple(_copied(folder, name, path.read_bytes(), manifest) for name, path in files.items())
@@ -103,10 +103,10 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     return copied
 
 
-def told(folder: str | Path, copied: tuple[Copied, ...]) -> str:
+def copy_report(folder: str | Path, copied: tuple[Copied, ...]) -> str:
     """What became of the course, in words.
 
-    >>> print(told("course", (Copied("notebooks/01.ipynb", "new"), Copied("notebooks/02.ipynb", "kept"))))
+    >>> print(copy_report("course", (Copied("notebooks/01.ipynb", "new"), Copied("notebooks/02.ipynb", "kept"))))
     The course is in course: 1 file new, 1 file your own and kept.
     """
     words = {"new": "new", "renewed": "renewed", "same": "as before", "kept": "your own and kept"}

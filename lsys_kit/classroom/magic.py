@@ -18,8 +18,8 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import NOTATIONS, notation_called
-from lsys_kit.notation.syntax.failure import printed
+from lsys_kit.notation.registry import DIALECTS, dialect_named
+from lsys_kit.notation.syntax.failure import excerpt
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import INK, MARK, PAPER, QUIET, VERMILION
 
@@ -80,18 +80,18 @@ def _asked(head: str, shell: Any) -> tuple[str, str]:
             raise ModelNameError(wrong[0], head, *at, wrong[1])
     for word, at in words[1:]:
         try:
-            notation_called(printed(word))
+            dialect_named(excerpt(word))
         except ModelNameError as unknown:
-            raise ModelNameError(unknown.message, head, *at, suggestion(word[:20], NOTATIONS) or unknown.hint) from None
+            raise ModelNameError(unknown.message, head, *at, suggestion(word[:20], DIALECTS) or unknown.hint) from None
     name, notation = ([word for word, _ in words] + ["", ""])[:2]
     return unicodedata.normalize("NFKC", name), notation  # as Python reads names
 
 
 def _unfit(name: str, shell: Any) -> tuple[str, str] | None:
     """Why something cannot be the name of a system, and what to do; or None."""
-    quoted, another = f'"{printed(name)}"', "Take another name."
+    quoted, another = f'"{excerpt(name)}"', "Take another name."
     plain = unicodedata.normalize("NFKC", name)
-    if name in NOTATIONS:
+    if name in DIALECTS:
         return f"{quoted} is a notation, and no name", f'Put a name before it, as in "%%lsystem plant {name}".'
     if not plain.isidentifier() or len(plain) > 64:
         return f"{quoted} cannot be a name", "A name is made of letters, digits and _, and begins with a letter."

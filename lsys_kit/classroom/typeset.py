@@ -10,15 +10,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import islice
 
 from lsys_kit.budget import current, limits
-from lsys_kit.classroom.exercises.verdict import PLAIN
+from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.classroom.panel.word_view import word_html
-from lsys_kit.derivation.core.words import Word, shortened
+from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.operators import OPERATORS
 from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
-from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.syntax.formatting import settings
 from lsys_kit.pictures.style.labels import escaped, html_label
 from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET
@@ -105,13 +105,13 @@ def first_words(system: LSystem) -> tuple[list[Word], str]:
 
 def _plain(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
     rules = (f"  {line}" for line in str(system).splitlines())
-    steps = (f"step {step}: {shortened(word, 400)}" for step, word in enumerate(words))
+    steps = (f"step {step}: {abridged(word, 400)}" for step, word in enumerate(words))
     return "\n".join([f"{name or 'This'} is an L-system in the notation {system.notation}.", *notes, *rules, *steps])
 
 
 def _box(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
     called = f"<b>{escaped(name)}</b>" if name else "This"
-    set_so = " &nbsp;·&nbsp; ".join(map(escaped, settings(system, notation_called(system.notation).turtle)))
+    set_so = " &nbsp;·&nbsp; ".join(map(escaped, settings(system, dialect_named(system.notation).turtle)))
     steps = "".join(_row((f"<span {_QUIET}>{step}</span>", word_html(word))) for step, word in enumerate(words))
     return boxed("lsys-system", "group", BLUE,
                  f"<div>{called} is an L-system in the notation {escaped(system.notation)}.</div>"
@@ -127,7 +127,7 @@ def boxed(name: str, role: str, colour: str, content: str) -> str:
     >>> "mathjax_ignore" in boxed("lsys-system", "group", BLUE, "$A$")
     True
     """
-    return (f'<div class="{name} {PLAIN}" role="{role}" style="border-left:6px solid {colour};background:{PAPER};'
+    return (f'<div class="{name} {PLAIN_TEXT}" role="{role}" style="border-left:6px solid {colour};background:{PAPER};'
             f'color:{INK};padding:6px 12px;font:14px/1.5 sans-serif;overflow-x:auto">{content}</div>')
 
 

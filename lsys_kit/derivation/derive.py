@@ -19,17 +19,17 @@ from lsys_kit.derivation.core.closure import check_settled
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.engines import (
-    Counting,
+    CountingEngine,
+    Observation,
+    Observer,
     Origins,
-    Sight,
-    Stepping,
-    World,
+    SteppingEngine,
     check_size,
     check_time,
-    counted,
-    course_of,
+    engine_for,
+    next_counts,
 )
-from lsys_kit.derivation.maps.development import Development, developed
+from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
@@ -79,20 +79,20 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     2178309
     """
     if not isinstance(system, MapSystem):
-        return derived(system, steps, None, **choices)
+        return derive_observed(system, steps, None, **choices)
     if choices:
         raise ModelValueError(f'A map system has no "{next(iter(choices))}"',
                               hint="Nothing in it is left to chance, or declared.")
-    return developed(system, steps)
+    return develop(system, steps)
 
 
-def derived(system: LSystem, steps: int, world: World | None, /, *, seed: int | None = None, arithmetic: str = "exact",
-            **constants: object) -> Derivation:
+def derive_observed(system: LSystem, steps: int, world: Observer | None, /, *, seed: int | None = None,
+                    arithmetic: str = "exact", **constants: object) -> Derivation:
     """Derive an L-system, in a world that looks at each word before the step, if modules ask for what the turtle sees."""
     seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise ModelValueError(f"The seed must be a whole number, not {seed!r}")
-    return Derivation(course_of(States(system, constants, arithmetic), seed, world)).to(steps)
+    return Derivation(engine_for(States(system, constants, arithmetic), seed, world)).to(steps)
 
 
 class Derivation(Sequence[Word]):
@@ -106,7 +106,7 @@ class Derivation(Sequence[Word]):
         The last step.
     """
 
-    def __init__(self, course: Counting | Stepping, steps: int = 0) -> None:
+    def __init__(self, course: CountingEngine | SteppingEngine, steps: int = 0) -> None:
         self.steps, self._course = steps, course
         self.states = course.states
 
@@ -192,7 +192,7 @@ class Derivation(Sequence[Word]):
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} come from a word before, not that of step {step}")
         return self._course.origins(step)
 
-    def sight(self, step: int) -> Sight | None:
+    def sight(self, step: int) -> Observation | None:
         """What the next step sees of a step's word, which has its query modules filled in there; None where nobody looks.
 
         >>> from lsys_kit import derive, read
@@ -268,6 +268,6 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
     counts: Mapping[int, int] = Counter(states.axiom)
     for step in range(steps + 1):
         started = time.monotonic()
-        counts = counted(states, counts, partial(check_time, states, step, started + left)) if step else counts
+        counts = next_counts(states, counts, partial(check_time, states, step, started + left)) if step else counts
         left -= time.monotonic() - started  # the time between two steps is the asker's
         yield sum(counts.values())

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from lsys_kit.derivation.core.matching import chain, values_at
+from lsys_kit.derivation.core.matching import neighbours_along, values_at
 from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.engines.stepwise import Old, Stepper, uncut
+from lsys_kit.derivation.engines.stepwise import ParentWord, Stepper, surviving
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Name, names_in
 from lsys_kit.notation.model.system import LSystem, Module
-from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 
 
 @dataclass(frozen=True)
-class Fate:
+class ModuleOutcome:
     """What became of one module in a step.
 
     Attributes
@@ -44,13 +44,13 @@ class Fate:
     notation: str = "abop"
 
     def __str__(self) -> str:
-        own = notation_called(self.notation)
+        own = dialect_named(self.notation)
         made = own.word(self.successor) or "ε"
         lines = [f"{self.position}. {own.module(self.module)} becomes {made}: {self.production}", *self.refused]
         return "\n     ".join(lines)
 
 
-class Explanation(tuple[Fate, ...]):
+class Explanation(tuple[ModuleOutcome, ...]):
     """The fates of all modules of a word, shown one below the other."""
 
     __slots__ = ()
@@ -94,9 +94,10 @@ def explain(derivation: Derivation, step: int) -> Explanation:
     return Explanation(_fates(stepper, old, successors, applied))
 
 
-def _fates(stepper: Stepper, old: Old, successors: dict[int, list[Module]], applied: dict[int, int | None]) -> Iterator[Fate]:
+def _fates(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]],
+           applied: dict[int, int | None]) -> Iterator[ModuleOutcome]:
     system = stepper.states.system
-    for position, kept in enumerate(uncut(old.symbols)):
+    for position, kept in enumerate(surviving(old.symbols)):
         module = old.modules[position]
         made = tuple(successors.get(position, ()))
         rules = [rule for kind, found in stepper.states.rules.items() if kind[0] == module.symbol for rule in found]
@@ -107,7 +108,7 @@ def _fates(stepper: Stepper, old: Old, successors: dict[int, list[Module]], appl
             "no production matches" if rules else f"no production is for {module.symbol}"
         why_not = tuple(f"{_said(system, rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals
                         if rule is not chosen)
-        yield Fate(position + 1, module, made, said, why_not, system.notation)
+        yield ModuleOutcome(position + 1, module, made, said, why_not, system.notation)
 
 
 def _chosen(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
@@ -127,7 +128,7 @@ def _passed_over(rule: Rule, chosen: Rule | None) -> str:
     return f"matches too, but production {chosen.number + 1} stands before it" if chosen else "matches too"
 
 
-def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | None:
+def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> str | None:
     """Why a rule does not match a module; None where it does."""
     system, module, asked = stepper.states.system, old.modules[position], rule.production.predecessor
     if len(module.arguments) != len(asked.arguments):
@@ -153,14 +154,14 @@ def _refusal(stepper: Stepper, old: Old, position: int, rule: Rule) -> str | Non
     return None
 
 
-def _context_missing(system: LSystem, old: Old, position: int, rule: Rule) -> str:
+def _context_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str:
     """Which context a module lacks."""
     assert old.around is not None
-    word = notation_called(system.notation).word
-    left = chain(old.around.before, position, len(rule.left))
+    word = dialect_named(system.notation).word
+    left = neighbours_along(old.around.before, position, len(rule.left))
     there = word(old.modules[at] for at in reversed(left)) or "nothing"
     if tuple((old.symbols[at], len(old.modules[at].arguments)) for at in left) != rule.left:
         return f"needs {word(rule.production.left)} on its left, and there is {there}"
-    right = chain(old.around.after, position, max(1, len(rule.right)))
+    right = neighbours_along(old.around.after, position, max(1, len(rule.right)))
     there = word(old.modules[at] for at in right) or "nothing"
     return f"needs {word(rule.production.right)} on its right, and there is {there}"

@@ -78,7 +78,7 @@ _DOWN = Command("droop", 0.0, math.inf, "")
 _OPEN, _CLOSE = Command("open", argument=""), Command("close", argument="")
 _LEAF, _FLOWER = Command("surface", 1 / 2, surface="leaf"), Command("surface", 1 / 4, surface="rosette")
 
-TABLE: tuple[Row, ...] = (
+COMMAND_TABLE: tuple[Row, ...] = (
     #   ABOP    GROGRA  plants in words; x is the argument                               what to do
     Row("F",    "F",    "I",   "a stroke forward, as long as the step or x",           Command("draw"), fractint="F"),
     Row("",     "",     "A",   "a stroke of two thirds of the step",                   Command("draw", 2 / 3)),
@@ -169,7 +169,7 @@ TABLE: tuple[Row, ...] = (
 )
 
 COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
-    tradition: {symbol: row.commands for row in TABLE for symbol in row.symbols[column].split()}
+    tradition: {symbol: row.commands for row in COMMAND_TABLE for symbol in row.symbols[column].split()}
     for column, tradition in enumerate(("abop", "grogra", "plant-string", "fractint"))}
 """For each tradition its commands, by symbol."""
 
@@ -186,12 +186,12 @@ REACH = 1e50
 """Numbers beyond this are not drawn."""
 
 
-def first_step(system: LSystem) -> float:
+def initial_step(system: LSystem) -> float:
     """How long a step is at first."""
     return STEP[system.turtle] if system.length is None else float(system.length)
 
 
-class Order(NamedTuple):
+class Instruction(NamedTuple):
     """A command with its numbers: the amount is factor * quantity + addend.
 
     Attributes
@@ -216,7 +216,7 @@ _CALLED = (Command("called"),)
 """Draw the surface of the symbol's name, if a tilde stands before it."""
 
 
-def orders(drawn: Mapping[int, Sequence[Module]], tradition: str, angle: Value = 90) -> dict[int, list[Order]]:
+def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str, angle: Value = 90) -> dict[int, list[Instruction]]:
     """What the modules tell the turtle that each state is drawn as, where the system's angle is so many degrees.
 
     Raises
@@ -226,7 +226,7 @@ def orders(drawn: Mapping[int, Sequence[Module]], tradition: str, angle: Value =
 
     Examples
     --------
-    >>> told = orders({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
+    >>> told = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
     >>> {state: [(order.action, order.factor, order.addend) for order in found] for state, found in told.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
     """
@@ -237,7 +237,7 @@ def orders(drawn: Mapping[int, Sequence[Module]], tradition: str, angle: Value =
             for state, image in drawn.items()}
 
 
-def _order(command: Command, module: Module, angle: Value) -> Order:
+def _order(command: Command, module: Module, angle: Value) -> Instruction:
     """A command with a module's argument."""
     values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, command.factor, command.addend
@@ -251,7 +251,7 @@ def _order(command: Command, module: Module, angle: Value) -> Order:
         factor, addend = 1.0, values[0] if command.argument == "more" else -values[0]
     else:
         factor, addend = times(command.argument, values[0]), 0.0
-    return Order(action, factor, addend, values, module.symbol, command.surface)
+    return Instruction(action, factor, addend, values, module.symbol, command.surface)
 
 
 def values_of(module: Module) -> tuple[float, ...]:
@@ -274,12 +274,12 @@ def values_of(module: Module) -> tuple[float, ...]:
     return values
 
 
-def unknown(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
+def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
     """The symbols without a meaning that look like commands: signs, and commands of another tradition.
 
     Letters without a meaning are normal, and so are symbols that productions rewrite: they are apices, buds and signals.
 
-    >>> unknown({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
+    >>> unknown_commands({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
     ('RH', '=')
     """
     own = {production.predecessor.symbol for production in (*system.productions, *system.decomposition)}

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.geometry.instancing import drawn_at_once
+from lsys_kit.geometry.instancing import draw_instanced
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.space import followed, in_plane
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.space import in_plane, trace_in_space
+from lsys_kit.geometry.turtle import place_path, trace
 
 
 def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
@@ -40,10 +40,10 @@ def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
     system = what.states.system
     turn = float(system.angle) if angle is None else angle
     if isinstance(what, Derivation):
-        scene = drawn_at_once(what, what.steps, turn)
+        scene = draw_instanced(what, what.steps, turn)
         if scene is not None:
             return scene
         what = what[-1]
     if in_plane(system):
-        return placed(traced(what), turn, float(system.heading))
-    return followed(what, turn)
+        return place_path(trace(what), turn, float(system.heading))
+    return trace_in_space(what, turn)

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.derivation.core.interpretation import images, is_cell
+from lsys_kit.derivation.core.interpretation import interpretations, is_cell
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.commands import values_of
@@ -38,7 +38,7 @@ def filament(word: Word) -> Scene:
     """
     numbers = word.numbers()
     shapes = {state: [_shape(made, word.states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
-              for state, image in images(word.states, numbers).items()}
+              for state, image in interpretations(word.states, numbers).items()}
     rows = [(*shape, state) for state in numbers for shape in shapes[state]]
     table = np.array(rows, dtype=np.float64).reshape(-1, 6)
     ends = np.cumsum(table[:, 1])

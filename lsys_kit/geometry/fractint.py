@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lsys_kit.geometry.commands import Order
+from lsys_kit.geometry.commands import Instruction
 from lsys_kit.geometry.interpreter import Act, Turtle, forward
 from lsys_kit.geometry.scene import OWN
 
@@ -16,7 +16,7 @@ COLOURS, WHITE = 256, 15
 """How many colours Fractint has, and which it draws in where none was set."""
 
 
-def _dye(turtle: Turtle, order: Order) -> None:
+def _dye(turtle: Turtle, order: Instruction) -> None:
     """As Fractint colours: 256 of them, white before any is set, and by steps never the ground's, which is 0."""
     colour = int(order.factor * (WHITE if turtle.colour == OWN else turtle.colour) + order.addend) % COLOURS
     turtle.colour = colour or (int(order.factor) and (1 if order.addend > 0 else COLOURS - 1))
@@ -25,18 +25,18 @@ def _dye(turtle: Turtle, order: Order) -> None:
 def _aside(drawn: bool) -> Act:
     ahead = forward(drawn, True)
 
-    def act(turtle: Turtle, order: Order) -> None:
+    def act(turtle: Turtle, order: Instruction) -> None:
         way, turtle.way = turtle.way, turtle.facing(turtle.bearing)
         ahead(turtle, order)
         turtle.way = way
     return act
 
 
-def _swerve(turtle: Turtle, order: Order) -> None:
+def _swerve(turtle: Turtle, order: Instruction) -> None:
     turtle.bearing += turtle.hand * order.addend
 
 
-def _reverse(turtle: Turtle, _: Order) -> None:
+def _reverse(turtle: Turtle, _: Instruction) -> None:
     turtle.hand = -turtle.hand
 
 

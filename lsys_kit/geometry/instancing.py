@@ -16,17 +16,17 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from lsys_kit.derivation.core.interpretation import images
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.geometry.commands import COMMANDS, Order, first_step, orders, unknown
+from lsys_kit.geometry.commands import COMMANDS, Instruction, initial_step, instructions, unknown_commands
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
-from lsys_kit.geometry.space import ACTS, Flyer, first_frame, in_plane, ready
+from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, in_plane, initial_frame, prepared
 from lsys_kit.notation.model.system import CLOSING, OPENING
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a piece depends on: the state, how many steps it is from the word that is drawn, and what the turtle carries."""
-Columns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
+PieceColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
 _CARRIED = ("length", "width", "colour", "sag", "once", "hand")
 _carried = attrgetter(*_CARRIED)
 ELSEWHERE = frozenset(("level", "droop", "tropism", "jump", "back", "outline", "corner", "fill", "announce", "called",
@@ -54,11 +54,11 @@ class Piece:
     """
 
     strokes: Floats
-    of_strokes: Columns
+    of_strokes: PieceColumns
     corners: Floats
-    of_polygons: Columns
+    of_polygons: PieceColumns
     centres: Floats
-    of_discs: Columns
+    of_discs: PieceColumns
     end: Floats
     turned: Floats
     carried: tuple[Any, ...]
@@ -74,14 +74,14 @@ class Placed:
     order: int
 
 
-def drawn_at_once(derivation: Derivation, step: int, angle: float) -> Scene | None:
+def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | None:
     """The scene of a derivation's step, if it can be put together from pieces, and that pays.
 
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
-    >>> print(drawn_at_once(derive(read("axiom: F\\nF -> F[+F]F[-F]F"), 7), 7, 25.7))
+    >>> print(draw_instanced(derive(read("axiom: F\\nF -> F[+F]F[-F]F"), 7), 7, 25.7))
     78,125 segments, width 732.47, height 2187
     """
     system, states = derivation.states.system, derivation.states
@@ -93,7 +93,7 @@ def drawn_at_once(derivation: Derivation, step: int, angle: float) -> Scene | No
         return None
     pieces = Pieces(states, angle, in_plane(system))
     whole = pieces.joined(states.axiom, step)
-    return _scene(whole, unknown(images(states, list(present[-1])), system))
+    return _scene(whole, unknown_commands(interpretations(states, list(present[-1])), system))
 
 
 class Pieces:
@@ -112,15 +112,15 @@ class Pieces:
     def __init__(self, states: States, angle: float, flat: bool) -> None:
         self.states, self.angle = states, angle
         self._axes = [0, 2] if flat else [0, 1, 2]
-        self._first = first_frame(states.system.turtle, float(states.system.heading))
+        self._first = initial_frame(states.system.turtle, float(states.system.heading))
         self._back = np.array(self._first[:3]).T  # its inverse is its transpose
         self._opening, self._closing = (pair & COMMANDS[states.system.turtle].keys() for pair in (OPENING, CLOSING))
         self._known: dict[Key, Piece] = {}
-        self._told: dict[int, list[Order]] = {}
+        self._told: dict[int, list[Instruction]] = {}
 
     def joined(self, row: Sequence[int], steps: int) -> Piece:
         """What a row of states, the axiom, draws in so many steps."""
-        turtle = Flyer(self._first, first_step(self.states.system))
+        turtle = SpaceTurtle(self._first, initial_step(self.states.system))
         return self._run(self._row(row, steps, _carried(turtle)))
 
     def _run(self, making: Generator[Key, Piece, Piece]) -> Piece:
@@ -169,15 +169,16 @@ class Pieces:
 
     def _single(self, state: int, carried: tuple[Any, ...]) -> Piece:
         """What a module draws by itself."""
-        turtle = Flyer(self._first, first_step(self.states.system))
+        turtle = SpaceTurtle(self._first, initial_step(self.states.system))
         for name, value in zip(_CARRIED, carried, strict=True):
             setattr(turtle, name, value)
         if state not in self._told:
-            self._told.update(orders(images(self.states, [state]), self.states.system.turtle, self.states.system.angle))
+            system = self.states.system
+            self._told.update(instructions(interpretations(self.states, [state]), system.turtle, system.angle))
         turtle.state = state
         for order in self._told[state]:
-            if order.action in ACTS:
-                ACTS[order.action](turtle, ready(order, self.angle))
+            if order.action in SPACE_ACTS:
+                SPACE_ACTS[order.action](turtle, prepared(order, self.angle))
         strokes = np.array(turtle.strokes).reshape(-1, 10).T
         points = strokes[:6].T.reshape(-1, 3)
         corners = [corner for outline in turtle.outlines for corner in outline.corners]

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.interpretation import images
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.geometry.commands import REACH, WIDTH, Order, orders, unknown
+from lsys_kit.geometry.commands import REACH, WIDTH, Instruction, instructions, unknown_commands
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE, Discs, Floats, Polygons
 from lsys_kit.geometry.surfaces import Surface, surface_called, surfaces
 
@@ -27,7 +27,7 @@ class Outline(NamedTuple):
     colour: int
 
 
-class Round(NamedTuple):
+class RoundShape(NamedTuple):
     """A circle, disc or sphere."""
 
     place: Any
@@ -75,7 +75,7 @@ class Turtle:
         self.deepest = current().brackets
         self.unfinished: list[Outline] = []
         self.outlines: list[Outline] = []
-        self.rounds: list[Round] = []
+        self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
 
     def go(self, length: float, drawn: bool) -> None:
@@ -112,7 +112,7 @@ _kept = attrgetter(*_KEPT)
 
 
 def forward(drawn: bool, corner: bool) -> Act:
-    def act(turtle: Turtle, order: Order) -> None:
+    def act(turtle: Turtle, order: Instruction) -> None:
         turtle.go(order.factor * turtle.length + order.addend, drawn)
         if corner and turtle.unfinished:
             turtle.unfinished[-1].corners.append(turtle.at)
@@ -123,15 +123,15 @@ def forward(drawn: bool, corner: bool) -> Act:
     return act
 
 
-def _length(turtle: Turtle, order: Order) -> None:
+def _length(turtle: Turtle, order: Instruction) -> None:
     turtle.length = _within_reach("step", order.factor * turtle.length + order.addend)
 
 
-def _sag(turtle: Turtle, order: Order) -> None:
+def _sag(turtle: Turtle, order: Instruction) -> None:
     turtle.sag = _within_reach("strength", order.factor * turtle.sag + order.addend)
 
 
-def _width(turtle: Turtle, order: Order) -> None:
+def _width(turtle: Turtle, order: Instruction) -> None:
     turtle.width = max(0.0, _within_reach("width", order.factor * turtle.stroke_width() + order.addend))
 
 
@@ -141,7 +141,7 @@ def _within_reach(what: str, value: float) -> float:
     return value
 
 
-def _colour(turtle: Turtle, order: Order) -> None:
+def _colour(turtle: Turtle, order: Instruction) -> None:
     turtle.colour = max(0, min(MOST_COLOURS, round(order.factor * max(0, turtle.colour) + order.addend)))
 
 
@@ -150,24 +150,24 @@ def _first(name: str) -> Act:
 
 
 def _next(name: str, change: Act) -> Act:
-    def act(turtle: Turtle, order: Order) -> None:
+    def act(turtle: Turtle, order: Instruction) -> None:
         turtle.once = ((name, getattr(turtle, name)), *turtle.once)  # the earliest value is set last, and stays
         change(turtle, order)
     return act
 
 
-def _open(turtle: Turtle, _: Order) -> None:
+def _open(turtle: Turtle, _: Instruction) -> None:
     _check_depth(turtle, turtle.stack)
     turtle.stack.append(_kept(turtle))
 
 
-def _close(turtle: Turtle, _: Order) -> None:
+def _close(turtle: Turtle, _: Instruction) -> None:
     if turtle.stack:
         (turtle.at, turtle.way, turtle.length, turtle.width, turtle.colour, turtle.sag, turtle.pulls, turtle.last,
          turtle.once, turtle.hand, turtle.bearing) = turtle.stack.pop()
 
 
-def _outline(turtle: Turtle, _: Order) -> None:
+def _outline(turtle: Turtle, _: Instruction) -> None:
     _check_depth(turtle, turtle.unfinished)
     turtle.unfinished.append(Outline([], turtle.state, turtle.colour))
 
@@ -177,21 +177,21 @@ def _check_depth(turtle: Turtle, opened: Sequence[object]) -> None:
         raise ModelLimitError(f"More than {turtle.deepest:,} brackets are open at once", limit=turtle.deepest)
 
 
-def _corner(turtle: Turtle, _: Order) -> None:
+def _corner(turtle: Turtle, _: Instruction) -> None:
     if turtle.unfinished:
         turtle.unfinished[-1].corners.append(turtle.at)
 
 
-def _fill(turtle: Turtle, _: Order) -> None:
+def _fill(turtle: Turtle, _: Instruction) -> None:
     if turtle.unfinished and len((outline := turtle.unfinished.pop()).corners) > 2:
         turtle.outlines.append(outline)
 
 
-def _announce(turtle: Turtle, _: Order) -> None:
+def _announce(turtle: Turtle, _: Instruction) -> None:
     turtle.tilde = True
 
 
-def _called(turtle: Turtle, order: Order) -> None:
+def _called(turtle: Turtle, order: Instruction) -> None:
     if turtle.tilde:
         turtle.tilde = False
         if surface := surface_called(order.symbol):
@@ -200,14 +200,14 @@ def _called(turtle: Turtle, order: Order) -> None:
             turtle.unknown[f"~{order.symbol}"] = None
 
 
-def _surface(turtle: Turtle, order: Order) -> None:
+def _surface(turtle: Turtle, order: Instruction) -> None:
     turtle.grow(surfaces()[order.surface], order.factor * turtle.length + order.addend)
 
 
 def _round(kind: int) -> Act:
-    def act(turtle: Turtle, order: Order) -> None:
+    def act(turtle: Turtle, order: Instruction) -> None:
         width = order.factor * turtle.stroke_width() + order.addend
-        turtle.rounds.append(Round(turtle.at, abs(width) / 2, kind, turtle.state, turtle.colour))
+        turtle.rounds.append(RoundShape(turtle.at, abs(width) / 2, kind, turtle.state, turtle.colour))
     return act
 
 
@@ -225,7 +225,8 @@ COMMON: Mapping[str, Act] = {
 """What every turtle does, by the names of the actions."""
 
 
-def follow(turtle: Turtle, word: Word, acts: Mapping[str, Act], ready: Callable[[Order], Any] = lambda order: order) -> None:
+def run_turtle(turtle: Turtle, word: Word, acts: Mapping[str, Act],
+               ready: Callable[[Instruction], Any] = lambda order: order) -> None:
     """Send a turtle along a word; orders for which it has no act are passed over.
 
     Parameters
@@ -247,7 +248,7 @@ def follow(turtle: Turtle, word: Word, acts: Mapping[str, Act], ready: Callable[
         A value is no number that can be drawn.
     """
     with _no_collection():
-        told = told_by(word, acts, ready)
+        told = compile_word(word, acts, ready)
         turtle.unknown = dict.fromkeys(told.unknown)
         for state in word.numbers():
             turtle.state = state
@@ -267,21 +268,21 @@ def _no_collection() -> Iterator[None]:
             gc.enable()
 
 
-class Told(NamedTuple):
+class CompiledWord(NamedTuple):
     """What a word's modules tell a turtle: for each state the acts and what they are given; and the symbols unknown to it."""
 
     acts: dict[int, list[tuple[Act, Any]]]
     unknown: tuple[str, ...]
 
 
-def told_by(word: Word, acts: Mapping[str, Act], ready: Callable[[Order], Any]) -> Told:
+def compile_word(word: Word, acts: Mapping[str, Act], ready: Callable[[Instruction], Any]) -> CompiledWord:
     """What a word tells a turtle that has these acts."""
-    system, drawn = word.states.system, images(word.states, word.numbers())
-    return Told({state: [(acts[order.action], ready(order)) for order in found if order.action in acts]
-                 for state, found in orders(drawn, system.turtle, system.angle).items()}, unknown(drawn, system))
+    system, drawn = word.states.system, interpretations(word.states, word.numbers())
+    return CompiledWord({state: [(acts[order.action], ready(order)) for order in found if order.action in acts]
+                 for state, found in instructions(drawn, system.turtle, system.angle).items()}, unknown_commands(drawn, system))
 
 
-def left_behind(outlines: Sequence[Outline], rounds: Sequence[Round],
+def shapes_left(outlines: Sequence[Outline], rounds: Sequence[RoundShape],
                 points: Callable[[list[Any]], Floats]) -> tuple[Polygons, Discs]:
     """The shapes that a turtle has left besides strokes, given what the coordinates of places are."""
     sizes = [len(outline.corners) for outline in outlines]

@@ -13,7 +13,7 @@ import numpy as np
 from lsys_kit.budget import current
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relaxing
+from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relax
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.model.maps import Edge
 
@@ -23,7 +23,7 @@ OFTEN = 100
 """After so many iterations the time is looked at."""
 
 
-def placed(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
+def place_maps(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
     """Where the vertices of each map lie when all are at rest.
 
     Parameters
@@ -45,16 +45,16 @@ def placed(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.maps.development import developed
+    >>> from lsys_kit.derivation.maps.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> square, divided = placed(developed(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
+    >>> square, divided = place_maps(develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
     >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
     [0.28 0.28] [0.56 0.36]
     """
     until = time.monotonic() + current().seconds
     points: Floats | None = None
     for step, found in enumerate(maps):
-        points = _at_rest(relaxing(begun(found, points), tissue(found), forces), step, until)
+        points = _at_rest(relax(initial_vertices(found, points), tissue(found), forces), step, until)
         yield points
 
 
@@ -69,17 +69,17 @@ def _at_rest(way: Iterator[Floats], step: int, until: float) -> Floats:
     return points
 
 
-def settling(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NORMAL) -> Iterator[Floats]:
+def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NORMAL) -> Iterator[Floats]:
     """Where the vertices of the last map lie after some numbers of iterations, which grow; before, the map before is at rest.
 
-    >>> from lsys_kit.derivation.maps.development import developed
+    >>> from lsys_kit.derivation.maps.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> maps = developed(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
-    >>> [float(np.ptp(points[:, 0]).round(2)) for points in settling(maps, [0, 50, 5_000])]
+    >>> maps = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
+    >>> [float(np.ptp(points[:, 0]).round(2)) for points in relaxation_steps(maps, [0, 50, 5_000])]
     [0.28, 0.64, 0.56]
     """
-    *_, before = None, *placed(maps[:-1], forces)
-    way = relaxing(begun(maps[-1], before), tissue(maps[-1]), forces)
+    *_, before = None, *place_maps(maps[:-1], forces)
+    way = relax(initial_vertices(maps[-1], before), tissue(maps[-1]), forces)
     reached, points = 0, next(way)
     for iteration in iterations:
         points = (deque(islice(way, iteration - reached), maxlen=1) or [points])[0]
@@ -87,9 +87,9 @@ def settling(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NO
         yield points
 
 
-def begun(found: Map, before: Floats | None) -> Floats:
+def initial_vertices(found: Map, before: Floats | None) -> Floats:
     """Where the vertices of a map lie at first, given where those of the map before lie, if there is one."""
-    return polygon(len(found.vertices)) if before is None else inserted(found, before)
+    return polygon(len(found.vertices)) if before is None else insert_vertices(found, before)
 
 
 def polygon(corners: int) -> Floats:
@@ -98,7 +98,7 @@ def polygon(corners: int) -> Floats:
     return FIRST_WALL / 2 / math.sin(math.pi / corners) * np.column_stack([np.cos(angles), np.sin(angles)])
 
 
-def inserted(found: Map, points: Floats) -> Floats:
+def insert_vertices(found: Map, points: Floats) -> Floats:
     """The vertices of a map, given where those of the map before lie: new ones part their walls into equal parts."""
     new = found.vertices[len(points):]
     ends = np.array([vertex.between for vertex in new], dtype=np.int64).reshape(-1, 2)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
-from lsys_kit.geometry.triangulation import cut
+from lsys_kit.geometry.triangulation import triangulate
 
 Singles: TypeAlias = NDArray[np.float32]
 Numbers: TypeAlias = NDArray[np.uint32]
@@ -216,7 +216,7 @@ def _faces(polygons: Polygons) -> Mesh:
     """Polygons as they are, flat."""
     points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
     facing = _facing(points, polygons.starts)
-    triangles = [np.array(cut(points[first:last], way), np.int64).reshape(-1, 3) + first
+    triangles = [np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
                  for (first, last), way in zip(pairwise(polygons.starts.tolist()), facing, strict=True)]
     return Mesh(points.astype(np.float32), np.repeat(facing, sizes, axis=0).astype(np.float32),
                 np.concatenate([np.empty((0, 3), np.int64), *triangles]).astype(np.uint32),

@@ -79,7 +79,7 @@ class Tissue:
         return following
 
 
-def relaxing(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
+def relax(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
     """The vertices at first, and after each iteration until they are at rest.
 
     Parameters
@@ -92,7 +92,7 @@ def relaxing(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterato
     Examples
     --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
-    >>> *_, at_rest = relaxing(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
+    >>> *_, at_rest = relax(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))
     [0.279 0.279] [0.078]
     """

@@ -19,15 +19,15 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Order, first_step
+from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Instruction, initial_step
 from lsys_kit.geometry.fractint import FRACTINT
-from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, follow, left_behind
+from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module
 
 Vector: TypeAlias = tuple[float, float, float]
-Frame: TypeAlias = tuple[Vector, Vector, Vector, int]
+TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
 """H, L, U, and how many rotations ago they were made exactly orthonormal."""
 
 OFTEN = 1_000
@@ -39,12 +39,12 @@ _COLUMNS = 10
 """The numbers of a stroke: both ends, order, state, width and colour."""
 
 
-class Flyer(Turtle):
+class SpaceTurtle(Turtle):
     """A turtle in space: it is at a point, and turned as its frame says."""
 
     __slots__ = ("start", "strokes")
 
-    def __init__(self, frame: Frame, step: float) -> None:
+    def __init__(self, frame: TurtleFrame, step: float) -> None:
         super().__init__((0.0, 0.0, 0.0), frame, step)
         self.start = frame
         self.strokes = array("d")
@@ -59,7 +59,7 @@ class Flyer(Turtle):
             for pull in self.pulls.values():
                 _pulled(self, pull)
 
-    def facing(self, degrees: float) -> Frame:
+    def facing(self, degrees: float) -> TurtleFrame:
         head, left, up, rotations = self.start
         return *_towards(head, left, *cos_sin(degrees)), up, rotations
 
@@ -69,10 +69,10 @@ class Flyer(Turtle):
                 z + ahead * hz + left * lz + up * uz)
 
 
-def first_frame(tradition: str, heading: float = 90.0) -> Frame:
+def initial_frame(tradition: str, heading: float = 90.0) -> TurtleFrame:
     """How the turtle is turned when it starts; the heading is an angle in the plane of the picture, 90 is up.
 
-    >>> first_frame("abop")
+    >>> initial_frame("abop")
     ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), 0)
     """
     cos, sin = cos_sin(heading)
@@ -111,7 +111,7 @@ def _towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vect
             (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az))
 
 
-def _framed(head: Vector, left: Vector, up: Vector, rotations: int) -> Frame:
+def _framed(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:
     """A frame after one more rotation; after many it is made orthonormal again."""
     if rotations < OFTEN:
         return head, left, up, rotations + 1
@@ -120,30 +120,30 @@ def _framed(head: Vector, left: Vector, up: Vector, rotations: int) -> Frame:
     return head, _cross(up, head), up, 0
 
 
-def _turn(turtle: Flyer, angle: tuple[float, float]) -> None:
+def _turn(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.way
     head, left = _towards(head, left, *angle)
     turtle.way = _framed(head, left, up, rotations)
 
 
-def _steer(turtle: Flyer, angle: tuple[float, float]) -> None:
+def _steer(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     cos, sin = angle
     _turn(turtle, (cos, turtle.hand * sin))
 
 
-def _pitch(turtle: Flyer, angle: tuple[float, float]) -> None:
+def _pitch(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.way
     up, head = _towards(up, head, *angle)
     turtle.way = _framed(head, left, up, rotations)
 
 
-def _roll(turtle: Flyer, angle: tuple[float, float]) -> None:
+def _roll(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.way
     up, left = _towards(up, left, *angle)
     turtle.way = _framed(head, left, up, rotations)
 
 
-def _level(turtle: Flyer, _: Order) -> None:
+def _level(turtle: SpaceTurtle, _: Instruction) -> None:
     """Roll until L is level: it becomes that of vertical x H, unless H is vertical (ABOP, page 57)."""
     head, _left, _up, rotations = turtle.way
     across = math.hypot(head[0], head[1])
@@ -152,7 +152,7 @@ def _level(turtle: Flyer, _: Order) -> None:
         turtle.way = head, left, _cross(head, left), rotations
 
 
-def _droop(turtle: Flyer, order: Order) -> None:
+def _droop(turtle: SpaceTurtle, order: Instruction) -> None:
     """Bend as GROGRA's RV: H becomes that of H - strength * vertical; a vertical H can only be turned round."""
     (hx, hy, hz), *_ = turtle.way
     strength = order.factor * turtle.sag + order.addend
@@ -163,7 +163,7 @@ def _droop(turtle: Flyer, order: Order) -> None:
         _pitch(turtle, (-1.0, 0.0))
 
 
-def _pulled(turtle: Flyer, pull: Vector) -> None:
+def _pulled(turtle: SpaceTurtle, pull: Vector) -> None:
     """Bend towards a tropism T by the angle e |H x T| about H x T; the pull is e T (ABOP, page 58)."""
     axis = _cross(turtle.way[0], pull)
     radians = math.hypot(*axis)
@@ -171,7 +171,7 @@ def _pulled(turtle: Flyer, pull: Vector) -> None:
         _bend(turtle, _unit(axis), radians)
 
 
-def _bend(turtle: Flyer, axis: Vector, radians: float) -> None:
+def _bend(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
     """Rotate the frame about a unit vector."""
     cos, sin = math.cos(radians), math.sin(radians)
     ax, ay, az = axis
@@ -185,14 +185,14 @@ def _bend(turtle: Flyer, axis: Vector, radians: float) -> None:
     turtle.way = _framed(rotated(head), rotated(left), rotated(up), rotations)
 
 
-def _tropism(turtle: Flyer, order: Order) -> None:
+def _tropism(turtle: SpaceTurtle, order: Instruction) -> None:
     """Set a tropism: `@Ts(e)`, or `@Ts(number, e)` as in cpfg, perhaps with its direction behind, else gravity."""
     number, elasticity, *direction = order.values if len(order.values) > 1 else (1.0, *order.values, 0.0)
     x, y, z = direction if len(direction) == 3 else (0.0, -1.0, 0.0)
     turtle.pulls = {**turtle.pulls, number: _seen((elasticity * x, elasticity * y, elasticity * z))}
 
 
-def _jump(turtle: Flyer, order: Order) -> None:
+def _jump(turtle: SpaceTurtle, order: Instruction) -> None:
     x, y, z, *_ = (*order.values, 0.0, 0.0, 0.0)
     turtle.at = _seen((x, y, z))
 
@@ -203,7 +203,7 @@ def _seen(point: Vector) -> Vector:
     return x, -z, y
 
 
-def _back(turtle: Flyer, order: Order) -> None:
+def _back(turtle: SpaceTurtle, order: Instruction) -> None:
     """Go to a place on the last stroke."""
     if turtle.last is not None:
         first = turtle.last * _COLUMNS
@@ -213,12 +213,12 @@ def _back(turtle: Flyer, order: Order) -> None:
 
 
 _ROTATIONS: Mapping[str, Act] = {"turn": _turn, "steer": _steer, "about": _turn, "pitch": _pitch, "roll": _roll}
-ACTS: Mapping[str, Act] = {**COMMON, **FRACTINT, **_ROTATIONS, "level": _level, "droop": _droop, "tropism": _tropism,
+SPACE_ACTS: Mapping[str, Act] = {**COMMON, **FRACTINT, **_ROTATIONS, "level": _level, "droop": _droop, "tropism": _tropism,
                            "jump": _jump, "back": _back}
 """What a turtle in space does, by the names of the actions."""
 
 
-def followed(word: Word, angle: float | None = None) -> Scene:
+def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     """What a turtle in space draws that follows a word.
 
     Parameters
@@ -245,28 +245,28 @@ def followed(word: Word, angle: float | None = None) -> Scene:
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
     >>> bush = read("angle: 22.5\\naxiom: A\\nA -> [&F A] /(120) [&F A] /(120) [&F A]")
-    >>> print(followed(derive(bush, 4)[-1]))
+    >>> print(trace_in_space(derive(bush, 4)[-1]))
     120 segments, width 5.22, height 3.78, depth 4.82
     """
     system = word.states.system
     turn = float(system.angle) if angle is None else angle
-    turtle = Flyer(first_frame(system.turtle, float(system.heading)), first_step(system))
-    follow(turtle, word, ACTS, lambda order: ready(order, turn))
-    polygons, discs = left_behind(turtle.outlines, turtle.rounds, _points)
+    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
+    run_turtle(turtle, word, SPACE_ACTS, lambda order: prepared(order, turn))
+    polygons, discs = shapes_left(turtle.outlines, turtle.rounds, _points)
     return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))
 
 
-def strokes_of(turtle: Flyer) -> Segments:
+def strokes_of(turtle: SpaceTurtle) -> Segments:
     """The strokes that a turtle has left, in the order of their numbers."""
     rows = np.array(turtle.strokes).reshape(-1, _COLUMNS)
     orders, states, colours = (rows[:, column].astype(np.int64) for column in (6, 7, 9))
     return Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours)
 
 
-def ready(order: Order, angle: float) -> Any:
+def prepared(order: Instruction, angle: float) -> Any:
     """What an act is given for an order: cosine and sine for a rotation, the order itself for anything else.
 
-    >>> ready(Order("pitch", 0.0, -90.0), 25.7)
+    >>> prepared(Instruction("pitch", 0.0, -90.0), 25.7)
     (0.0, -1.0)
     """
     return cos_sin(order.factor * angle + order.addend) if order.action in _ROTATIONS else order

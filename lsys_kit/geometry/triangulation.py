@@ -14,7 +14,7 @@ _FLAT = 1e-12
 """A corner that turns by less than this part of the polygon's size turns neither way."""
 
 
-def cut(points: Floats, facing: Floats) -> list[tuple[int, int, int]]:
+def triangulate(points: Floats, facing: Floats) -> list[tuple[int, int, int]]:
     """The triangles of a polygon in space, as numbers of its corners.
 
     Parameters
@@ -32,7 +32,7 @@ def cut(points: Floats, facing: Floats) -> list[tuple[int, int, int]]:
     Examples
     --------
     >>> arrow = np.array([(0, 0, 0), (4, 3, 0), (0, 1, 0), (-4, 3, 0)], float)
-    >>> cut(arrow, np.array([0, 0, 1.0]))
+    >>> triangulate(arrow, np.array([0, 0, 1.0]))
     [(0, 1, 2), (0, 2, 3)]
     """
     plane = _flat(points, facing)

@@ -1,8 +1,8 @@
 """The turtle in the plane (seed 001; ABOP, sections 1.3 and 1.6.1).
 
-Drawing goes in two steps. `traced` walks through a word once and notes for each step forward how often the turtle has
+Drawing goes in two steps. `trace` walks through a word once and notes for each step forward how often the turtle has
 turned by the angle, how many degrees it has turned besides, how far it goes, and at the end of which earlier step it starts.
-None of this depends on the angle. `placed` then puts the path into the plane for a given angle; a browser can do that by
+None of this depends on the angle. `place_path` then puts the path into the plane for a given angle; a browser can do that by
 itself, without the word and without its rules.
 """
 
@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.commands import LEFT_SIDE, Order, first_step
+from lsys_kit.geometry.commands import LEFT_SIDE, Instruction, initial_step
 from lsys_kit.geometry.fractint import FRACTINT
-from lsys_kit.geometry.interpreter import COMMON, Act, Outline, Round, Turtle, follow, left_behind
+from lsys_kit.geometry.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 
 
@@ -58,7 +58,7 @@ class Path:
     widths: Floats
     colours: Integers
     outlines: tuple[Outline, ...] = ()
-    rounds: tuple[Round, ...] = ()
+    rounds: tuple[RoundShape, ...] = ()
     unknown: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -93,23 +93,23 @@ class _Crawler(Turtle):
         return len(self.steps) - 1
 
 
-def _turn(turtle: _Crawler, order: Order) -> None:
+def _turn(turtle: _Crawler, order: Instruction) -> None:
     turns, offset, side = turtle.way
     turtle.way = turns + side * order.factor, offset + side * order.addend, side
 
 
-def _steer(turtle: _Crawler, order: Order) -> None:
+def _steer(turtle: _Crawler, order: Instruction) -> None:
     turns, offset, side = turtle.way
     turtle.way = turns + turtle.hand * order.factor, offset, side
 
 
-def _roll(turtle: _Crawler, order: Order) -> None:
+def _roll(turtle: _Crawler, order: Instruction) -> None:
     if order.factor == 0 and order.addend % 360 == 180:
         turns, offset, side = turtle.way
         turtle.way = turns, offset, -side
 
 
-def _back(turtle: _Crawler, order: Order) -> None:
+def _back(turtle: _Crawler, order: Instruction) -> None:
     if turtle.last is not None:
         turns, offset, length, parent, *_ = turtle.steps[turtle.last]
         turtle.at = turtle.step(turns, offset, length * (order.factor + order.addend), parent)
@@ -117,11 +117,12 @@ def _back(turtle: _Crawler, order: Order) -> None:
 
 _KINDS = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
           "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
-ACTS: Mapping[str, Act] = {**COMMON, **FRACTINT, "turn": _turn, "steer": _steer, "about": _turn, "roll": _roll, "back": _back}
+PLANE_ACTS: Mapping[str, Act] = {**COMMON, **FRACTINT, "turn": _turn, "steer": _steer, "about": _turn, "roll": _roll,
+                                 "back": _back}
 """What a turtle in the plane does, by the names of the actions."""
 
 
-def traced(word: Word) -> Path:
+def trace(word: Word) -> Path:
     """The path of a turtle that follows a word; commands that lead out of the plane are passed over.
 
     Raises
@@ -135,25 +136,25 @@ def traced(word: Word) -> Path:
     --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
-    >>> path = traced(derive(read("axiom: F[+F]-(30)F(2)"), 0)[0])
+    >>> path = trace(derive(read("axiom: F[+F]-(30)F(2)"), 0)[0])
     >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
     system = word.states.system
-    turtle = _Crawler(LEFT_SIDE[system.turtle], first_step(system))
-    follow(turtle, word, ACTS)
+    turtle = _Crawler(LEFT_SIDE[system.turtle], initial_step(system))
+    run_turtle(turtle, word, PLANE_ACTS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_KINDS)
     steps: dict[str, Any] = {name: np.array(column, kind) for (name, kind), column in zip(_KINDS.items(), columns, strict=True)}
     return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds), unknown=tuple(turtle.unknown))
 
 
-def placed(path: Path, angle: float, heading: float = 90.0) -> Scene:
+def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     """The strokes and shapes of a path for an angle and a first heading, in degrees.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
     >>> koch = derive(read("axiom: F--F--F\\nF -> F+F--F+F"), 3)[-1]
-    >>> print(placed(traced(koch), 60, 0))
+    >>> print(place_path(trace(koch), 60, 0))
     192 segments, width 27, height 31.18
     """
     radians = np.radians(path.turns * angle + path.offsets + heading)
@@ -163,7 +164,7 @@ def placed(path: Path, angle: float, heading: float = 90.0) -> Scene:
     strokes = Segments(np.concatenate([ends - vectors, ends], axis=1)[drawn], path.orders[drawn], path.states[drawn],
                        path.widths[drawn], path.colours[drawn])
     places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
-    polygons, discs = left_behind(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
+    polygons, discs = shapes_left(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
     return Scene(strokes, polygons=polygons, discs=discs, unknown=path.unknown)
 
 

@@ -13,16 +13,16 @@ from dataclasses import replace
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
-from lsys_kit.notation.analysis.lint import check_decomposition, idle
+from lsys_kit.notation.analysis.lint import check_decomposition, unused_productions
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
 from lsys_kit.notation.model.system import LSystem, Module, flat
-from lsys_kit.notation.registry import NOTATIONS, notation_called, recognised
+from lsys_kit.notation.registry import DIALECTS, dialect_named, recognise
 from lsys_kit.notation.syntax.builder import Draft
-from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.segmentation import unglued
+from lsys_kit.notation.syntax.segmentation import segment_word
 from lsys_kit.notation.syntax.statements import ARROW, bounded, check_text
 
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
@@ -73,8 +73,8 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         raise ModelValueError("Here a map system begins, and no L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
-        return _read_in(notation_called(notation), text, name)
-    chosen = recognised(text)
+        return _read_in(dialect_named(notation), text, name)
+    chosen = recognise(text)
     try:
         system = _read_in(chosen, text, name)
     except LSystemError as error:
@@ -85,13 +85,13 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
 
 
-def _others(chosen: Notation, text: str) -> Iterator[Notation]:
+def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
     """The other notations of which a text shows a mark, if it is short enough to be read again."""
     if len(text) <= current().expression:
-        yield from (notation for notation in NOTATIONS.values() if notation is not chosen and notation.likely(text) > 0)
+        yield from (notation for notation in DIALECTS.values() if notation is not chosen and notation.likely(text) > 0)
 
 
-def _reads(notation: Notation, text: str, name: str | None) -> bool:
+def _reads(notation: Dialect, text: str, name: str | None) -> bool:
     """Whether a text makes sense in a notation."""
     try:
         _read_in(notation, text, name)
@@ -100,7 +100,7 @@ def _reads(notation: Notation, text: str, name: str | None) -> bool:
     return True
 
 
-def _read_in(notation: Notation, text: str, name: str | None) -> LSystem:
+def _read_in(notation: Dialect, text: str, name: str | None) -> LSystem:
     """Read a system in a notation."""
     text = notation.entry(text, name)
     draft = Draft(text, notation.name, notation.turtle)
@@ -109,7 +109,7 @@ def _read_in(notation: Notation, text: str, name: str | None) -> LSystem:
         draft.add(kind, record, (start, end))
     system = notation.finish(draft)
     check_decomposition(system)
-    return replace(system, notes=(*system.notes, *idle(system)))
+    return replace(system, notes=(*system.notes, *unused_productions(system)))
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:
@@ -120,10 +120,10 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     """
     if not text.strip() or text.strip() in ("ε", "*"):
         return ()
-    word = parse(notation_called(notation), "word", text, 0, len(text))
+    word = parse(dialect_named(notation), "word", text, 0, len(text))
     check_word(word, (), text)
     if system is not None and notation == "abop":
-        word = unglued(word, system)
+        word = segment_word(word, system)
     return tuple(replace(module, arguments=tuple(value_of(a, text) for a in module.arguments if isinstance(a, Expression)))
                  for module in flat(word))
 

@@ -12,15 +12,15 @@ from lsys_kit.notation.dialects.grogra.dialect import GROGRA
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.dialects.plant_string.dialect import PLANT_STRING
 from lsys_kit.notation.model.system import WRITERS
-from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.dialect import Dialect
 
-NOTATIONS: Mapping[str, Notation] = {
+DIALECTS: Mapping[str, Dialect] = {
     notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA, FRACTINT)}
 """The notations that can be read and written."""
-WRITERS.update({notation.name: notation.text for notation in NOTATIONS.values()})
+WRITERS.update({notation.name: notation.text for notation in DIALECTS.values()})
 
 
-def notation_called(name: str) -> Notation:
+def dialect_named(name: str) -> Dialect:
     """The notation with a name.
 
     Raises
@@ -31,16 +31,16 @@ def notation_called(name: str) -> Notation:
     if name == "map":
         hint = "A text that begins with the walls of a cell is read by read_map(text)."
         raise ModelNameError("Maps are no L-systems", hint=hint)
-    if name not in NOTATIONS:
-        raise ModelNameError(f'There is no notation called "{name}"', hint=f"Notations are: {', '.join(NOTATIONS)}.")
-    return NOTATIONS[name]
+    if name not in DIALECTS:
+        raise ModelNameError(f'There is no notation called "{name}"', hint=f"Notations are: {', '.join(DIALECTS)}.")
+    return DIALECTS[name]
 
 
-def recognised(text: str) -> Notation:
+def recognise(text: str) -> Dialect:
     """The notation of which a text shows most marks; the kit's own where it shows none.
 
-    >>> recognised("axiom: A").name
+    >>> recognise("axiom: A").name
     'abop'
     """
     said = "\n".join(line for line in text.split("\n") if not line.isspace() and line)  # a pattern may look again at each blank
-    return max(NOTATIONS.values(), key=lambda notation: notation.likely(said))
+    return max(DIALECTS.values(), key=lambda notation: notation.likely(said))

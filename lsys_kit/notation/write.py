@@ -9,7 +9,7 @@ from typing import Any
 
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.registry import dialect_named
 
 
 def write(system: LSystem, notation: str | None = None) -> str:
@@ -36,7 +36,7 @@ def write(system: LSystem, notation: str | None = None) -> str:
     axiom: A(0)
     A(t) : t < 5 -> A(t + 1)[B]
     """
-    return notation_called(notation or system.notation).text(system)
+    return dialect_named(notation or system.notation).text(system)
 
 
 def as_written(system: LSystem, part: Any) -> str:

@@ -11,7 +11,7 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.derivation.timed.ages import ageing_of
+from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
@@ -24,8 +24,8 @@ from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
 from lsys_kit.pictures.style.palette import GREEN, colours
-from lsys_kit.pictures.svg import Row
-from lsys_kit.pictures.view import seen
+from lsys_kit.pictures.svg import FilamentRow
+from lsys_kit.pictures.view import project
 from lsys_kit.worlds.derive import derive
 
 if TYPE_CHECKING:
@@ -96,15 +96,16 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
     if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
-    what = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
+    what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
     if is_filament(what.states.system):
         return _sequence(what, marked, cells)
     turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
     step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)
-    return Picture((Row(step, seen(scene)),), state_colours(what), None, marked, scene if scene.dimension == 3 else None)
+    return Picture((FilamentRow(step, project(scene)),), state_colours(what), None, marked,
+                   scene if scene.dimension == 3 else None)
 
 
-def derived(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
+def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
     """The derivation of a system; anything else as it is, for its steps are chosen already."""
     if isinstance(what, LSystem):
         return derive(what, n if n is not None else what.steps if what.steps is not None else 5, **choices)
@@ -116,19 +117,19 @@ def derived(what: LSystem | Derivation | Word, n: int | None, **choices: Any) ->
 def _sequence(what: Derivation | Word, marked: Collection[int], cells: str | None) -> Picture:
     """A filament's steps below one another; a word alone."""
     if isinstance(what, Word):
-        return filament_picture(what, (Row(0, filament(what)),), None, marked, cells)
+        return filament_picture(what, (FilamentRow(0, filament(what)),), None, marked, cells)
     first = max(0, what.steps + 1 - MOST_ROWS)
-    rows = tuple(Row(step, filament(what[step])) for step in range(first, what.steps + 1))
+    rows = tuple(FilamentRow(step, filament(what[step])) for step in range(first, what.steps + 1))
     return filament_picture(what, rows, what.steps, marked, cells)
 
 
-def filament_picture(what: Derivation | Word, rows: tuple[Row, ...], current: int | None, marked: Collection[int] = (),
+def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], current: int | None, marked: Collection[int] = (),
                      cells: str | None = None) -> Picture:
     """The picture of a filament's rows, as its system asks for it."""
     look = what.states.system.cells if cells is None else cells
     if look not in LOOKS:
         raise ModelValueError(f"Cells are drawn as {' or '.join(LOOKS)}, not as {look!r}")
-    return Picture(rows, state_colours(what), current, marked, look=look, time=ageing_of(what.states).step)
+    return Picture(rows, state_colours(what), current, marked, look=look, time=age_model(what.states).step)
 
 
 def state_colours(what: Derivation | Word) -> Mapping[int, str]:

@@ -13,9 +13,9 @@ from html import escape
 from itertools import pairwise
 from typing import NamedTuple
 
-from lsys_kit.notation.model.arithmetic import Value, number_text, tidy
+from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
-from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, Row
+from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, FilamentRow
 
 LOOKS = ("rectangles", "ellipses")
 """How cells may be drawn."""
@@ -27,7 +27,7 @@ LEGIBLE = 28
 """Ages of walls are written where rows are so many pixels apart."""
 
 
-class Cell(NamedTuple):
+class DrawnCell(NamedTuple):
     """A cell in the picture: its middle, half its length and width, its polarity, shade and state."""
 
     x: float
@@ -38,7 +38,7 @@ class Cell(NamedTuple):
     state: int
 
 
-class Wall(NamedTuple):
+class DrawnWall(NamedTuple):
     """A wall in the picture: where it stands, half its height, its age in figures, its shade and state."""
 
     x: float
@@ -49,7 +49,7 @@ class Wall(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sheet:
+class FilamentLayout:
     """Where the rows stand in a picture, in pixels.
 
     Attributes
@@ -68,7 +68,7 @@ class Sheet:
         How far rows are apart.
     """
 
-    rows: Sequence[Row]
+    rows: Sequence[FilamentRow]
     numbered: bool
     time: Value | None
     scale: float
@@ -86,27 +86,28 @@ class Sheet:
         """How far down the cells of a row stand."""
         return MARGIN + self.head + self.pitch * (place + 0.5) + self.above / 2
 
-    def cells(self, row: Row) -> Iterator[Cell]:
+    def cells(self, row: FilamentRow) -> Iterator[DrawnCell]:
         """The cells of a row."""
         cells, left = row.scene.cells, self._left(row)
-        return (Cell(left + x, length / 2, width / 2, way, shade, state) for x, (length, width), way, shade, state in zip(
+        return (DrawnCell(left + x, length / 2, width / 2, way, shade, state) for x, (length, width), way, shade, state in zip(
             (cells.centres[:, 0] * self.scale).tolist(), (cells.sizes * self.scale).tolist(), cells.polarities.tolist(),
             cells.shades.tolist(), cells.states.tolist(), strict=True))
 
-    def walls(self, row: Row) -> Iterator[Wall]:
+    def walls(self, row: FilamentRow) -> Iterator[DrawnWall]:
         """The walls of a row."""
         walls, left = row.scene.walls, self._left(row)
-        return (Wall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
+        return (DrawnWall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
                 for x, height, age, shade, state in zip(
                     (walls.places * self.scale).tolist(), (walls.heights * self.scale).tolist(), walls.ages.tolist(),
                     walls.shades.tolist(), walls.states.tolist(), strict=True))
 
-    def _left(self, row: Row) -> float:
+    def _left(self, row: FilamentRow) -> float:
         """Where a row begins: all are centred."""
         return self.gutter + (WIDTH - self.gutter - MARGIN - row.scene.width * self.scale) / 2
 
 
-def sheet_of(rows: Sequence[Row], numbered: bool = False, time: Value | None = None, written: bool = True) -> Sheet:
+def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None,
+                    written: bool = True) -> FilamentLayout:
     """The sheet for some rows.
 
     Parameters
@@ -128,10 +129,10 @@ def sheet_of(rows: Sequence[Row], numbered: bool = False, time: Value | None = N
     above = AGES if written and most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
     scale = min((WIDTH - gutter - 2 * MARGIN) / longest, (FILLED * most - above) / tallest)
     pitch = max(14.0, min(most, (tallest * scale + above) / FILLED))
-    return Sheet(rows, numbered, time, scale, gutter, head, above, pitch)
+    return FilamentLayout(rows, numbered, time, scale, gutter, head, above, pitch)
 
 
-def rows_svg(sheet: Sheet, look: str, colour_of: Mapping[int, str], current: int | None = None,
+def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], current: int | None = None,
              marked: Collection[int] = ()) -> str:
     """Filaments below one another, centred, with a common scale; the current row on a tinted band."""
     body = [_heading(sheet)] if sheet.numbered else []
@@ -139,12 +140,12 @@ def rows_svg(sheet: Sheet, look: str, colour_of: Mapping[int, str], current: int
         middle = sheet.middle(place)
         if sheet.numbered:
             body.append(_labels(sheet, row.step, middle, row.step == current))
-        body.append(cells_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
+        body.append(filament_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
         body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
     return "".join(body)
 
 
-def _heading(sheet: Sheet) -> str:
+def _heading(sheet: FilamentLayout) -> str:
     """What stands in the columns."""
     y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
     if sheet.time is not None:
@@ -153,7 +154,7 @@ def _heading(sheet: Sheet) -> str:
                    f'fill="{QUIET}">{text}</text>' for x, text in texts)
 
 
-def _labels(sheet: Sheet, step: int, middle: float, current: bool) -> str:
+def _labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
     """A row's step and time, on a band where it is the current one."""
     top, size = middle - sheet.above / 2 - sheet.pitch / 2, tenths(min(14.0, 0.8 * sheet.pitch))
     band = (f'<rect x="40" y="{tenths(top)}" width="{WIDTH * 10 - 80}" height="{tenths(sheet.pitch)}" rx="60" fill="{MARK}"/>'
@@ -172,11 +173,11 @@ def time_text(time: Value) -> str:
     >>> time_text(0.7), time_text(2 / 3)
     ('0.7', '0.6667')
     """
-    text = number_text(tidy(time))
+    text = number_text(normalised(time))
     return escape(text if len(text) <= 6 else f"{float(time):.4g}")
 
 
-def cells_svg(cells: Sequence[Cell], look: str, middle: float, colour_of: Mapping[int, str],
+def filament_svg(cells: Sequence[DrawnCell], look: str, middle: float, colour_of: Mapping[int, str],
               marked: Collection[int] = ()) -> str:
     """One filament: cells, lighter when young, with arrows for their polarity."""
     fills = {key: tinted(colour_of.get(key[0], GREEN), 0.28 + 0.6 * key[1]) for key in {(c.state, c.shade) for c in cells}}
@@ -211,7 +212,8 @@ def wall_colour(colour: str, shade: float) -> str:
     return tinted(colour, 0.5 + 0.5 * shade)
 
 
-def _walls_svg(walls: Sequence[Wall], middle: float, aged: bool, colour_of: Mapping[int, str], marked: Collection[int]) -> str:
+def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str],
+               marked: Collection[int]) -> str:
     """The walls of a filament, with their ages above."""
     parts = []
     for wall in walls:
@@ -224,7 +226,7 @@ def _walls_svg(walls: Sequence[Wall], middle: float, aged: bool, colour_of: Mapp
     return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
 
 
-def _apart(walls: Sequence[Wall]) -> bool:
+def _apart(walls: Sequence[DrawnWall]) -> bool:
     """Whether the ages of walls can stand side by side."""
     return all(left.x + 3.2 * len(left.age) < right.x - 3.2 * len(right.age) for left, right in pairwise(walls))
 

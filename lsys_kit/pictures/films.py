@@ -20,12 +20,12 @@ from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.draw import derived, draw, state_colours
-from lsys_kit.pictures.formats.files import keep
+from lsys_kit.pictures.draw import derivation_of, draw, state_colours
+from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.raster import turtle_image
 from lsys_kit.pictures.style.palette import PAPER
-from lsys_kit.pictures.svg import MARGIN, Frame, frame_of
-from lsys_kit.pictures.view import seen
+from lsys_kit.pictures.svg import MARGIN, ViewFrame, frame_of
+from lsys_kit.pictures.view import project
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -72,7 +72,7 @@ class Film:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        keep(Path(path), {".gif": lambda: self.gif, ".apng": lambda: self.apng, ".png": lambda: self.apng})
+        save_as(Path(path), {".gif": lambda: self.gif, ".apng": lambda: self.apng, ".png": lambda: self.apng})
 
     def _film(self, form: str) -> bytes:
         buffer, step = io.BytesIO(), round(1000 * self.seconds)
@@ -121,7 +121,7 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     pace = real_from(seconds, "seconds")
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
-    derivation = derived(what, n, seed=seed, arithmetic=arithmetic, **constants)
+    derivation = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
     assert isinstance(derivation, Derivation)
     if derivation.steps >= MOST_FRAMES:
         raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
@@ -129,7 +129,7 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     if is_filament(derivation.states.system):
         return _rows(derivation, pace)
     turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
-    scenes = [seen(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
+    scenes = [project(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
     frame, colour_of = _common(scenes), state_colours(derivation)
     return Film(_said(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
 
@@ -138,7 +138,7 @@ def _said(derivation: Derivation, last: Scene) -> str:
     return f"steps 0 to {derivation.steps}; the last: {last}"
 
 
-def _common(scenes: list[Scene]) -> Frame:
+def _common(scenes: list[Scene]) -> ViewFrame:
     """A frame that holds all scenes."""
     left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
     return frame_of((min(left), min(bottom), max(right), max(top)))

@@ -16,17 +16,17 @@ from typing import Any, NamedTuple
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.derivation.maps.development import Development, developed
+from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.geometry.map_layout import placed, scenes, settling
+from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.pictures.formats.files import keep
+from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
-from lsys_kit.pictures.svg import MARGIN, Frame, background, described, document
+from lsys_kit.pictures.svg import MARGIN, ViewFrame, background, described, document
 
 WIDTH, HIGHEST = 760, 400
 """The width of a line of maps and the height of a map at most, in pixels."""
@@ -100,7 +100,7 @@ class MapPicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": self.text}
@@ -113,18 +113,18 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
                 **forces: object) -> MapPicture:
     """The picture of a map system after `n` steps, or of a development; or of its last step on the way to rest."""
     if isinstance(what, MapSystem):
-        what = developed(what, n if n is not None else what.steps if what.steps is not None else STEPS)
+        what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
     if iterations:
         _check_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)
         _check_size(shown)
-        places = [*settling(what, iterations, forces_of(forces))]
+        places = [*relaxation_steps(what, iterations, forces_of(forces))]
         return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps)
     first = max(0, len(what) - MOST_MAPS)
     _check_size(what[first:])
-    places = [*placed(what, forces_of(forces))]
+    places = [*place_maps(what, forces_of(forces))]
     return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)))
 
 
@@ -164,7 +164,7 @@ def forces_of(choices: dict[str, object]) -> Forces:
 class Panel(NamedTuple):
     """Where a map stands in the picture, and where the number of its step stands, in tenths of a pixel."""
 
-    frame: Frame
+    frame: ViewFrame
     x: int
     y: int
 
@@ -183,7 +183,7 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
         for scene in line:
             (left, _, _, highest), own = scene.box, scene.width * scale
             drop = top + (height - scene.height * scale) / 2
-            panels.append(Panel(Frame(scale, left - across / scale, highest + drop / scale, *size),
+            panels.append(Panel(ViewFrame(scale, left - across / scale, highest + drop / scale, *size),
                                 round((MARGIN + across + own / 2) * 10), round((MARGIN + top + height + NUMBER + 3) * 10)))
             across += own + GAP
         top += height + CAPTION
@@ -218,7 +218,7 @@ def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: in
             f'fill="{QUIET}">{number}</text>')
 
 
-def cells_svg(cells: Polygons, frame: Frame) -> str:
+def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
     """The cells, filled: a soft colour for each of the first kinds."""
     shapes = []
     for corners, kind in zip(cells, cells.states.tolist(), strict=True):
@@ -227,7 +227,7 @@ def cells_svg(cells: Polygons, frame: Frame) -> str:
     return "".join(shapes)
 
 
-def walls_svg(found: Map, places: Floats, frame: Frame) -> str:
+def walls_svg(found: Map, places: Floats, frame: ViewFrame) -> str:
     """The walls as one path, their arrows as another, then their labels."""
     points = frame.points(places).tolist()
     strokes, arrows, labels = [], [], []

@@ -17,13 +17,13 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments import LOOKS, rows_svg, sheet_of
+from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
 from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
-from lsys_kit.pictures.formats.files import keep, keep_beside
+from lsys_kit.pictures.formats.files import save_as, save_beside
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.nets.diagram import drawn_stages
-from lsys_kit.pictures.svg import WIDTH, Row, background, described, document, frame_of, turtle_svg
+from lsys_kit.pictures.svg import WIDTH, FilamentRow, background, described, document, frame_of, turtle_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +51,7 @@ class Picture:
         How long a step of a filament takes, where its system says so.
     """
 
-    rows: tuple[Row, ...]
+    rows: tuple[FilamentRow, ...]
     colour_of: Mapping[int, str] = field(repr=False)
     current: int | None = None
     marked: Collection[int] = ()
@@ -74,7 +74,7 @@ class Picture:
     def svg(self) -> str:
         """The picture as SVG text."""
         if len(self.scene.cells):
-            sheet = sheet_of(self.rows, self.current is not None, self.time)
+            sheet = filament_layout(self.rows, self.current is not None, self.time)
             body, width, height = rows_svg(sheet, self.look, self.colour_of, self.current, self.marked), WIDTH, sheet.height
         else:
             frame = frame_of(self.scene.box)
@@ -112,8 +112,8 @@ class Picture:
         path = Path(path)
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
         if path.suffix.lower() == ".obj":
-            keep_beside(library, mtl(self.mesh, self.colour_of))
-        keep(path, {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png, ".pdf": lambda: _pdf(self),
+            save_beside(library, mtl(self.mesh, self.colour_of))
+        save_as(path, {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png, ".pdf": lambda: _pdf(self),
                     ".glb": lambda: glb(self.mesh, self.colour_of),
                     ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
              "Films end in .gif or .apng, and are made by animate(...).")
@@ -156,7 +156,7 @@ class NetPicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode(),
+        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode(),
                           ".pnml": lambda: f"{pnml(self.net, self.tokens)}\n".encode()})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:

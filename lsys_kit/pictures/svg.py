@@ -30,7 +30,7 @@ SAMPLE = 20_000
 
 
 @dataclass(frozen=True)
-class Frame:
+class ViewFrame:
     """How a scene's units become tenths of a pixel."""
 
     scale: float
@@ -48,12 +48,12 @@ class Frame:
         return tenths
 
 
-def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> Frame:
+def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
     """The frame that fits a box into a picture, no larger than needed."""
     left, bottom, right, top = box
     across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)
     scale = min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0)
-    return Frame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
+    return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
 def document(body: str, width: int, height: int, description: str) -> str:
@@ -64,7 +64,7 @@ def document(body: str, width: int, height: int, description: str) -> str:
             f"<title>{words}</title>{body}</svg>")
 
 
-def turtle_svg(scene: Scene, frame: Frame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
+def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
     """What a turtle has drawn: surfaces, then strokes, then discs."""
     parts = (polygons_svg(scene.polygons, frame, colour_of) if len(scene.polygons) else "",
              strokes_svg(scene.segments, frame, colour_of, marked),
@@ -72,7 +72,7 @@ def turtle_svg(scene: Scene, frame: Frame, colour_of: Mapping[int, str], marked:
     return "".join(parts)
 
 
-def polygons_svg(polygons: Polygons, frame: Frame, colour_of: Mapping[int, str]) -> str:
+def polygons_svg(polygons: Polygons, frame: ViewFrame, colour_of: Mapping[int, str]) -> str:
     """Surfaces: filled, with an edge of their own colour."""
     shapes = []
     for corners, colour in zip(polygons, shape_colours(polygons, colour_of), strict=True):
@@ -81,7 +81,7 @@ def polygons_svg(polygons: Polygons, frame: Frame, colour_of: Mapping[int, str])
     return f'<g stroke-width="6" stroke-linejoin="round">{"".join(shapes)}</g>'
 
 
-def discs_svg(discs: Discs, frame: Frame, colour_of: Mapping[int, str]) -> str:
+def discs_svg(discs: Discs, frame: ViewFrame, colour_of: Mapping[int, str]) -> str:
     """Circles, and discs and spheres, which are filled."""
     shapes = []
     for (x, y), radius, kind, colour in zip(frame.points(discs.centres).tolist(), discs.radii.tolist(), discs.kinds.tolist(),
@@ -92,7 +92,7 @@ def discs_svg(discs: Discs, frame: Frame, colour_of: Mapping[int, str]) -> str:
     return f'<g stroke-width="10">{"".join(shapes)}</g>'
 
 
-def strokes_svg(segments: Segments, frame: Frame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
+def strokes_svg(segments: Segments, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
     """The strokes of a turtle: a path for each colour and width, marked ones on a broad band."""
     points = frame.points(segments.ends)
     body = []
@@ -154,7 +154,7 @@ def _path(points: Integers) -> str:
 
 
 @dataclass(frozen=True)
-class Row:
+class FilamentRow:
     """One step of a developmental sequence."""
 
     step: int

@@ -9,7 +9,7 @@ import numpy as np
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 
 
-def seen(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
+def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
     """What is seen of a scene from far away.
 
     Parameters
@@ -22,10 +22,10 @@ def seen(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.geometry.space import followed
+    >>> from lsys_kit.geometry.space import trace_in_space
     >>> from lsys_kit.notation.read import read
-    >>> bush = followed(derive(read("axiom: F[&(90)F]"), 0)[0])
-    >>> print(bush, seen(bush), seen(bush, 90), sep="; ")
+    >>> bush = trace_in_space(derive(read("axiom: F[&(90)F]"), 0)[0])
+    >>> print(bush, project(bush), project(bush, 90), sep="; ")
     2 segments, width 0, height 1, depth 1; 2 segments, width 0, height 1; 2 segments, width 1, height 1
     """
     if scene.dimension == 2:

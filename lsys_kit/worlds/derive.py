@@ -10,11 +10,11 @@ from __future__ import annotations
 from typing import Any, overload
 
 from lsys_kit.derivation import derive as words_alone
-from lsys_kit.derivation.derive import Derivation, derived
+from lsys_kit.derivation.derive import Derivation, derive_observed
 from lsys_kit.derivation.maps.development import Development
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.worlds.sight import seen
+from lsys_kit.worlds.sight import observe
 
 
 @overload
@@ -71,6 +71,6 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     4 F F F A?P(0,3)
     """
     if isinstance(system, LSystem):
-        return derived(system, steps, seen, **choices)
+        return derive_observed(system, steps, observe, **choices)
     maps: Development = words_alone.derive(system, steps, **choices)
     return maps

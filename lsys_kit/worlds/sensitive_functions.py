@@ -24,7 +24,7 @@ WINDOW = 32
 
 
 @dataclass(frozen=True)
-class Points:
+class EndPoints:
     """The begin and end points of some shoots.
 
     Attributes
@@ -79,24 +79,24 @@ class Shoots:
         self.ends, self.mothers = strokes.ends.reshape(-1, 2, 3), mothers
         self.lengths: Floats = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
         self.colours = np.where(strokes.colours == OWN, FIRST_COLOUR, strokes.colours)
-        self._points: dict[tuple[float, float | None], Points] = {}
+        self._points: dict[tuple[float, float | None], EndPoints] = {}
 
     def chosen(self, least: float, colour: float | None = None) -> Integers:
         """The numbers of those that have at least some length, and perhaps a colour."""
         return np.flatnonzero((self.lengths >= least - CLOSE) & (True if colour is None else self.colours == colour))
 
-    def points(self, least: float, colour: float | None = None) -> Points:
+    def points(self, least: float, colour: float | None = None) -> EndPoints:
         """The begin and end points of the same, put into order once."""
         if (least, colour) not in self._points:
             numbers = self.chosen(least, colour)
             places, owners = self.ends[numbers].reshape(-1, 3), np.repeat(numbers, 2)
             order = np.argsort(places[:, 0], kind="stable")
-            self._points[least, colour] = Points(places[order], owners[order])
+            self._points[least, colour] = EndPoints(places[order], owners[order])
         return self._points[least, colour]
 
 
 @dataclass(frozen=True)
-class Stand:
+class Query:
     """Where a module stands that asks.
 
     Attributes
@@ -115,12 +115,12 @@ class Stand:
     head: Floats
 
 
-def nearest(stand: Stand, least: float, colour: float | None = None) -> float:
+def nearest(stand: Query, least: float, colour: float | None = None) -> float:
     """How far the nearest begin or end point of another shoot is; infinite where there is none."""
     return stand.shoots.points(least, colour).nearest(stand.tip, stand.near)
 
 
-def ahead(stand: Stand, angle: float, least: float, colour: float | None = None) -> float:
+def ahead(stand: Query, angle: float, least: float, colour: float | None = None) -> float:
     """The same of the points in a cone around the heading, open by so many degrees to each side."""
     points = stand.shoots.points(least, colour)
     away = points.places - stand.tip
@@ -130,7 +130,7 @@ def ahead(stand: Stand, angle: float, least: float, colour: float | None = None)
     return float(distances[within].min(initial=math.inf))
 
 
-def overhead(stand: Stand, least: float) -> float:
+def overhead(stand: Query, least: float) -> float:
     """At how many degrees from the vertical the steepest way from the tip up to another shoot goes, seen from the front.
 
     It is 0 where a shoot passes straight above the tip, and infinite where none is above. Only the shoot itself is left out:
@@ -146,7 +146,7 @@ def overhead(stand: Stand, least: float) -> float:
     return float(np.degrees(np.arctan2(sideways, up))[up > CLOSE].min(initial=math.inf))
 
 
-def shade(stand: Stand, angle: float, least: float) -> int:
+def shade(stand: Query, angle: float, least: float) -> int:
     """How many other shoots begin in a cone above the tip, which is open by so many degrees to each side.
 
     GROGRA sums the leaves of these shoots, its N; here every shoot has 1, for leaves are not seen.
@@ -158,12 +158,12 @@ def shade(stand: Stand, angle: float, least: float) -> int:
     return int(np.count_nonzero((distances > CLOSE) & (away[:, 2] >= edge * distances - CLOSE)))
 
 
-def inclination(stand: Stand) -> float:
+def inclination(stand: Query) -> float:
     """How far the shoot leans from the vertical: 0 degrees upright, 90 level, 180 hanging."""
     return math.degrees(math.atan2(math.hypot(stand.head[0], stand.head[1]), stand.head[2]))
 
 
-class Sense(NamedTuple):
+class SensitiveFunction(NamedTuple):
     """A sensitive function: what it answers, in words; with how many values it is asked, at least and at most."""
 
     words: str
@@ -172,11 +172,11 @@ class Sense(NamedTuple):
     answer: Callable[..., Any]
 
 
-SENSES: Mapping[Value, Sense] = {
-    1: Sense("the inclination of the steepest way to a shoot above", 1, 1, overhead),
-    2: Sense("the distance to the nearest shoot", 1, 2, nearest),
-    4: Sense("the number of shoots above", 2, 2, shade),
-    7: Sense("the inclination", 0, 0, inclination),
-    9: Sense("the distance to the nearest shoot ahead", 2, 3, ahead),
+SENSITIVE_FUNCTIONS: Mapping[Value, SensitiveFunction] = {
+    1: SensitiveFunction("the inclination of the steepest way to a shoot above", 1, 1, overhead),
+    2: SensitiveFunction("the distance to the nearest shoot", 1, 2, nearest),
+    4: SensitiveFunction("the number of shoots above", 2, 2, shade),
+    7: SensitiveFunction("the inclination", 0, 0, inclination),
+    9: SensitiveFunction("the distance to the nearest shoot ahead", 2, 3, ahead),
 }
 """The sensitive functions that are known here, by their numbers."""

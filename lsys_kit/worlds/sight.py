@@ -21,34 +21,34 @@ from lsys_kit.derivation.core.rules import kind_of, number_from
 from lsys_kit.derivation.core.states import QUERIES, States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.commands import first_step
-from lsys_kit.geometry.interpreter import told_by
-from lsys_kit.geometry.space import ACTS, Flyer, Frame, Vector, first_frame, ready, strokes_of
-from lsys_kit.notation.model.arithmetic import Value, brief
+from lsys_kit.geometry.commands import initial_step
+from lsys_kit.geometry.interpreter import compile_word
+from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, TurtleFrame, Vector, initial_frame, prepared, strokes_of
+from lsys_kit.notation.model.arithmetic import Value, short_text
 from lsys_kit.notation.model.system import Module
-from lsys_kit.worlds.sensitive_functions import SENSES, Shoots, Stand
+from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoots
 
 DECIMALS = 9
 """To so many decimals is told what is measured."""
 OFTEN = 4_096
 """After so many modules somebody looks at the clock."""
-NOBODY = -1
+NO_SHOOT = -1
 """The number of the shoot before the first one."""
 
 
-class Watcher(Flyer):
+class ShootTurtle(SpaceTurtle):
     """A turtle in space that knows for each stroke from which one it grows."""
 
     __slots__ = ("mothers",)
 
-    def __init__(self, frame: Frame, step: float) -> None:
+    def __init__(self, frame: TurtleFrame, step: float) -> None:
         super().__init__(frame, step)
         self.mothers: list[int] = []
 
     @property
     def shoot(self) -> int:
         """The number of the last stroke on its branch."""
-        return NOBODY if self.last is None else self.last
+        return NO_SHOOT if self.last is None else self.last
 
     def go(self, length: float, drawn: bool) -> None:
         if drawn:
@@ -56,16 +56,16 @@ class Watcher(Flyer):
         super().go(length, drawn)
 
 
-class Place(NamedTuple):
+class Standpoint(NamedTuple):
     """Where a module stands that asks: the turtle's position and frame, and the last shoot."""
 
     at: Vector
-    way: Frame
+    way: TurtleFrame
     shoot: int
 
 
 @dataclass(frozen=True)
-class Seen:
+class TurtleObservation:
     """What is seen of a word.
 
     Attributes
@@ -80,7 +80,7 @@ class Seen:
 
     word: Word
     shoots: Shoots
-    places: dict[int, Place]
+    places: dict[int, Standpoint]
     _known: dict[tuple[object, ...], Value] = field(default_factory=dict, compare=False, repr=False)
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
@@ -91,29 +91,30 @@ class Seen:
         ValueError
             There is no such function, or it is not asked with so many values.
         """
-        sense = SENSES.get(function)
+        sense = SENSITIVE_FUNCTIONS.get(function)
         if sense is None:
-            raise ValueError(f"function {brief(function)} is not known; functions are {', '.join(map(str, SENSES))}")
+            known = ", ".join(map(str, SENSITIVE_FUNCTIONS))
+            raise ValueError(f"function {short_text(function)} is not known; functions are {known}")
         if not sense.least <= len(values) <= sense.most:
             asked = f"{sense.least}" if sense.least == sense.most else f"{sense.least} or {sense.most}"
-            raise ValueError(f"function {brief(function)}, {sense.words}, is asked with {asked} values, not {len(values)}")
+            raise ValueError(f"function {short_text(function)}, {sense.words}, is asked with {asked} values, not {len(values)}")
         place = self.places[position]
-        key = (position if place.shoot == NOBODY else -1, place.shoot, function, *values)
+        key = (position if place.shoot == NO_SHOOT else -1, place.shoot, function, *values)
         if key not in self._known:
             answer = sense.answer(self._stand(place), *map(float, values))
             self._known[key] = measured(answer, self.word.states.arithmetic)
         return self._known[key]
 
-    def _stand(self, place: Place) -> Stand:
-        if place.shoot == NOBODY:
-            return Stand(self.shoots, (), np.array(place.at), np.array(place.way[0]))
+    def _stand(self, place: Standpoint) -> Query:
+        if place.shoot == NO_SHOOT:
+            return Query(self.shoots, (), np.array(place.at), np.array(place.way[0]))
         start, tip = self.shoots.ends[place.shoot]
         length = self.shoots.lengths[place.shoot]
         head = (tip - start) / length if length else np.array(place.way[0])
-        return Stand(self.shoots, (place.shoot, self.shoots.mothers[place.shoot]), tip, head)
+        return Query(self.shoots, (place.shoot, self.shoots.mothers[place.shoot]), tip, head)
 
 
-def seen(word: Word, watch: Callable[[], None] = lambda: None) -> Seen:
+def observe(word: Word, watch: Callable[[], None] = lambda: None) -> TurtleObservation:
     """Look at a word.
 
     Parameters
@@ -134,26 +135,26 @@ def seen(word: Word, watch: Callable[[], None] = lambda: None) -> Seen:
     --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
-    >>> print(seen(derive(read("axiom: F(2)[+F(1)?P(0,0)]F(1)?H(0,0,0)"), 0)[0]).word)
+    >>> print(observe(derive(read("axiom: F(2)[+F(1)?P(0,0)]F(1)?H(0,0,0)"), 0)[0]).word)
     F(2)[+F(1)?P(-1,2)]F(1)?H(0,1,0)
     """
     states, system, numbers = word.states, word.states.system, word.numbers()
-    turtle = Watcher(first_frame(system.turtle, float(system.heading)), first_step(system))
-    told = told_by(word, ACTS, lambda order: ready(order, float(system.angle))).acts
+    turtle = ShootTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
+    told = compile_word(word, SPACE_ACTS, lambda order: prepared(order, float(system.angle))).acts
     asking = _asking(states, told)
-    places: dict[int, Place] = {}
+    places: dict[int, Standpoint] = {}
     for position, state in enumerate(numbers):
         if position % OFTEN == 0:
             watch()
         if state in asking:
-            places[position] = Place(turtle.at, turtle.way, turtle.shoot)
+            places[position] = Standpoint(turtle.at, turtle.way, turtle.shoot)
         for act, what in told[state]:
             act(turtle, what)
     for position, place in places.items():
         module = states.modules[numbers[position]]
         if module.symbol in QUERIES and module.arguments:
             numbers[position] = states.number(module.symbol, _answered(module, place, states.arithmetic))
-    return Seen(Word(states, numbers), Shoots(strokes_of(turtle), turtle.mothers), places)
+    return TurtleObservation(Word(states, numbers), Shoots(strokes_of(turtle), turtle.mothers), places)
 
 
 def _asking(states: States, present: Iterable[int]) -> frozenset[int]:
@@ -163,7 +164,7 @@ def _asking(states: States, present: Iterable[int]) -> frozenset[int]:
                      or any(rule.looks for rule in states.rules.get(kind_of(states.modules[state]), ())))
 
 
-def _answered(module: Module, place: Place, arithmetic: str) -> tuple[Value, ...]:
+def _answered(module: Module, place: Standpoint, arithmetic: str) -> tuple[Value, ...]:
     """The values of a query module."""
     if len(module.arguments) > 3:
         raise ModelValueError(f"{module} asks for more than the three values x, y and z")

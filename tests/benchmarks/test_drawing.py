@@ -11,7 +11,7 @@ import pytest
 
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.space import followed
+from lsys_kit.geometry.space import trace_in_space
 from lsys_kit.pictures.formats.raster import turtle_png
 from lsys_kit.pictures.svg import frame_of, turtle_svg
 
@@ -45,7 +45,7 @@ def test_a_plant_put_together_from_pieces(benchmark, model, steps, goal):
 def test_module_by_module_in_space(benchmark):
     """The bush of The Algorithmic Beauty of Plants, figure 1.25."""
     word = derive(BUSH, 6, arithmetic="float")[-1]
-    scene = benchmark(lambda: followed(word))
+    scene = benchmark(lambda: trace_in_space(word))
     assert scene.dimension == 3
 
 

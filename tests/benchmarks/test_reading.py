@@ -18,7 +18,7 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.expressions import Expression, is_random
 from lsys_kit.notation.model.system import LSystem, Module, flat
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import NOTATIONS, recognised
+from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write
 from tests.plants import plant
@@ -27,7 +27,7 @@ MOST_MS, MOST_SECONDS = 0.3, 2.0
 MILLION = 1_000_000
 MOST = 49_000
 """How many characters are read in every notation, even where they are one statement."""
-WITH_EXPRESSIONS = [name for name in NOTATIONS if name not in ("plant-string", "fractint")]
+WITH_EXPRESSIONS = [name for name in DIALECTS if name not in ("plant-string", "fractint")]
 RULE = {
     "abop": "A(t) : t < {} && t > 2 -> B(t+1)[+C(2*t)]F(t^2) A(t)\n", "plant-string": "A -> I[A]A(I)AFFI[L](L)IFA[A]B(B)\n",
     "cpfg": "A(t) : t < {} && t > 2 --> B(t+1)[+C(2*t)]F(t^2)A(t)\n",
@@ -114,7 +114,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
 
     GROGRA declares random numbers on lines of their own.
     """
-    chosen = NOTATIONS[notation]
+    chosen = DIALECTS[notation]
     spelt = {chosen.module(Module("a", (expression,)))[2:-1] for id in systems() if not chosen.lacking(system(id))
              for expression in expressions(system(id)) if notation != "grogra" or not is_random(expression)}
     taken = dict.fromkeys(spelt, float("inf"))
@@ -133,7 +133,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
                         f"{milliseconds[-1]:.3f} ms", f"{MOST_MS} ms"))
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
     """Each text is recognised, then read in the notation or refused with an explanation."""
     texts, taken = million(notation), dict[str, float]()
@@ -142,7 +142,7 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
     def read_all() -> None:
         for name, text in texts.items():
             started = time.perf_counter()
-            recognised(text)
+            recognise(text)
             with suppress(LSystemError):
                 read(text, notation)
             taken[name] = time.perf_counter() - started
@@ -153,14 +153,14 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
                         f"{taken[slowest]:.2f} s", f"{MOST_SECONDS:g} s"))
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_a_model_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
     """A plant and a parametric filament where the notation can express it: from text to system."""
-    texts = [write(each, notation) for each in (plant(notation), system("P4")) if not NOTATIONS[notation].lacking(each)]
+    texts = [write(each, notation) for each in (plant(notation), system("P4")) if not DIALECTS[notation].lacking(each)]
     assert benchmark(lambda: [read(text, notation) for text in texts])
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_the_largest_model_that_is_read(notation: str) -> None:
     """The productions of the long texts are what they are taken for; Fractint makes one of all that are for one symbol."""
     found = read(million(notation)["the most that is read"], notation).productions

@@ -12,7 +12,7 @@ import statistics
 import pytest
 
 from lsys_kit import draw, explore, read, system
-from lsys_kit.classroom.panel.view_model import Study
+from lsys_kit.classroom.panel.view_model import ViewModel
 
 WATCH = """async ([panel, canvas]) => {
     window.latencies = [];
@@ -50,7 +50,7 @@ def test_a_slider_moves_on(benchmark, id):
 @pytest.mark.parametrize("step", [5, 7])
 def test_a_plant_is_turned_in_the_kernel(benchmark, step):
     """The static picture of a plant in space from one side after the other: 363 and 3,279 segments."""
-    study, sides = Study(read("angle: 22.5\naxiom: A\nA -> [&FA]/(120)[&FA]/(120)[&FA]")), itertools.cycle(range(0, 360, 5))
+    study, sides = ViewModel(read("angle: 22.5\naxiom: A\nA -> [&FA]/(120)[&FA]/(120)[&FA]")), itertools.cycle(range(0, 360, 5))
     assert benchmark(lambda: study.sight(step, {}, around=next(sides), above=10).picture.svg)
 
 

@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, Page, expect
 from lsys_kit import derive, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.pictures.view import seen
+from lsys_kit.pictures.view import project
 from tests.browser.lab import OpenNotebook
 
 CROOKED = "axiom: F(4)[&(60)F(3)][+(50)F(2)]^(30)F(2)/(40)&(50)F"
@@ -132,7 +132,7 @@ def test_sliders_turn_a_plant_and_steps_keep_the_side(shown):
 
 
 def test_the_browser_sees_what_the_kernel_sees(shown):
-    """Points on every stroke, as `seen` has them, are inked where the canvas has drawn the plant."""
+    """Points on every stroke, as `project` has them, are inked where the canvas has drawn the plant."""
     notebook = shown(f"from lsys_kit import explore, read\nexplore(read({CROOKED!r}), 0)")
     canvas, panel = canvas_of(notebook), notebook.output(1).locator(".lsys-explorer")
     scene = scene_of(derive(read(CROOKED), 0))
@@ -143,7 +143,7 @@ def test_the_browser_sees_what_the_kernel_sees(shown):
             box.press("Enter")
         expect_view(canvas, around, above)
         inked = np.array(canvas.evaluate(INK)).reshape(-1, 2).astype(float)
-        assert farthest(seen(scene, around, above).segments.ends, inked) < 3
+        assert farthest(project(scene, around, above).segments.ends, inked) < 3
 
 
 def farthest(ends: Floats, inked: Floats) -> float:

@@ -14,7 +14,7 @@ from lsys_kit.classroom.panel.canvas import packed
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import CIRCLE
 from lsys_kit.geometry.space import in_plane
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.turtle import place_path, trace
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.svg import shape_colours
 
@@ -47,8 +47,8 @@ def word_of(text):
 def sent(word, angle=25.0):
     """The scene of a word, and what the canvas gets of it, unpacked as the canvas does it."""
     flat = in_plane(word.states.system)
-    path = traced(word) if flat else None
-    scene = placed(path, angle) if flat else scene_of(word, angle)
+    path = trace(word) if flat else None
+    scene = place_path(path, angle) if flat else scene_of(word, angle)
     traits = packed(scene, path, state_colours(word))
     return scene, traits, unpacked(traits["shapes"], angle if flat else None)
 

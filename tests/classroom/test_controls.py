@@ -5,11 +5,11 @@ from fractions import Fraction
 import pytest
 
 from lsys_kit import read, system
-from lsys_kit.classroom.panel.controls import control, spans
+from lsys_kit.classroom.panel.controls import control, slider_ranges
 
 
 def of(text, **changes):
-    return spans(read(f"{text}\naxiom: A(0)\nA(t) : t + c < 9 -> A(t+c)"), changes)
+    return slider_ranges(read(f"{text}\naxiom: A(0)\nA(t) : t + c < 9 -> A(t+c)"), changes)
 
 
 def test_a_declared_range_is_the_sliders():
@@ -30,7 +30,7 @@ def test_a_constant_without_a_range_gets_one_around_its_value(value, low, high):
 
 
 def test_a_constant_that_is_only_told_apart_has_no_slider():
-    assert spans(system("P4"), {}) == {}
+    assert slider_ranges(system("P4"), {}) == {}
 
 
 def test_every_reading_of_a_slider_is_an_exact_value():

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from lsys_kit.classroom.course import MANIFEST, Copied, copy_course, course_files, told
+from lsys_kit.classroom.course import MANIFEST, Copied, copy_course, copy_report, course_files
 from lsys_kit.errors import ModelFileError
 
 LESSON, EXERCISE = "notebooks/01_lesson.ipynb", "exercises/01_exercise.ipynb"
@@ -72,7 +72,7 @@ def test_news_of_a_changed_lesson_stand_beside_it_once(kit, mine):
     copied = copy_course(mine, kit)
     beside = LESSON.replace(".ipynb", ".new.ipynb")
     assert contents(mine) == {LESSON: "my work", beside: "version 2", EXERCISE: "version 1"}
-    assert f"{LESSON} is your own and kept; its new version is {beside}." in told(mine, copied)
+    assert f"{LESSON} is your own and kept; its new version is {beside}." in copy_report(mine, copied)
     (mine / beside).unlink()
     assert what(copy_course(mine, kit))[LESSON] == "kept"
     assert beside not in contents(mine)

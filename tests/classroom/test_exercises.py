@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import ModelNameError, ModelValueError, check, derive, read, system
-from lsys_kit.classroom.exercises.answers import KINDS, leftmost_only, one_after_another
+from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, leftmost_only, sequential
 from lsys_kit.classroom.exercises.check import exercise_of, lessons
 from lsys_kit.classroom.exercises.differences import proved_equal
-from lsys_kit.classroom.exercises.notebooks import sheet, write_sheets
+from lsys_kit.classroom.exercises.notebooks import exercise_notebook, write_notebooks
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.read import read_expression
@@ -27,7 +27,7 @@ J1 = "ar -> al br\nal -> bl ar\nbr -> ar\nbl -> al"
 
 def test_three_exercises_for_each_of_the_first_two_lessons():
     assert IDS[:6] == ["1.1", "1.2", "1.3", "2.1", "2.2", "2.3"]
-    assert {exercise.kind for exercise in EXERCISES} == set(KINDS)
+    assert {exercise.kind for exercise in EXERCISES} == set(ANSWER_KINDS)
 
 
 @pytest.mark.parametrize("id", IDS)
@@ -70,14 +70,14 @@ def test_a_word_that_the_kit_derived_is_an_answer():
 
 def test_rewriting_one_production_after_another_is_named():
     states = States(read(f"axiom: bl\n{J1}"))
-    word = " ".join(states.modules[state].symbol for state in one_after_another(states, 4))
+    word = " ".join(states.modules[state].symbol for state in sequential(states, 4))
     assert check("1.1", word).said == "Not yet"
     assert "All modules are rewritten at the same time" in check("1.1", word).message
 
 
 def test_the_sequential_rewriter_doubles_what_should_grow_as_fibonacci():
     states = States(read("axiom: a\na -> ab\nb -> a"))
-    assert [len(one_after_another(states, n)) for n in range(7)] == [1, 2, 4, 8, 16, 32, 64]
+    assert [len(sequential(states, n)) for n in range(7)] == [1, 2, 4, 8, 16, 32, 64]
     assert derive(states.system, 6).lengths == [1, 2, 3, 5, 8, 13, 21]
 
 
@@ -307,7 +307,7 @@ def test_a_box_shows_what_was_typed_as_text():
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda lesson: lesson.name)
 def test_rebuilding_a_sheet_changes_no_byte(lesson, tmp_path):
-    written = {path.name: path.read_bytes() for path in write_sheets(tmp_path)}
+    written = {path.name: path.read_bytes() for path in write_notebooks(tmp_path)}
     assert (FOLDER / f"{lesson.name}.ipynb").read_bytes() == written[f"{lesson.name}.ipynb"]
 
 
@@ -315,7 +315,7 @@ def test_rebuilding_a_sheet_changes_no_byte(lesson, tmp_path):
 def test_a_sheet_is_a_notebook_with_short_cells_one_title_and_a_way_back(lesson):
     import nbformat
 
-    notebook = json.loads(sheet(lesson))
+    notebook = json.loads(exercise_notebook(lesson))
     nbformat.validate(notebook)
     assert notebook["nbformat_minor"] == 5
     text = "".join("".join(cell["source"]) + "\n" for cell in notebook["cells"] if cell["cell_type"] == "markdown")

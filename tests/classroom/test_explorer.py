@@ -11,7 +11,7 @@ from PIL import Image
 from lsys_kit import LSystemError, ModelValueError, derive, draw, explore, limits, read, system
 from lsys_kit.classroom.panel import view_model as study
 from lsys_kit.classroom.panel.canvas import widget_classes
-from lsys_kit.classroom.panel.word_view import SHOWN, word_html
+from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
 from lsys_kit.derivation.core.states import States
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
@@ -209,7 +209,7 @@ def test_without_anywidget_a_plant_is_turned_by_sliders(without_anywidget, slide
 def test_a_long_word_is_shortened_in_the_middle_with_its_length():
     html = word_html(derive(system("K5"), 4)[-1])
     assert 'aria-label="Word of 1,561 modules"' in html
-    assert f"{1561 - SHOWN:,} more" in html
+    assert f"{1561 - MOST_MODULES_SHOWN:,} more" in html
 
 
 def test_a_system_of_ones_own_is_explored_too():

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import pytest
 
 from lsys_kit import read
-from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.registry import DIALECTS
 from tests.classroom.test_typeset import harmless
 from tests.plants import plant
 from tests.test_trust import HOSTILE
@@ -100,7 +100,7 @@ def test_a_notation_may_be_insisted_on(notebook):
     assert "in the notation plant-string" in seen.text
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_every_notation_is_understood(notebook, notation):
     from lsys_kit import write
 

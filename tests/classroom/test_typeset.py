@@ -13,7 +13,7 @@ import pytest
 from lsys_kit import derive, limits, read, system, systems
 from lsys_kit.classroom.typeset import FIRST_MODULES, FIRST_STEPS, MOST_RULES, first_words, formula, shown
 from lsys_kit.notation.read import read_expression
-from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.registry import DIALECTS
 from tests.plants import plant
 
 TAGS = frozenset(("div", "b", "i", "u", "span", "pre", "table", "tbody", "tr", "td", "sub", "sup", "br"))
@@ -82,7 +82,7 @@ def test_the_first_words_are_those_of_the_derivation(id):
     assert len(words) == FIRST_STEPS + 1 or len(derive(system(id), len(words))[-1]) > FIRST_MODULES
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_the_notation_is_named(notation):
     from dataclasses import replace
 

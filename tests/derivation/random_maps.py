@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from lsys_kit.notation.model.maps import OTHER_SIDE, Edge, EdgeProduction, MapSystem, Marker, Part
+from lsys_kit.notation.model.maps import OTHER_SIDE, Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 
 LABELS = ("A", "B", "C", "x1")
 
@@ -16,27 +16,27 @@ edges = st.one_of(neutral, directed)
 markers = st.builds(Marker, st.sampled_from("+-"), st.one_of(neutral, neutral, directed))
 
 
-def _other_end(part: Part) -> Part:
+def _other_end(part: SuccessorPart) -> SuccessorPart:
     return part.turned if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
 
 
 @st.composite
-def successors(draw: st.DrawFn) -> tuple[Part, ...]:
+def successors(draw: st.DrawFn) -> tuple[SuccessorPart, ...]:
     """Walls with markers between them."""
-    parts: list[Part] = [draw(edges)]
+    parts: list[SuccessorPart] = [draw(edges)]
     for _ in range(draw(st.integers(0, 2))):
         parts += (*draw(st.lists(markers, max_size=3)), draw(edges))
     return tuple(parts)
 
 
 @st.composite
-def palindromes(draw: st.DrawFn) -> tuple[Part, ...]:
+def palindromes(draw: st.DrawFn) -> tuple[SuccessorPart, ...]:
     """The same from both ends: half of it, something in the middle that is, and the half from the other end."""
     half = draw(successors())
     mirrored = tuple(_other_end(part) for part in reversed(half))
     between = draw(st.lists(markers, max_size=2))
     if draw(st.booleans()):
-        middle: tuple[Part, ...] = draw(neutral),
+        middle: tuple[SuccessorPart, ...] = draw(neutral),
         between_too = [_other_end(part) for part in reversed(between)]
         return (*half, *between, *middle, *between_too, *mirrored)
     return (*half, *between, *(_other_end(part) for part in reversed(between)), *mirrored)

@@ -12,7 +12,7 @@ from itertools import chain
 
 from hypothesis import strategies as st
 
-from lsys_kit.notation.model.arithmetic import Value, tidy
+from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.system import Constant, Item, LSystem, MetaRule, Module, Production, Repeat
 
@@ -24,7 +24,7 @@ CONSTANTS = ("k", "lifeTime")
 RELATIONS = ("==", "!=", "<", "<=", ">", ">=")
 
 numbers: st.SearchStrategy[Value] = st.one_of(
-    st.integers(0, 3), st.sampled_from((Fraction(1, 2), Fraction(7, 10), Fraction(-1), Fraction(1, 4)))).map(tidy)
+    st.integers(0, 3), st.sampled_from((Fraction(1, 2), Fraction(7, 10), Fraction(-1), Fraction(1, 4)))).map(normalised)
 
 
 @st.composite

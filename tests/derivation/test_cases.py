@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from lsys_kit.derivation.core.interpretation import images
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
@@ -101,7 +101,7 @@ def test_what_is_drawn_is_what_cpfg_draws(name: str) -> None:
     for step in CASES[name]["steps_after_homomorphism"]:
         derivation = derive(KIT[name], step["n"])
         numbers = list(derivation[-1].numbers())
-        drawn = images(derivation.states, numbers)
+        drawn = interpretations(derivation.states, numbers)
         text = printed((m.symbol, m.arguments) for number in numbers for m in drawn[number])
         assert text == step.get("string", text)
         assert sum(len(drawn[number]) for number in numbers) == step["modules"]

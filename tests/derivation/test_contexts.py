@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import lsys_kit.derivation.engines.contexts as bulk
 import lsys_kit.derivation.engines.engines as courses
-from lsys_kit.derivation.core.matching import NOBODY, neighbours
+from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, neighbours
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.read import read
 
@@ -36,19 +36,19 @@ CHANCE = "axiom: F F F F F\nF -> F [+ F] F [- F] F : 0.33\nF -> F [+ F] F : 0.33
 def test_neighbours_are_found_at_once(word: str) -> None:
     """Of modules that are passed over as well: they may have contexts of their own."""
     places = np.arange(len(word))
-    left, right = bulk.beside(places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NOBODY)
+    left, right = bulk.context_neighbours(places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NO_NEIGHBOUR)
     found, modules = neighbours(word, "+-"), np.array([symbol not in "[]" for symbol in word], dtype=bool)
     assert left[modules].tolist() == np.array(found.before, dtype=int)[modules].tolist()
     assert right[modules].tolist() == np.array(found.after, dtype=int)[modules].tolist()
 
 
-@pytest.mark.parametrize("table", [bulk.TABLE, 0], ids=["looked up", "sorted"])
+@pytest.mark.parametrize("table", [bulk.LARGEST_TABLE, 0], ids=["looked up", "sorted"])
 @pytest.mark.parametrize(("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6)], ids=["signals", "growing", "chance"])
 def test_a_step_at_once_is_the_step_one_by_one(monkeypatch, text, steps, table):
     system = read(text)
     monkeypatch.setattr(courses, "BULK", 10**9)
     one_by_one = [str(word) for word in derive(system, steps, seed=5)]
     monkeypatch.setattr(courses, "BULK", 0)
-    monkeypatch.setattr(bulk, "TABLE", table)
+    monkeypatch.setattr(bulk, "LARGEST_TABLE", table)
     assert [str(word) for word in derive(system, steps, seed=5)] == one_by_one
     assert len(one_by_one[-1]) > 100

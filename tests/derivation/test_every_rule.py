@@ -11,7 +11,7 @@ from statistics import mean, stdev
 
 import pytest
 
-from lsys_kit.derivation.core.interpretation import images
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.model.system import LSystem, Module
 from lsys_kit.notation.read import read, read_word
@@ -276,7 +276,7 @@ def test_the_filament_grows_without_a_jump() -> None:
     assert [list(word) for word in derivation] == [list(word) for word in derive(read(CELLS), 5)]
     lengths = []
     for word in derivation:
-        drawn = images(derivation.states, list(word.numbers()))
+        drawn = interpretations(derivation.states, list(word.numbers()))
         lengths.append(sum(float(m.arguments[0]) for number in word.numbers() for m in drawn[number]))  # type: ignore[arg-type]
     assert lengths == pytest.approx([1, 1.7185, 2.9532, 5.0749, 8.7212, 14.9872], abs=1e-4)
 

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit.derivation.derive import derive
-from lsys_kit.notation.analysis.lint import idle
+from lsys_kit.notation.analysis.lint import unused_productions
 from lsys_kit.notation.model.system import END, LSystem, Module, Production, symbols
 from lsys_kit.notation.read import read_word
 from tests.derivation import reference
@@ -66,7 +66,7 @@ def test_an_empty_branch_is_one_that_ends_at_once() -> None:
 def test_the_end_of_a_branch_is_no_module() -> None:
     system = LSystem(read_word("A[B]"), (Production(Module("A"), (), right=tuple(map(Module, ("[", "B", END, "]")))),))
     assert END not in symbols(system)
-    assert idle(system) == []
+    assert unused_productions(system) == []
 
 
 def with_ends(word: tuple[Module, ...], ends: Iterator[bool], end: str) -> tuple[Module, ...]:

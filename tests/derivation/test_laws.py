@@ -110,7 +110,7 @@ def test_the_last_word_is_the_same_without_those_between(system: LSystem, steps:
 def test_the_way_a_word_is_built_does_not_show(system: LSystem, plain_up_to: int, piece: int) -> None:
     expected = [plain(word) for word in exact(derive(system, STEPS))]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(engine, "PLAIN", plain_up_to)
+        patch.setattr(engine, "MOST_LISTED", plain_up_to)
         patch.setattr(expansion, "PIECE", piece)
         assert [plain(word) for word in reversed(derive(system, STEPS))] == expected[::-1]
         assert [plain(word) for word in derive(system, STEPS)] == expected
@@ -260,7 +260,7 @@ def test_words_in_bulk_are_those_of_one_by_one(kinds: tuple[str, ...], data: st.
     system = data.draw(systems_with(*kinds))
     expected = defined(system, seed)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(engine, "PLAIN", 3)
+        patch.setattr(engine, "MOST_LISTED", 3)
         patch.setattr(engine, "BULK", 0)
         assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
 

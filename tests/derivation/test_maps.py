@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.maps.development import Development, developed
-from lsys_kit.derivation.maps.divisions import stepped
+from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.maps.divisions import map_step
 from lsys_kit.derivation.maps.map import Map, cell_words, least_rotation
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
@@ -28,10 +28,10 @@ K30 = "map: {}\nA> -> D>[-A>]B>\nB> -> B>\nC> -> B>[-A<]B>\nD> -> C>"
 
 def maps_of(system: MapSystem) -> Development:
     """The first maps, as long as they are small."""
-    maps = developed(system, 0)
+    maps = develop(system, 0)
     with limits(modules=500), suppress(ModelLimitError):
         for step in range(1, STEPS + 1):
-            maps = developed(system, step)
+            maps = develop(system, step)
     return maps
 
 
@@ -109,7 +109,7 @@ def _flipped(cell, found):  # type: ignore[no-untyped-def]
 
 def next_words(found: Map, system: MapSystem) -> str:
     with limits(modules=1_000_000):
-        return str(stepped(found, {production.predecessor: production for production in system.productions}, 1, float("inf")))
+        return str(map_step(found, {production.predecessor: production for production in system.productions}, 1, float("inf")))
 
 
 @given(map_systems())

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from lsys_kit.derivation.core.closure import closure
-from lsys_kit.derivation.core.interpretation import images, is_filament
+from lsys_kit.derivation.core.interpretation import interpretations, is_filament
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.system import LSystem, Module, Production
@@ -76,7 +76,7 @@ def test_a_table_that_ends_is_closed() -> None:
 
 def test_drawing_rules_leave_the_table_alone() -> None:
     states = States(read("axiom: A(2) B\ninterpretation:\nA(t) : t > 1 -> F(t/3)[C]\nA(t) -> F"))
-    drawn = images(states, (*states.axiom, *states.axiom))
+    drawn = interpretations(states, (*states.axiom, *states.axiom))
     assert [" ".join(map(str, image)) for image in drawn.values()] == ["F(2/3) [ C ]", "B"]
     assert len(states) == 2
     assert states.inexact is None

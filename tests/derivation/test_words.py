@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lsys_kit.derivation.core.words import Word, shortened, state_counts
+from lsys_kit.derivation.core.words import Word, abridged, state_counts
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.model.system import Module
 from lsys_kit.notation.read import read
@@ -80,7 +80,7 @@ def test_symbols_are_counted_whatever_their_values() -> None:
 def test_a_long_word_is_shortened_in_its_middle() -> None:
     word = derive(KOCH, 5)[-1]
     assert repr(derive(KOCH, 2)[-1]) == str(derive(KOCH, 2)[-1])
-    assert shortened(word, 21) == f"{str(word)[:10]} ... {str(word)[-10:]} ({len(word):,} modules)"
+    assert abridged(word, 21) == f"{str(word)[:10]} ... {str(word)[-10:]} ({len(word):,} modules)"
     assert len(repr(word)) < 2_050
 
 
@@ -88,7 +88,7 @@ def test_a_long_word_is_shortened_in_its_middle() -> None:
 def test_a_word_that_fits_is_shown_whole(characters: int) -> None:
     for system in (AGEING, KOCH):
         word = derive(system, 2)[-1]
-        said = shortened(word, characters)
+        said = abridged(word, characters)
         assert said == str(word) if len(str(word)) <= characters else said.endswith(f" ({len(word)} modules)")
 
 

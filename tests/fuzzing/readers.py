@@ -62,9 +62,9 @@ def fuzz(notation: str, folder: str, seconds: int) -> None:
 
 def main(seconds: int, *notations: str) -> int:
     """Fuzz the readers one after another, each in a process of its own; 0 if all is well."""
-    from lsys_kit.notation.registry import NOTATIONS
+    from lsys_kit.notation.registry import DIALECTS
 
-    for notation in notations or tuple(NOTATIONS):
+    for notation in notations or tuple(DIALECTS):
         with tempfile.TemporaryDirectory() as folder:
             seeds(notation, Path(folder))
             run = subprocess.run([sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(seconds)],

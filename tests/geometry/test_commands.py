@@ -10,8 +10,8 @@ import sympy
 
 from lsys_kit import ModelValueError, derive, read
 from lsys_kit.geometry import space, turtle
-from lsys_kit.geometry.commands import COMMANDS, TABLE, orders, unknown
-from lsys_kit.geometry.space import followed, in_plane
+from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
+from lsys_kit.geometry.space import in_plane, trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module
 
@@ -20,19 +20,19 @@ README = Path(__file__).parents[2] / "README.md"
 
 def test_a_symbol_means_one_thing_in_a_tradition():
     for column in range(len(COMMANDS)):
-        assert max(Counter(symbol for row in TABLE for symbol in row.symbols[column].split()).values()) == 1
+        assert max(Counter(symbol for row in COMMAND_TABLE for symbol in row.symbols[column].split()).values()) == 1
 
 
 def test_each_command_is_one_that_the_turtle_in_space_follows():
-    commands = [command for row in TABLE for command in row.commands]
-    assert {name for command in commands for name in (command.action, command.bare) if name} <= space.ACTS.keys()
+    commands = [command for row in COMMAND_TABLE for command in row.commands]
+    assert {name for command in commands for name in (command.action, command.bare) if name} <= space.SPACE_ACTS.keys()
 
 
 def test_each_command_that_stays_in_the_plane_is_one_that_the_turtle_there_follows():
     for tradition, column in COMMANDS.items():
         for symbol, commands in column.items():
             if in_plane(LSystem((Module(symbol, (Number(180),)),), (), turtle=tradition)):
-                assert {command.action for command in commands} <= turtle.ACTS.keys()
+                assert {command.action for command in commands} <= turtle.PLANE_ACTS.keys()
 
 
 @pytest.mark.parametrize("symbol", ["F", "f", "G", "g", "@M", "+", "-", "&", "^", "\\", "/", "|", "$", "@v", ";", ",", "#", "!",
@@ -58,7 +58,7 @@ def test_fractint_has_those_of_its_documentation():
 
 def order(command, tradition="abop"):
     symbol, *values = command
-    (found,) = orders({0: (Module(symbol, tuple(values)),)}, tradition)[0]
+    (found,) = instructions({0: (Module(symbol, tuple(values)),)}, tradition)[0]
     return found.action, found.factor, found.addend
 
 
@@ -86,22 +86,22 @@ def test_an_argument_of_a_command_with_plus_or_times_changes_it():
 @pytest.mark.parametrize("value", [1e60, 10**400, sympy.Symbol("t")])
 def test_a_value_that_cannot_be_drawn_is_an_error_that_names_the_module(value):
     with pytest.raises(ModelValueError, match=r"^F\(.*cannot be drawn: a value is out of reach, or not known"):
-        orders({0: (Module("F", (value,)),)}, "abop")
+        instructions({0: (Module("F", (value,)),)}, "abop")
 
 
 def test_what_looks_like_a_command_and_is_none_is_listed_once():
     drawn = {0: [Module(symbol) for symbol in ("F", "A", "&", "k", "@o", "&")], 1: [Module("&"), Module("=")]}
-    assert unknown(drawn, LSystem((), (), turtle="grogra")) == ("&", "@o", "=")
-    assert followed(derive(read("turtle: grogra\naxiom: F & F & A"), 0)[0]).unknown == ("&",)
+    assert unknown_commands(drawn, LSystem((), (), turtle="grogra")) == ("&", "@o", "=")
+    assert trace_in_space(derive(read("turtle: grogra\naxiom: F & F & A"), 0)[0]).unknown == ("&",)
 
 
 def test_commands_of_another_tradition_are_listed_but_not_single_letters():
     drawn = {0: [Module(symbol) for symbol in ("RH", "L", "L*", "I", "D", "P", "bud", "RU")]}
-    assert unknown(drawn, LSystem((), ())) == ("RH", "L*")
+    assert unknown_commands(drawn, LSystem((), ())) == ("RH", "L*")
 
 
 def test_a_symbol_that_productions_rewrite_is_not_listed():
-    assert followed(derive(read("axiom: # RH @\n@ -> RH\nRH -> @"), 1)[-1]).unknown == ()
+    assert trace_in_space(derive(read("axiom: # RH @\n@ -> RH\nRH -> @"), 1)[-1]).unknown == ()
 
 
 def cell(symbols):
@@ -109,5 +109,5 @@ def cell(symbols):
 
 
 def test_the_readme_says_what_the_commands_mean():
-    lines = [f"| {' | '.join(map(cell, row.symbols))} | {row.words} |" for row in TABLE]
+    lines = [f"| {' | '.join(map(cell, row.symbols))} | {row.words} |" for row in COMMAND_TABLE]
     assert "\n".join(lines) in README.read_text(encoding="utf-8")

@@ -13,16 +13,16 @@ from hypothesis import strategies as st
 
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.instancing import drawn_at_once
+from lsys_kit.geometry.instancing import draw_instanced
 from lsys_kit.geometry.scene import OWN, Scene
-from lsys_kit.geometry.space import followed
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.space import trace_in_space
+from lsys_kit.geometry.turtle import place_path, trace
 
 
 def scene(text: str, parts: int) -> Scene:
     """What a turtle draws that follows a word, where a full turn has so many parts."""
     word = derive(read(f"Angle {parts}\nAxiom {text}", "fractint"), 0)[0]
-    return placed(traced(word), 360 / parts, 0)
+    return place_path(trace(word), 360 / parts, 0)
 
 
 COMMANDS = ["F", "G", "D", "M", "+", "-", "|", "!", "A", ("\\", 30), ("\\", 12.5), ("/", 90), ("@", 0.5), ("@I", 0.5),
@@ -78,7 +78,7 @@ def test_the_turtle_draws_as_fractint(word, parts):
 @given(branched, st.integers(3, 50))
 def test_the_turtle_in_space_draws_the_same(word, parts):
     text = "".join(symbol + ("" if x is None else str(x)) for symbol, x in word)
-    whole = followed(derive(read(f"Angle {parts}\nAxiom A{text}", "fractint"), 0)[0])
+    whole = trace_in_space(derive(read(f"Angle {parts}\nAxiom A{text}", "fractint"), 0)[0])
     ends = scene(f"A{text}", parts).segments.ends
     assert np.allclose(whole.segments.ends[:, [0, 2, 3, 5]], ends, atol=1e-9 * (1 + np.abs(ends).max(initial=0)))
     assert np.allclose(whole.segments.ends[:, [1, 4]], 0, atol=1e-9 * (1 + np.abs(ends).max(initial=0)))
@@ -91,9 +91,9 @@ def test_the_turtle_in_space_draws_the_same(word, parts):
 ])
 def test_what_is_drawn_at_once_is_what_a_turtle_draws(text, steps, at_once):
     derivation = derive(read(text, "fractint"), steps)
-    pieces = drawn_at_once(derivation, steps, float(derivation.states.system.angle))
+    pieces = draw_instanced(derivation, steps, float(derivation.states.system.angle))
     assert (pieces is not None) == at_once
-    walked = placed(traced(derivation[-1]), float(derivation.states.system.angle), 0)
+    walked = place_path(trace(derivation[-1]), float(derivation.states.system.angle), 0)
     assert np.allclose(scene_of(derivation, None).segments.ends, walked.segments.ends, atol=1e-9 * 3**steps)
 
 

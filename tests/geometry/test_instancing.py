@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 import lsys_kit.geometry.instancing as pieces
 from lsys_kit import derive, limits, read
-from lsys_kit.geometry.instancing import drawn_at_once
+from lsys_kit.geometry.instancing import draw_instanced
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.space import followed, in_plane
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.space import in_plane, trace_in_space
+from lsys_kit.geometry.turtle import place_path, trace
 from lsys_kit.notation.model.system import LSystem
 
 PLANE = ("F", "f", "+", "-", "F(2)", "+(33)", "|", "!(2)", ";", "A", "B", "@o", "@c(3)", "[+A]", "[F-B]")
@@ -43,7 +43,7 @@ def agree(one: Scene, other: Scene) -> None:
 def at_once(system: LSystem, steps: int) -> Scene | None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pieces, "OFTEN", 0)
-        return drawn_at_once(derive(system, steps), steps, float(system.angle))
+        return draw_instanced(derive(system, steps), steps, float(system.angle))
 
 
 @given(words(PLANE), words(PLANE), words(PLANE), words(PLANE), st.sampled_from((90, 60, 25.7)), st.integers(0, 4))
@@ -55,7 +55,7 @@ def test_in_the_plane(axiom: str, a: str, b: str, f: str, angle: float, steps: i
     found = at_once(system, steps)
     assert found is not None
     assert found.dimension == 2
-    agree(found, placed(traced(derive(system, steps)[-1]), float(system.angle), float(system.heading)))
+    agree(found, place_path(trace(derive(system, steps)[-1]), float(system.angle), float(system.heading)))
 
 
 @given(words(SPACE), words(SPACE), words(SPACE), words(SPACE), st.integers(0, 4))
@@ -66,7 +66,7 @@ def test_in_space(axiom: str, a: str, b: str, f: str, steps: int) -> None:
     found = at_once(system, steps)
     assert found is not None
     assert found.dimension == 3
-    agree(found, followed(derive(system, steps)[-1]))
+    agree(found, trace_in_space(derive(system, steps)[-1]))
 
 
 def test_a_step_that_shrinks_goes_with_the_turtle() -> None:
@@ -74,7 +74,7 @@ def test_a_step_that_shrinks_goes_with_the_turtle() -> None:
     system = read("* # F a,\na # L*0.5 [ RU90 F ] F RH180 a", "grogra")
     found = at_once(system, 8)
     assert found is not None
-    agree(found, placed(traced(derive(system, 8)[-1]), float(system.angle), float(system.heading)))
+    agree(found, place_path(trace(derive(system, 8)[-1]), float(system.angle), float(system.heading)))
     assert found.height == pytest.approx(200, abs=1)
 
 
@@ -87,7 +87,7 @@ def test_interpretation_rules_are_drawn() -> None:
     system = read("angle: 30\naxiom: A(1)\nA(t) -> A(t+1) [+A(t)]\ninterpretation:\nA(t) -> F(t) [-F] @o")
     found = at_once(system, 5)
     assert found is not None
-    agree(found, placed(traced(derive(system, 5)[-1]), 30))
+    agree(found, place_path(trace(derive(system, 5)[-1]), 30))
 
 
 def test_many_steps_are_no_deep_recursion() -> None:

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
-from lsys_kit.derivation.maps.development import developed
+from lsys_kit.derivation.maps.development import develop
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.geometry.map_layout import inserted, placed, polygon, scenes, tissue
-from lsys_kit.geometry.relaxation import AT_REST, NORMAL, PACE, Forces, Tissue, areas, force, relaxing
+from lsys_kit.geometry.map_layout import insert_vertices, place_maps, polygon, scenes, tissue
+from lsys_kit.geometry.relaxation import AT_REST, NORMAL, PACE, Forces, Tissue, areas, force, relax
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.maps import MapSystem
 from tests.derivation.random_maps import map_systems
@@ -39,14 +39,14 @@ def test_a_single_square_is_at_rest_where_walls_and_pressure_balance() -> None:
 
 @pytest.mark.parametrize("side", [0.05, 0.2, 0.28, 1.0, 3.0])
 def test_a_square_of_any_size_comes_to_rest_as_that_one(side: float) -> None:
-    *_, at_rest = relaxing(square(side), SQUARE)
+    *_, at_rest = relax(square(side), SQUARE)
     assert np.ptp(at_rest, axis=0) == pytest.approx([SIDE, SIDE], rel=2e-3)
 
 
 @pytest.mark.parametrize(("stiffness", "rest", "pressure"), [(2, 0.1, 0.1), (1, 0.5, 0.1), (1, 0.1, 0.4), (0.5, 0, 0.2)])
 def test_other_forces_have_another_balance(stiffness: float, rest: float, pressure: float) -> None:
     side = (rest + (rest**2 + 2 * pressure / stiffness)**0.5) / 2
-    *_, at_rest = relaxing(square(0.3), SQUARE, Forces(stiffness, rest, pressure))
+    *_, at_rest = relax(square(0.3), SQUARE, Forces(stiffness, rest, pressure))
     assert np.ptp(at_rest, axis=0) == pytest.approx([side, side], rel=5e-3)
 
 
@@ -74,8 +74,8 @@ def test_forces_turn_with_the_map(system: MapSystem, angle: float, shift: float)
 
 def test_a_force_is_the_slope_of_an_energy() -> None:
     """Walls store half their stiffness times the square of their stretch, cells the logarithm of their area."""
-    found = developed(read_map(K29), 2)[-1]
-    *_, points = placed(developed(read_map(K29), 2))
+    found = develop(read_map(K29), 2)[-1]
+    *_, points = place_maps(develop(read_map(K29), 2))
     points = points + np.random.default_rng(3).normal(0, 0.01, points.shape)
     net = tissue(found)
 
@@ -92,16 +92,16 @@ def test_a_force_is_the_slope_of_an_energy() -> None:
 
 @pytest.mark.parametrize("id", SYSTEMS)
 def test_the_maps_of_the_seed_come_to_rest_with_no_cell_inside_out(id: str) -> None:
-    maps = developed(read_map(SYSTEMS[id]), 4)
-    for found, points in zip(maps, placed(maps), strict=True):
+    maps = develop(read_map(SYSTEMS[id]), 4)
+    for found, points in zip(maps, place_maps(maps), strict=True):
         net = tissue(found)
         assert areas(points, net).min() > 0.04
         assert np.abs(pushes(points, net)).max() < 5 * AT_REST / PACE**2
 
 
 def test_new_vertices_part_their_walls_into_equal_parts() -> None:
-    maps = developed(read_map(K29), 1)
-    points = inserted(maps[1], polygon(4))
+    maps = develop(read_map(K29), 1)
+    points = insert_vertices(maps[1], polygon(4))
     assert points[:4] == pytest.approx(polygon(4))
     top_left, top_right = points[0], points[1]
     assert points[4] == pytest.approx((2 * top_left + top_right) / 3)
@@ -123,25 +123,25 @@ def test_the_first_wall_lies_on_top_and_leads_to_the_right(corners: int) -> None
 @settings(max_examples=10)
 def test_any_map_lies_somewhere(system: MapSystem) -> None:
     maps = maps_of(system)[:3]
-    for found, points in zip(maps, placed(maps), strict=True):
+    for found, points in zip(maps, place_maps(maps), strict=True):
         assert points.shape == (len(found.vertices), 2)
         assert np.isfinite(points).all()
 
 
 def test_relaxing_shows_the_way() -> None:
-    way = [*relaxing(square(0.3), SQUARE)]
+    way = [*relax(square(0.3), SQUARE)]
     assert 50 < len(way) < 500
     assert way[0] == pytest.approx(square(0.3))
     assert np.ptp(way[-1], axis=0) == pytest.approx(0.2793, abs=1e-3)
 
 
 def test_cells_of_one_kind_have_one_number() -> None:
-    maps = developed(read_map(SYSTEMS["K30"]), 4)
-    drawn = [*scenes(maps, placed(maps))]
+    maps = develop(read_map(SYSTEMS["K30"]), 4)
+    drawn = [*scenes(maps, place_maps(maps))]
     assert [scene.polygons.states.tolist() for scene in drawn] == [[0], [0, 1], [0, 1, 2], [1, 0, 2, 3], [2, 1, 0, 3, 4]]
     assert str(drawn[-1]).startswith("16 segments, 5 polygons")
 
 
 def test_what_takes_too_long_is_stopped() -> None:
     with limits(seconds=1e-9), pytest.raises(ModelLimitError, match="The cells of step 0 did not come to rest in 1e-09 s"):
-        next(placed(developed(read_map(K28), 0)))
+        next(place_maps(develop(read_map(K28), 0)))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from lsys_kit import ModelLimitError, derive, draw, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.meshes import SIDES, mesh_of
-from lsys_kit.geometry.triangulation import cut
+from lsys_kit.geometry.triangulation import triangulate
 
 BUSH = """angle: 22.5
 axiom: A
@@ -113,7 +113,7 @@ def test_an_outline_with_bays_is_parted_without_overlaps(n):
 def test_any_outline_is_parted_into_as_many_triangles_as_it_should(corners):
     points = np.array([(x, 0.0, z) for x, z in corners])
     for way in (1.0, -1.0):
-        triangles = cut(points, np.array([0.0, way, 0.0]))
+        triangles = triangulate(points, np.array([0.0, way, 0.0]))
         assert len(triangles) == len(corners) - 2
         assert {corner for triangle in triangles for corner in triangle} == set(range(len(corners)))
 
@@ -125,7 +125,7 @@ def test_a_star_is_covered_once(distances):
     shoelace = sum(ax * by - ay * bx for (ax, ay, _), (bx, by, _) in pairwise([*around, around[0]])) / 2
     points = np.array(around)
     parts = [np.cross(points[b] - points[a], points[c] - points[a])[2] / 2
-             for a, b, c in cut(points, np.array([0.0, 0.0, 1.0]))]
+             for a, b, c in triangulate(points, np.array([0.0, 0.0, 1.0]))]
     assert min(parts) >= -1e-9
     assert sum(parts) == pytest.approx(shoelace)
 

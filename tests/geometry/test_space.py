@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read, system
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.interpreter import follow
+from lsys_kit.geometry.interpreter import run_turtle
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
-from lsys_kit.geometry.space import ACTS, OFTEN, Flyer, followed, in_plane, ready
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.space import OFTEN, SPACE_ACTS, SpaceTurtle, in_plane, prepared, trace_in_space
+from lsys_kit.geometry.turtle import place_path, trace
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module, Production
 
@@ -33,7 +33,7 @@ def drawn(text, **settings):
     for part in text.split():
         symbol, _, values = part.partition("(") if part != "(" else (part, "", "")
         modules.append((symbol, *(float(value) for value in values.rstrip(")").split(",") if value)))
-    return followed(word_of(modules, **settings))
+    return trace_in_space(word_of(modules, **settings))
 
 
 def frame_after(text, **settings):
@@ -105,7 +105,7 @@ def test_the_turtles_in_the_plane_and_in_space_agree(found, angle, heading):
     tradition, modules = found
     word = word_of(modules, tradition, angle=angle, heading=heading)
     assert in_plane(word.states.system)
-    flat, whole = placed(traced(word), angle, heading), followed(word)
+    flat, whole = place_path(trace(word), angle, heading), trace_in_space(word)
     near, plane = 1e-9 * extent(whole), [0, 2]
     assert np.abs(whole.segments.ends[:, [1, 4]]).max(initial=0) <= near
     assert np.allclose(flat.segments.ends, whole.segments.ends[:, [0, 2, 3, 5]], rtol=0, atol=near)
@@ -124,7 +124,7 @@ def test_a_branch_brings_the_turtle_back(found, angle, data):
     plain = [module for module in modules if module[0] not in "{.}"]
     branch = [("[",), *data.draw(branched(STROKES[tradition] | WIDTHS[tradition] | TURNS[tradition])), ("]",)]
     at = data.draw(st.integers(0, len(plain)))
-    start, without, whole = (followed(word_of(word, tradition, angle=angle)) for word in (
+    start, without, whole = (trace_in_space(word_of(word, tradition, angle=angle)) for word in (
         plain[:at], plain, [*plain[:at], *branch, *plain[at:]]))
     before, added = len(start.segments), len(whole.segments) - len(without.segments)
     for part in ("ends", "widths", "colours", "orders"):
@@ -135,7 +135,7 @@ def test_a_branch_brings_the_turtle_back(found, angle, data):
 @given(free_words, degrees, degrees)
 def test_turning_the_start_turns_the_picture(found, angle, heading):
     tradition, modules = found
-    straight, turned = (followed(word_of(modules, tradition, angle=angle, heading=start)) for start in (90, heading))
+    straight, turned = (trace_in_space(word_of(modules, tradition, angle=angle, heading=start)) for start in (90, heading))
     cos, sin = math.cos(math.radians(heading - 90)), math.sin(math.radians(heading - 90))
     rotation = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
     near = 1e-9 * extent(straight)
@@ -153,7 +153,7 @@ def test_once_round_changes_nothing(found, data):
     tradition, modules = found
     at = data.draw(st.integers(0, len(modules)))
     round_ = data.draw(st.sampled_from(ONCE_ROUND[tradition]))
-    scenes = [followed(word_of(word, tradition, angle=72)) for word in (modules, [*modules[:at], *round_, *modules[at:]])]
+    scenes = [trace_in_space(word_of(word, tradition, angle=72)) for word in (modules, [*modules[:at], *round_, *modules[at:]])]
     assert same(*scenes)
 
 
@@ -161,13 +161,13 @@ def test_once_round_changes_nothing(found, data):
 def test_a_turn_and_its_opposite_change_nothing(modules, symbol, angle, data):
     at = data.draw(st.integers(0, len(modules)))
     there_and_back = [*modules[:at], (symbol, angle), (symbol, -angle), *modules[at:]]
-    assert same(*(followed(word_of(word, "grogra")) for word in (modules, there_and_back)))
+    assert same(*(trace_in_space(word_of(word, "grogra")) for word in (modules, there_and_back)))
 
 
 @given(branched(STROKES["abop"] | TURNS["abop"]), st.sampled_from(("+-", "&^", "\\/")), degrees)
 def test_the_commands_of_abop_come_in_opposite_pairs(modules, pair, angle):
     there_and_back = [(pair[0], angle), (pair[1], angle), *modules]
-    assert same(*(followed(word_of(word)) for word in (modules, there_and_back)))
+    assert same(*(trace_in_space(word_of(word)) for word in (modules, there_and_back)))
 
 
 @pytest.mark.parametrize(("tradition", "symbols"), [("abop", "+-&^\\/|$[]F"), ("grogra", ("+", "-", "RU", "RL", "RH", "RV", "$",
@@ -182,15 +182,15 @@ def test_a_frame_stays_orthonormal_in_a_million_commands(tradition, symbols):
     axis = [numbered["F"]], [numbered[f"{axes[0][0]}(90)"], numbered["F"]], [numbered[f"{axes[1][0]}(90)"], numbered["F"]]
     shown = [number for way in axis for number in (numbered["["], *way, numbered["]"])]
     codes = [*chance.integers(0, len(symbols), 1_000_000).tolist(), *shown]
-    ends = followed(Word(states, codes)).segments.ends[-3:]
+    ends = trace_in_space(Word(states, codes)).segments.ends[-3:]
     frame = (ends[:, 3:] - ends[:, :3]) / (1 if tradition == "abop" else 100)
     assert np.abs(frame @ frame.T - np.eye(3)).max() < 1e-9
 
 
 @pytest.mark.parametrize("symbol", ["+", "&", "/"])
 def test_a_frame_that_is_not_orthonormal_is_made_so_after_so_many_rotations(symbol):
-    turtle = Flyer(((1e-3, 0.0, 1.0), (-1.0, 2e-3, 0.0), (0.0, -1.0, 5e-4), 0), 1.0)
-    follow(turtle, word_of([(symbol, 1)] * (OFTEN + 1)), ACTS, lambda order: ready(order, 90))
+    turtle = SpaceTurtle(((1e-3, 0.0, 1.0), (-1.0, 2e-3, 0.0), (0.0, -1.0, 5e-4), 0), 1.0)
+    run_turtle(turtle, word_of([(symbol, 1)] * (OFTEN + 1)), SPACE_ACTS, lambda order: prepared(order, 90))
     frame = np.array(turtle.way[:3])
     assert frame @ frame.T == pytest.approx(np.eye(3), abs=1e-12)
     assert np.linalg.det(frame) == pytest.approx(1)
@@ -346,7 +346,7 @@ def test_a_nested_polygon_keeps_the_corners_of_the_outer_one():
 def test_brackets_do_not_end_a_polygon():
     """ABOP, section 5.2: the edges of a cordate leaf, with a triangle between neighbouring ones."""
     leaf = read("angle: 15\naxiom: [A][B]\nA -> [+A{.].C.}\nB -> [-B{.].C.}\nC -> G C")
-    scene = followed(derive(leaf, 6)[-1])
+    scene = trace_in_space(derive(leaf, 6)[-1])
     assert len(scene.polygons) == 2 * 6, "one on each side at each step"
     assert all(len(polygon) == 3 for polygon in scene.polygons)
     assert all((polygon[1] == 0).all() for polygon in scene.polygons), "all meet at the base"
@@ -398,13 +398,13 @@ def test_a_word_without_strokes_is_an_empty_scene_in_space():
 
 def test_interpretation_rules_are_drawn_and_strokes_know_their_module():
     word = derive(read("axiom: A(2) F\ninterpretation:\nA(t) -> F(t) & F"), 0)[0]
-    assert followed(word).segments.states.tolist() == [0, 0, 1]
+    assert trace_in_space(word).segments.states.tolist() == [0, 0, 1]
 
 
 def test_another_angle_may_be_asked_for():
     word = derive(read("angle: 30\naxiom: &F"), 0)[0]
-    assert followed(word).segments.ends[0, 4] == pytest.approx(0.5)
-    assert followed(word, 90).segments.ends[0, 4] == pytest.approx(1)
+    assert trace_in_space(word).segments.ends[0, 4] == pytest.approx(0.5)
+    assert trace_in_space(word, 90).segments.ends[0, 4] == pytest.approx(1)
 
 
 def listing(name, steps):
@@ -414,7 +414,7 @@ def listing(name, steps):
 
 def both(word):
     """The strokes in the plane as the turtle in space draws them, after a look at what that in the plane draws."""
-    scene, found = placed(traced(word), float(word.states.system.angle)), followed(word)
+    scene, found = place_path(trace(word), float(word.states.system.angle)), trace_in_space(word)
     assert in_plane(word.states.system)
     ends = found.segments.ends[:, [0, 2, 3, 5]]
     assert np.allclose(scene.segments.ends, ends, rtol=0, atol=1e-9 * extent(found))
@@ -478,7 +478,7 @@ def test_the_branches_of_k11_are_longer_towards_the_tip():
 
 
 def test_many_meristems_of_k12_make_a_tree_with_the_measures_of_its_rules():
-    scene = followed(listing("meristems", 15))
+    scene = trace_in_space(listing("meristems", 15))
     assert scene.corners[1][2] == pytest.approx(1400)
     assert scene.segments.widths.max() == pytest.approx(0.1 + 13 * 3)
     assert scene.dimension == 3
@@ -491,7 +491,7 @@ def test_the_dichotomy_of_k20_doubles():
 
 @pytest.mark.parametrize("step", range(5))
 def test_kochs_snowflake_closes(step):
-    ends = followed(derive(system("T2"), step)[-1]).segments.ends
+    ends = trace_in_space(derive(system("T2"), step)[-1]).segments.ends
     assert len(ends) == 3 * 4 ** step
     assert ends[-1, 3:] == pytest.approx([0, 0, 0], abs=1e-9)
 
@@ -500,12 +500,12 @@ def test_kochs_snowflake_closes(step):
 def test_the_dragon_ends_where_its_halves_say(step):
     """Its ends are sqrt(2) times as far apart at each step, and each time 45 degrees further round (ABOP, figure 1.10)."""
     dragon = read("angle: 90\nheading: 0\naxiom: F\nF -> F+G\nG -> F-G\ninterpretation:\nG -> F")
-    x, _, z = followed(derive(dragon, step)[-1]).segments.ends[-1, 3:]
+    x, _, z = trace_in_space(derive(dragon, step)[-1]).segments.ends[-1, 3:]
     assert complex(x, z) == pytest.approx((1 + 1j) ** step)
 
 
 def test_the_plant_string_of_l1_branches_to_both_sides():
-    scene = followed(derive(system("L1"), 1)[-1])  # I[A]I(I)
+    scene = trace_in_space(derive(system("L1"), 1)[-1])  # I[A]I(I)
     ends = scene.segments.ends[:, [0, 2, 3, 5]]
     made = np.hypot(*(ends[:, 2:] - ends[:, :2]).T)
     assert made == pytest.approx([1, 2 / 3, 1, 1])
@@ -517,7 +517,7 @@ def test_lychnis_stands_in_space_with_leaves_and_flowers():
     """ABOP, page 84: pairs of leaves, each at right angles to the one before."""
     lychnis = system("K19")
     assert not in_plane(lychnis)
-    scene = followed(derive(lychnis, 5)[-1])
+    scene = trace_in_space(derive(lychnis, 5)[-1])
     least, greatest = scene.corners
     assert greatest[1] - least[1] > 1
     assert len(scene.polygons) == 2 * 2 + 5, "two leaves and a flower of age 4; those on the branch are of age 0"
@@ -528,5 +528,5 @@ def test_lychnis_stands_in_space_with_leaves_and_flowers():
 @given(free_words)
 def test_the_states_of_a_word_say_what_was_drawn(found):
     word = word_of(found[1], found[0])
-    symbols = {word.states.modules[state].symbol for state in followed(word).segments.states}
+    symbols = {word.states.modules[state].symbol for state in trace_in_space(word).segments.states}
     assert symbols <= {"F", "G", "F+", "F*", "I", "A", "B", "D"}

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from lsys_kit import derive, read
-from lsys_kit.geometry.space import followed
+from lsys_kit.geometry.space import trace_in_space
 from lsys_kit.geometry.surfaces import surface_called, surfaces
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.turtle import place_path, trace
 
 
 def in_space(text, notation=None):
-    return followed(derive(read(text, notation), 0)[0])
+    return trace_in_space(derive(read(text, notation), 0)[0])
 
 
 def in_the_plane(text, notation=None):
     word = derive(read(text, notation), 0)[0]
-    return placed(traced(word), float(word.states.system.angle))
+    return place_path(trace(word), float(word.states.system.angle))
 
 
 @pytest.mark.parametrize("surface", surfaces().values(), ids=list(surfaces()))

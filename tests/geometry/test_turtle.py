@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, limits, read, system
-from lsys_kit.geometry.turtle import placed, traced
+from lsys_kit.geometry.turtle import place_path, trace
 
 
 def scene(text, angle=60.0, heading=0.0, notation=None):
-    return placed(traced(derive(read(f"axiom: {text}", notation), 0)[0]), angle, heading)
+    return place_path(trace(derive(read(f"axiom: {text}", notation), 0)[0]), angle, heading)
 
 
 def plain_turtle(text, angle, heading):
@@ -68,20 +68,20 @@ def test_a_branch_brings_the_turtle_back():
 
 @pytest.mark.parametrize("step", range(5))
 def test_the_koch_snowflake_closes(step):
-    ends = placed(traced(derive(system("T2"), step)[-1]), 60, 0).segments.ends
+    ends = place_path(trace(derive(system("T2"), step)[-1]), 60, 0).segments.ends
     assert len(ends) == 3 * 4**step
     assert ends[-1, 2:] == pytest.approx([0, 0], abs=1e-9)
 
 
 def test_the_angle_does_not_enter_the_path():
-    path = traced(derive(system("K5"), 3)[-1])
+    path = trace(derive(system("K5"), 3)[-1])
     for angle in (0, 25.7, 90):
-        assert len(placed(path, angle).segments) == 5**3
-    assert placed(path, 0).height == pytest.approx(3**3)
+        assert len(place_path(path, angle).segments) == 5**3
+    assert place_path(path, 0).height == pytest.approx(3**3)
 
 
 def test_kurths_ru_turns_clockwise_on_the_screen():
-    branch = placed(traced(derive(system("K2"), 2)[-1]), 90).segments.ends[1]
+    branch = place_path(trace(derive(system("K2"), 2)[-1]), 90).segments.ends[1]
     assert branch[2] > branch[0]
     assert branch[3] > branch[1]
 
@@ -100,7 +100,7 @@ def test_both_brackets_of_plant_strings_branch_and_their_strokes_are_thirds():
 
 
 def test_strokes_remember_their_order_and_their_state():
-    path = traced(derive(system("K5"), 1)[-1])
+    path = trace(derive(system("K5"), 1)[-1])
     assert path.orders.tolist() == [0, 1, 0, 1, 0]
     assert {derive(system("K5"), 1).states.modules[state].symbol for state in path.states} == {"F"}
 
@@ -108,7 +108,7 @@ def test_strokes_remember_their_order_and_their_state():
 def test_too_many_open_brackets_are_an_error():
     word = derive(read(f"axiom: {'[' * 20} F {']' * 20}"), 0)[0]
     with limits(brackets=10), pytest.raises(ModelLimitError, match="More than 10 brackets"):
-        traced(word)
+        trace(word)
 
 
 def test_a_word_without_strokes_is_an_empty_scene():
@@ -117,5 +117,5 @@ def test_a_word_without_strokes_is_an_empty_scene():
 
 def test_interpretation_rules_are_drawn_and_leave_the_word():
     word = derive(read("axiom: A(2)\ninterpretation:\nA(t) -> F(t) + F"), 0)[0]
-    assert len(placed(traced(word), 90).segments) == 2
+    assert len(place_path(trace(word), 90).segments) == 2
     assert str(word) == "A(2)"

@@ -23,12 +23,12 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read, read_word
-from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.worlds.derive import derive
 
 FOLDER = Path(__file__).parent
 LISTINGS: Sequence[dict[str, Any]] = tomllib.loads((FOLDER / "listings.toml").read_text(encoding="utf-8"))["listing"]
-KNOWN = [listing for listing in LISTINGS if listing["notation"] in NOTATIONS]
+KNOWN = [listing for listing in LISTINGS if listing["notation"] in DIALECTS]
 SYSTEMS = [listing for listing in KNOWN if listing["kind"] == "system"]
 Told: TypeAlias = tuple[str, tuple[Any, ...]]
 """A module as the table tells it: its symbol, its values."""

@@ -15,15 +15,24 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, brief, exact, number_text, power, reason, sound, tidy
+from lsys_kit.notation.model.arithmetic import (
+    Value,
+    bounded_exact,
+    finite,
+    normalised,
+    number_text,
+    power,
+    reason_of,
+    short_text,
+)
 from lsys_kit.notation.model.expressions import (
     OPERATORS,
     Apply,
     Expression,
     Name,
     Number,
+    expression_type,
     function_of,
-    gives,
     names_in,
     to_sympy,
 )
@@ -32,8 +41,8 @@ from tests.derivation.reference import value
 
 NAMES = ("t", "x")
 ORDER = {"t": 0, "x": 1}
-decimals = st.builds(lambda n, p: tidy(Fraction(n, 10**p)), st.integers(-99, 99), st.integers(0, 2))
-rationals = st.builds(lambda n, d: tidy(Fraction(n, d)), st.integers(-20, 20), st.integers(1, 12))
+decimals = st.builds(lambda n, p: normalised(Fraction(n, 10**p)), st.integers(-99, 99), st.integers(0, 2))
+rationals = st.builds(lambda n, d: normalised(Fraction(n, d)), st.integers(-20, 20), st.integers(1, 12))
 
 
 def grown(smaller: st.SearchStrategy[Expression]) -> st.SearchStrategy[Expression]:
@@ -109,7 +118,7 @@ def test_an_expression_reads_back(expression: Expression) -> None:
 @given(st.one_of(expressions, conditions))
 def test_names_are_those_of_the_text(expression: Expression) -> None:
     assert names_in(expression) == {name for name in NAMES if name in str(expression).replace("max", "")}
-    assert gives(expression) == ("truth" if any(sign in str(expression) for sign in "<>=!&|") else "number")
+    assert expression_type(expression) == ("truth" if any(sign in str(expression) for sign in "<>=!&|") else "number")
 
 
 DT = ("0.1", "0.2", "0.3", "0.6", "0.7", "0.9", "1.1")
@@ -163,16 +172,16 @@ def test_values_are_written_as_short_as_they_are_exact(value: Value, text: str) 
 
 
 def test_long_values_are_shortened_in_messages() -> None:
-    assert brief(Fraction(1, 3**70)) == "3.99...e-34"
-    assert brief(12345) == "12345"
+    assert short_text(Fraction(1, 3**70)) == "3.99...e-34"
+    assert short_text(12345) == "12345"
 
 
 @pytest.mark.parametrize("value", [2**5_000, Fraction(1, 2**5_000), Fraction(2**2_500, 3**1_500)])
 def test_what_is_too_long_is_refused(value: Value) -> None:
     with pytest.raises(OverflowError):
-        exact(value)
+        bounded_exact(value)
     with limits(bits=20_000):
-        assert exact(value) == value
+        assert bounded_exact(value) == value
 
 
 @pytest.mark.parametrize(("base", "exponent"), [(2, 1_001), (2, -1_001), (2**64, 999), (Fraction(1, 2**64), 999),
@@ -194,19 +203,19 @@ def test_a_power_that_is_too_large_is_refused(base: Value, exponent: Value) -> N
 def test_a_calculation_that_fails_says_why(text: str, why: str) -> None:
     with pytest.raises((ArithmeticError, ValueError)) as caught:
         function_of(read_expression(text), {})(())
-    assert reason(caught.value) == why
+    assert reason_of(caught.value) == why
 
 
 @pytest.mark.parametrize("value", [float("inf"), -math.inf, 10**400, Fraction(-(10**400), 3)])
 def test_infinity_is_no_value(value: Value) -> None:
     with pytest.raises(OverflowError):
-        sound(value)
+        finite(value)
 
 
 def test_not_a_number_is_no_value() -> None:
     with pytest.raises(ValueError, match="the result is not a number"):
-        sound(math.nan)
-    assert sound(Fraction(1, 3)) == Fraction(1, 3)
+        finite(math.nan)
+    assert finite(Fraction(1, 3)) == Fraction(1, 3)
 
 
 def test_every_operator_can_be_shown_as_mathematics() -> None:

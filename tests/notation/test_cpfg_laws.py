@@ -16,7 +16,7 @@ from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
-from lsys_kit.notation.dialects.cpfg.expressions import lacking, text_of
+from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, is_random
 from lsys_kit.notation.model.system import END, LSystem, Module, Production
 from lsys_kit.notation.read import read, read_expression, read_word
@@ -142,16 +142,16 @@ def expressions(draw: st.DrawFn, truth: bool = False, depth: int = 3) -> Express
 ])
 def test_what_binds_otherwise_in_cpfg_is_put_in_parentheses(kit: str, cpfg: str) -> None:
     expression = read_expression(kit)
-    assert text_of(expression) == cpfg
+    assert expression_text(expression) == cpfg
     assert read(f"Axiom: A\nA(t,x) --> B({cpfg})", "cpfg").productions[0].successor == (Module("B", (expression,)),)
 
 
 @given(expressions(), expressions(True))
 def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expression) -> None:
-    assume(not lacking(number) and not lacking(truth))
+    assume(not missing_function(number) and not missing_function(truth))
     made = Production(Module("A", (Name("t"), Name("x"))), (Module("B", (number, number)),), truth)
     assume(not is_random(truth))
-    text = f"Axiom: A(0,1)\nA(t,x) : {text_of(truth)} --> B({text_of(number)},{text_of(number)})"
+    text = f"Axiom: A(0,1)\nA(t,x) : {expression_text(truth)} --> B({expression_text(number)},{expression_text(number)})"
     assert read(text, "cpfg").productions == (made,)
 
 

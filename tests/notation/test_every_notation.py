@@ -12,15 +12,15 @@ import pytest
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.syntax.formatting import FEATURES
 from lsys_kit.notation.write import write
 from lsys_kit.worlds.derive import derive
 from tests.plants import plant
 
 STEPS = 4
-EVERY = [(id, notation) for notation in NOTATIONS for id in systems()]
-EXPRESSED = [(id, notation) for id, notation in EVERY if not NOTATIONS[notation].lacking(system(id))]
+EVERY = [(id, notation) for notation in DIALECTS for id in systems()]
+EXPRESSED = [(id, notation) for id, notation in EVERY if not DIALECTS[notation].lacking(system(id))]
 REFUSED = [pair for pair in EVERY if pair not in EXPRESSED]
 
 
@@ -43,14 +43,14 @@ def test_the_same_words_come_out_in_every_notation(id: str, notation: str) -> No
 
 @pytest.mark.parametrize(("id", "notation"), REFUSED)
 def test_a_refusal_names_a_feature_that_the_system_has(id: str, notation: str) -> None:
-    feature = NOTATIONS[notation].lacking(system(id))
+    feature = DIALECTS[notation].lacking(system(id))
     assert feature
     assert FEATURES.get(feature, lambda _: True)(system(id))
     with pytest.raises(ModelValueError, match=re.escape(f"The notation {notation} has no {feature}, which this system needs")):
         write(system(id), notation)
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_every_notation_expresses_a_plant(notation: str) -> None:
     assert read(write(plant(notation), notation), notation) == plant(notation)
 

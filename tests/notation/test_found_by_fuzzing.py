@@ -6,7 +6,7 @@ import pytest
 
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import NOTATIONS
+from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.write import write
 
 FOUND = {
@@ -19,7 +19,7 @@ FOUND = {
 }
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 @pytest.mark.parametrize("text", FOUND.values(), ids=FOUND)
 def test_a_text_is_read_and_reads_back_or_is_explained(text: str, notation: str) -> None:
     try:

@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.dialects.grogra.conditions import apart
+from lsys_kit.notation.dialects.grogra.conditions import exclusive
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of
 from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
 from lsys_kit.notation.read import read, read_word
-from lsys_kit.notation.registry import notation_called, recognised
+from lsys_kit.notation.registry import dialect_named, recognise
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import conditions, systems, systems_with
 
@@ -296,7 +296,7 @@ def test_of_the_rules_that_match_each_is_applied_as_often_as_grogra_says(rules: 
 def test_conditions_that_are_apart_never_hold_at_once(one: Expression, other: Expression, t: int, x: int) -> None:
     order = {"t": 0, "x": 1}
     if function_of(one, order)((t, x)) and function_of(other, order)((t, x)):
-        assert not apart(one, other)
+        assert not exclusive(one, other)
 
 
 @pytest.mark.parametrize(("one", "other", "are"), [
@@ -306,7 +306,7 @@ def test_conditions_that_are_apart_never_hold_at_once(one: Expression, other: Ex
 ])
 def test_conditions_that_compare_with_numbers_are_told_apart(one: str, other: str, are: bool) -> None:
     first, second = (rule.condition for rule in grogra(f"({one}) a(t, x) # b, ({other}) a(t, x) # c").productions)
-    assert apart(first, second) == apart(second, first) == are
+    assert exclusive(first, second) == exclusive(second, first) == are
 
 
 def test_a_meristem_dies_or_branches() -> None:
@@ -366,7 +366,7 @@ def test_a_word_prints_as_in_the_slides() -> None:
 
 
 def test_a_number_that_is_not_plain_stands_in_parentheses() -> None:
-    notation = notation_called("grogra")
+    notation = dialect_named("grogra")
     word = [Module("RU", (Fraction(1, 3),)), Module("F", (1e30,)), Module("RU", (-45,)), Module("L*", (0.5,)),
             Module("a", (1,)), Module("F", (1, 2))]
     assert notation.word(word) == "RU(1/3) F(1e+30) RU-45 L*0.5 a(1) F(1, 2)"
@@ -400,14 +400,14 @@ def test_what_the_notation_lacks_is_named(text: str, lacking: str) -> None:
 
 
 def test_no_text_has_an_empty_axiom_or_a_depth_of_decomposition() -> None:
-    assert notation_called("grogra").lacking(LSystem((), (Production(Module("a"), ()),))) == "empty axiom"
-    assert notation_called("grogra").lacking(LSystem((Module("a"),), (), decomposition_depth=2)) == "depth of decomposition"
+    assert dialect_named("grogra").lacking(LSystem((), (Production(Module("a"), ()),))) == "empty axiom"
+    assert dialect_named("grogra").lacking(LSystem((Module("a"),), (), decomposition_depth=2)) == "depth of decomposition"
 
 
 def test_whoever_else_deviates_is_no_variance() -> None:
     drawn = Apply("normal", (Number(0), Name("k")))
     system = read("k = 2\naxiom: A\nA -> F(normal(0, k))")
-    assert notation_called("grogra").lacking(system) == f"random number like {drawn}"
+    assert dialect_named("grogra").lacking(system) == f"random number like {drawn}"
 
 
 EXPRESSED: Counter[str | None] = Counter()
@@ -416,7 +416,7 @@ EXPRESSED: Counter[str | None] = Counter()
 @settings(max_examples=250)
 @given(st.one_of(systems(), systems_with(), *map(systems_with, ("context", "chance", "cut", "repetition"))))
 def test_what_is_written_reads_back_as_the_same_system(system: LSystem) -> None:
-    lacking = notation_called("grogra").lacking(system)
+    lacking = dialect_named("grogra").lacking(system)
     EXPRESSED[lacking] += 1
     if lacking is None:
         text = write(system, "grogra")
@@ -430,7 +430,7 @@ def test_many_systems_can_be_written() -> None:
 
 @given(systems_with("chance", "repetition"), st.integers(0, 9))
 def test_the_same_words_come_out(system: LSystem, seed: int) -> None:
-    if notation_called("grogra").lacking(system) is None:
+    if dialect_named("grogra").lacking(system) is None:
         with limits(modules=2_000):
             one, other = (_words(which, seed) for which in (system, grogra(write(system, "grogra"))))
         assert one == other
@@ -482,5 +482,5 @@ def test_any_text_is_a_system_or_an_explained_slip(text: str) -> None:
     "p_1 : (a_r, 1) \\rightarrow (a_l, 0)(b_r, 0)", "#define N 3\nAxiom: A\nA --> F",
 ])
 def test_other_notations_have_none_of_its_marks(text: str) -> None:
-    assert notation_called("grogra").likely(text) == 0
-    assert recognised(text).name != "grogra"
+    assert dialect_named("grogra").likely(text) == 0
+    assert recognise(text).name != "grogra"

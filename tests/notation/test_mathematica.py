@@ -15,7 +15,7 @@ from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import recognised
+from lsys_kit.notation.registry import recognise
 from lsys_kit.notation.write import write
 
 LISTINGS = Path(__file__).parents[1] / "listings"
@@ -74,7 +74,7 @@ def test_a_listing_is_recognised_as_printed_and_as_corrected(file: str) -> None:
 
 @pytest.mark.parametrize("file", [file for file in TABLE if TABLE[file]["notation"] != "mathematica"])
 def test_a_listing_in_another_notation_is_not_recognised(file: str) -> None:
-    assert recognised(printed(file)) is not MATHEMATICA
+    assert recognise(printed(file)) is not MATHEMATICA
 
 
 def test_as_printed_the_hormone_passes_one_cell_less() -> None:

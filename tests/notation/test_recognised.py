@@ -10,17 +10,17 @@ import pytest
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import NOTATIONS, recognised
+from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.write import write
 from tests.plants import plant
 
 FOLDER = Path(__file__).parents[1] / "listings"
 LISTINGS = [(listing["file"], listing["notation"])
             for listing in tomllib.loads((FOLDER / "listings.toml").read_text(encoding="utf-8"))["listing"]
-            if listing["notation"] in NOTATIONS]
+            if listing["notation"] in DIALECTS]
 ALIKE = "003-parameters.grogra.txt"
 """One production that two notations spell alike."""
-WRITTEN = [(id, name) for name, notation in NOTATIONS.items() for id in systems() if not notation.lacking(system(id))]
+WRITTEN = [(id, name) for name, notation in DIALECTS.items() for id in systems() if not notation.lacking(system(id))]
 SHORT = {
     "abop": [
         "", "axiom: A", "A -> B", "axiom: A\nA -> A B", "axiom: F\nF -> F[+F]F[-F]F", "axiom: F\nF → F F", "axiom: A\nA --> B",
@@ -57,10 +57,10 @@ SHORT = {
 
 @pytest.mark.parametrize(("file", "notation"), [row for row in LISTINGS if row[0] != ALIKE])
 def test_the_notation_of_a_listing_is_recognised(file: str, notation: str) -> None:
-    assert recognised((FOLDER / file).read_text(encoding="utf-8")).name == notation
+    assert recognise((FOLDER / file).read_text(encoding="utf-8")).name == notation
 
 
-@pytest.mark.parametrize("notation", [name for name in ("abop", "grogra") if name in NOTATIONS])
+@pytest.mark.parametrize("notation", [name for name in ("abop", "grogra") if name in DIALECTS])
 def test_one_listing_means_the_same_in_two_notations(notation: str) -> None:
     text = (FOLDER / ALIKE).read_text(encoding="utf-8")
     axiom = {"abop": "axiom: a(2, 3)", "grogra": "\\axiom a(2, 3),"}[notation]
@@ -70,16 +70,16 @@ def test_one_listing_means_the_same_in_two_notations(notation: str) -> None:
 @pytest.mark.parametrize(("id", "notation"), WRITTEN)
 def test_the_notation_in_which_a_system_was_written_is_recognised(id: str, notation: str) -> None:
     text = write(system(id), notation)
-    assert recognised(text).name == notation
+    assert recognise(text).name == notation
     assert read(text) == system(id)
 
 
-@pytest.mark.parametrize(("notation", "text"), [(name, text) for name in NOTATIONS for text in SHORT[name]])
+@pytest.mark.parametrize(("notation", "text"), [(name, text) for name in DIALECTS for text in SHORT[name]])
 def test_the_notation_of_a_short_text_is_recognised(notation: str, text: str) -> None:
-    assert recognised(text).name == notation
+    assert recognise(text).name == notation
 
 
-@pytest.mark.parametrize("notation", NOTATIONS)
+@pytest.mark.parametrize("notation", DIALECTS)
 def test_what_was_recognised_is_told_once(notation: str) -> None:
     text = write(plant(notation), notation)
     told = [f"Read as {notation}."] if notation != "abop" else []

@@ -10,7 +10,7 @@ from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.system import Constant, LSystem, Module, Production
 from lsys_kit.notation.read import read
-from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import write
 
 FULL = """dt = 0.7 in 0.1 .. 2 by 0.1
@@ -79,8 +79,8 @@ def test_an_unknown_notation_is_named() -> None:
 
 def test_names_are_kept_apart_and_nothing_else() -> None:
     word = tuple(map(Module, ("A", "B", "[", "+", "F", "]", "al", "_b", "(")))
-    assert notation_called("abop").word(word) == "A B[+F]al _b("
-    assert notation_called("plant-string").word(word) == "AB[+F]al_b("
+    assert dialect_named("abop").word(word) == "A B[+F]al _b("
+    assert dialect_named("plant-string").word(word) == "AB[+F]al_b("
 
 
 @pytest.mark.parametrize(("expression", "text"), [

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from lsys_kit import ModelValueError, derive, draw, figure, read, system
-from lsys_kit.pictures.filaments import Cell, Sheet, sheet_of
+from lsys_kit.pictures.filaments import DrawnCell, FilamentLayout, filament_layout
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.svg import WIDTH
 
@@ -25,8 +25,8 @@ def texts(picture: Picture) -> list[str]:
     return ["".join(text.itertext()) for text in ET.fromstring(picture.svg).iter(f"{SVG}text")]
 
 
-def sheet(id: str, steps: int) -> Sheet:
-    return sheet_of(draw(system(id), steps).rows, numbered=True)
+def sheet(id: str, steps: int) -> FilamentLayout:
+    return filament_layout(draw(system(id), steps).rows, numbered=True)
 
 
 def test_cells_are_drawn_as_their_seed_draws_them() -> None:
@@ -53,7 +53,7 @@ def test_all_rows_have_one_scale_and_one_middle(id: str, steps: int) -> None:
     found = sheet(id, steps)
     middles = set()
     for row in found.rows:
-        cells: list[Cell] = list(found.cells(row))
+        cells: list[DrawnCell] = list(found.cells(row))
         assert sum(2 * cell.length for cell in cells) == pytest.approx(found.scale * row.scene.width)
         middles.add(round(cells[0].x - cells[0].length + cells[-1].x + cells[-1].length, 6))
     assert len(middles) == 1

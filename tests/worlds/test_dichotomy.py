@@ -13,7 +13,7 @@ from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, dra
 from lsys_kit.classroom.typeset import shown
 from lsys_kit.derivation.derive import derive as words_alone
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.worlds.sight import seen
+from lsys_kit.worlds.sight import observe
 
 LISTING = (Path(__file__).parents[1] / "listings" / "003-sensitive-dichotomy.grogra.txt").read_text(encoding="utf-8")
 
@@ -194,5 +194,6 @@ def test_the_dichotomy_can_be_explored_and_drawn() -> None:
 def test_a_plant_and_its_mirror_image_see_the_same() -> None:
     here = derive(dichotomy(), 6)[-1]
     there = derive(read(LISTING.replace("- b", "* b").replace("+ a", "- a").replace("* b", "+ b"), "grogra"), 6)[-1]
-    answers = [[seen(word).sees(at, 2, 1) for at, module in enumerate(word) if module.symbol in "ab"] for word in (here, there)]
+    answers = [[observe(word).sees(at, 2, 1) for at, module in enumerate(word) if module.symbol in "ab"]
+               for word in (here, there)]
     assert answers[0] == answers[1]

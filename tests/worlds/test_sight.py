@@ -14,11 +14,11 @@ from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.engines.engines import Stepping
-from lsys_kit.geometry.space import followed
+from lsys_kit.derivation.engines.engines import SteppingEngine
+from lsys_kit.geometry.space import trace_in_space
 from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.system import LSystem, Module, Production
-from lsys_kit.worlds.sight import Seen, seen
+from lsys_kit.worlds.sight import TurtleObservation, observe
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 
 FUNCTIONS = {1: (1,), 2: (1,), 4: (60, 1), 7: (), 9: (60, 1)}
@@ -35,13 +35,13 @@ def word_of(modules: str | list[Module], **settings) -> Word:
     return derive(LSystem(tuple(modules), ASKING, **settings), 0)[0]
 
 
-def asked(sight: Seen, number: int, *values: float) -> list[float]:
+def asked(sight: TurtleObservation, number: int, *values: float) -> list[float]:
     """What a function answers to the modules x of a word, one after another."""
     return [float(sight.sees(position, number, *values)) for position, module in enumerate(sight.word) if module.symbol == "x"]
 
 
 def all_answers(word: Word) -> list[list[float]]:
-    sight = seen(word)
+    sight = observe(word)
     return [asked(sight, number, *values) for number, values in FUNCTIONS.items()]
 
 
@@ -60,7 +60,7 @@ plants = st.recursive(
 @settings(max_examples=60, deadline=None)
 def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem) -> None:
     alone = derive(system, 3, seed=5)
-    looked_at = Derivation(Stepping(States(system), 5, seen)).to(3)
+    looked_at = Derivation(SteppingEngine(States(system), 5, observe)).to(3)
     assert list(map(str, looked_at)) == list(map(str, alone))
     assert looked_at.lengths == alone.lengths
     assert alone.sight(2) is None
@@ -71,10 +71,10 @@ def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem)
 def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[Module]) -> None:
     query = Module("?P", tuple(map(Number, (0, 0, 0))))
     word = word_of([query if module.symbol == "x" else module for module in modules])
-    places = [module.arguments for module in seen(word).word if module.symbol == "?P"]
+    places = [module.arguments for module in observe(word).word if module.symbol == "?P"]
     behind = [modules[at - 1].symbol == "F" for at, module in enumerate(modules) if module.symbol == "x"]
     found = [place for place, drawn in zip(places, behind, strict=True) if drawn]
-    ends = followed(word).segments.ends[:, 3:]
+    ends = trace_in_space(word).segments.ends[:, 3:]
     expected = np.column_stack((ends[:, 0], ends[:, 2], -ends[:, 1]))
     assert np.array(found, float).reshape(-1, 3) == pytest.approx(expected, abs=2e-9)
 
@@ -84,7 +84,7 @@ def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[
 def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns: tuple[Number, ...]) -> None:
     queries = [Module(symbol, tuple(map(Number, (0, 0, 0)))) for symbol in ("?H", "?L", "?U")]
     prefix = [Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True)]
-    word = [module for module in seen(word_of([*prefix, *modules, *queries])).word if module.symbol in ("?H", "?L", "?U")]
+    word = [module for module in observe(word_of([*prefix, *modules, *queries])).word if module.symbol in ("?H", "?L", "?U")]
     head, left, up = (np.array(module.arguments, float) for module in word)
     assert np.cross(head, left) == pytest.approx(up, abs=1e-8)
     assert [head @ head, left @ left, head @ left] == pytest.approx([1, 1, 0], abs=1e-8)
@@ -95,7 +95,7 @@ def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns:
 def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Module], far: Number,
                                                               turns: tuple[Number, ...]) -> None:
     prefix = [Module("f", (far,)), *(Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
-    here, there = seen(word_of(modules)), seen(word_of([*prefix, Module("f", (far,)), *modules]))
+    here, there = observe(word_of(modules)), observe(word_of([*prefix, Module("f", (far,)), *modules]))
     for number, values in ((2, (1,)), (9, (180, 1))):
         assert asked(there, number, *values) == pytest.approx(asked(here, number, *values), abs=1e-8)
 
@@ -105,15 +105,16 @@ def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Modu
 def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Module], far: Number, turn: Number) -> None:
     back = Number(-float(turn.value))
     prefix = [Module("+", (turn,)), Module("f", (far,)), Module("+", (back,))]
-    inclinations = asked(seen(word_of(modules)), 7)
-    assert asked(seen(word_of([*prefix, *modules])), 7) == pytest.approx(inclinations, abs=1e-6)
+    inclinations = asked(observe(word_of(modules)), 7)
+    assert asked(observe(word_of([*prefix, *modules])), 7) == pytest.approx(inclinations, abs=1e-6)
 
 
 @given(plants)
 @settings(max_examples=80, deadline=None)
 def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Module]) -> None:
     larger = [Module(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
-    assert asked(seen(word_of(larger)), 2, 2) == pytest.approx([2 * d for d in asked(seen(word_of(modules)), 2, 1)], abs=1e-8)
+    assert asked(observe(word_of(larger)), 2, 2) == pytest.approx(
+        [2 * d for d in asked(observe(word_of(modules)), 2, 1)], abs=1e-8)
 
 
 def by_definition(word: Word, at: int, least: float) -> float:
@@ -130,7 +131,7 @@ def by_definition(word: Word, at: int, least: float) -> float:
             stack.append(branch)
         elif module.symbol == "]":
             branch = stack.pop()
-    ends = followed(word).segments.ends
+    ends = trace_in_space(word).segments.ends
     assert shoot
     points = [ends[n, i:i + 3] for n in range(len(ends)) for i in (0, 3) if n not in shoot and lengths[n] >= least]
     return min((math.dist(ends[shoot[-1], 3:], point) for point in points), default=math.inf)
@@ -140,7 +141,7 @@ def by_definition(word: Word, at: int, least: float) -> float:
 @settings(max_examples=120, deadline=None)
 def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Module], least: float) -> None:
     word = word_of([Module("F", (Number(1),)), *modules])
-    sight = seen(word)
+    sight = observe(word)
     for position, module in enumerate(word):
         if module.symbol == "x":
             assert float(sight.sees(position, 2, least)) == pytest.approx(by_definition(word, position, least), abs=1e-8)
@@ -151,16 +152,16 @@ def test_the_nearest_of_many_shoots_is_found_wherever_they_stand() -> None:
     places = rng.normal(size=(400, 3)) * (50, 1, 5)
     prefix = " ".join(f"[ @M({x},{y},{z}) F(1) x ]" for x, y, z in places)
     word = word_of(prefix)
-    ends = followed(word).segments.ends
+    ends = trace_in_space(word).segments.ends
     points = ends.reshape(-1, 3)
     expected = [np.delete(np.linalg.norm(points - tip, axis=1), (2 * n, 2 * n + 1)).min() for n, tip in enumerate(ends[:, 3:])]
-    assert asked(seen(word), 2, 1) == pytest.approx(expected, abs=1e-8)
+    assert asked(observe(word), 2, 1) == pytest.approx(expected, abs=1e-8)
 
 
 @given(plants, st.integers(0, 18))
 @settings(max_examples=80, deadline=None)
 def test_a_wider_cone_shows_nothing_farther(modules: list[Module], tens: int) -> None:
-    sight = seen(word_of(modules))
+    sight = observe(word_of(modules))
     narrow, wide, all_around = (asked(sight, 9, angle, 1) for angle in (10 * tens, 10 * tens + 10, 180))
     assert all(a >= b >= c for a, b, c in zip(narrow, wide, all_around, strict=True))
     assert all_around == asked(sight, 2, 1)
@@ -169,7 +170,7 @@ def test_a_wider_cone_shows_nothing_farther(modules: list[Module], tens: int) ->
 def test_the_nearest_point_may_lie_straight_behind() -> None:
     """The turns are a right angle, but for a rounding error."""
     word = derive(read("axiom: F(0.5) +(-100) +(-350) F(1) F(0.5) F(1) x\nx -> F(sensed(2, 1))"), 0)[0]
-    assert seen(word).sees(len(word) - 1, 2, 1) == 1.5
+    assert observe(word).sees(len(word) - 1, 2, 1) == 1.5
 
 
 @given(plants)
@@ -180,24 +181,24 @@ def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Modul
 
 
 def test_a_lonely_shoot_sees_no_other() -> None:
-    assert asked(seen(word_of("F(2) F(3) x")), 2, 1) == [math.inf]
-    assert asked(seen(word_of("x")), 2, 1) == [math.inf]
+    assert asked(observe(word_of("F(2) F(3) x")), 2, 1) == [math.inf]
+    assert asked(observe(word_of("x")), 2, 1) == [math.inf]
 
 
 def test_a_shoot_sees_its_grandmother() -> None:
-    assert asked(seen(word_of("F(2) F(3) F(4) x")), 2, 1) == [7]
+    assert asked(observe(word_of("F(2) F(3) F(4) x")), 2, 1) == [7]
 
 
 def test_a_short_shoot_is_not_seen() -> None:
-    sight = seen(word_of("F(10) [ +(90) F(0.5) ] [ -(90) F(3) ] x"))
+    sight = observe(word_of("F(10) [ +(90) F(0.5) ] [ -(90) F(3) ] x"))
     assert asked(sight, 2, 0.5) == [0]
-    assert asked(seen(word_of("[ F(10) ] f(5) +(90) [ F(0.5) ] f(1) F(2) x")), 2, 1) == [pytest.approx(math.hypot(3, 5))]
-    assert asked(seen(word_of("[ F(10) ] f(5) +(90) [ F(0.5) ] f(1) F(2) x")), 2, 0.5) == [2.5]
+    assert asked(observe(word_of("[ F(10) ] f(5) +(90) [ F(0.5) ] f(1) F(2) x")), 2, 1) == [pytest.approx(math.hypot(3, 5))]
+    assert asked(observe(word_of("[ F(10) ] f(5) +(90) [ F(0.5) ] f(1) F(2) x")), 2, 0.5) == [2.5]
 
 
 def test_a_shoot_of_another_colour_is_not_seen() -> None:
     word = word_of("F(10) [ P(2) RU(90) f(3) F(1) ] [ P(4) RU(-90) f(2) F(1) ] RL(90) F(1) x", turtle="grogra")
-    sight = seen(word)
+    sight = observe(word)
     assert asked(sight, 2, 1) == [pytest.approx(math.sqrt(5))]
     assert asked(sight, 2, 1, 2) == [pytest.approx(math.sqrt(10))]
     assert asked(sight, 2, 1, 14) == [math.inf]  # its mother alone has the colour that is the first
@@ -205,14 +206,14 @@ def test_a_shoot_of_another_colour_is_not_seen() -> None:
 
 
 def test_before_the_first_shoot_a_module_asks_from_where_the_turtle_is() -> None:
-    assert asked(seen(word_of("[ f(3) x ] [ +(90) f(4) F(1) ]")), 2, 1) == [5]
-    assert asked(seen(word_of("[ +(70) x ]")), 7) == [70]
+    assert asked(observe(word_of("[ f(3) x ] [ +(90) f(4) F(1) ]")), 2, 1) == [5]
+    assert asked(observe(word_of("[ +(70) x ]")), 7) == [70]
 
 
 @pytest.mark.parametrize(("word", "answer"), [
     ("F(1) x", 0), ("+(90) F(1) x", 90), ("&(35) F(1) x", 35), ("+(180) F(1) x", 180), ("+(20) F(1) -(20) x", 20)])
 def test_an_inclination_is_that_of_the_shoot(word: str, answer: float) -> None:
-    assert asked(seen(word_of(word)), 7) == [pytest.approx(answer)]
+    assert asked(observe(word_of(word)), 7) == [pytest.approx(answer)]
 
 
 @pytest.mark.parametrize(("word", "answer"), [
@@ -228,7 +229,7 @@ def test_an_inclination_is_that_of_the_shoot(word: str, answer: float) -> None:
     ("+(90) f(2) -(90) F(4) +(180) f(1) F(2) x", 0),
 ])
 def test_the_steepest_way_up_is_measured_from_the_vertical(word: str, answer: float) -> None:
-    assert asked(seen(word_of(word)), 1, 1) == [pytest.approx(answer)]
+    assert asked(observe(word_of(word)), 1, 1) == [pytest.approx(answer)]
 
 
 @pytest.mark.parametrize(("word", "angle", "count"), [
@@ -242,12 +243,12 @@ def test_the_steepest_way_up_is_measured_from_the_vertical(word: str, answer: fl
     ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 90, 2),
 ])
 def test_shoots_that_begin_in_a_cone_above_are_counted(word: str, angle: float, count: int) -> None:
-    assert asked(seen(word_of(word)), 4, angle, 1) == [count]
+    assert asked(observe(word_of(word)), 4, angle, 1) == [count]
 
 
 def test_a_cone_points_where_the_shoot_points() -> None:
     word = "F(4) x [ f(3) F(1) ] [ +(90) f(1) F(1) ]"
-    sight = seen(word_of(word))
+    sight = observe(word_of(word))
     assert [asked(sight, 9, angle, 1) for angle in (0, 30, 89, 90)] == [[3], [3], [3], [1]]
 
 
@@ -281,7 +282,7 @@ def test_a_plant_with_a_million_open_brackets_is_an_error() -> None:
 
 def test_somebody_looks_at_the_clock_while_the_turtle_goes_on() -> None:
     word, calls = derive(read("axiom: A ?P(0,0)\nA -> F A A"), 13)[-1], []
-    seen(word, lambda: calls.append(len(calls)))
+    observe(word, lambda: calls.append(len(calls)))
     assert len(calls) >= len(word) // 4_096
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from lsys_kit.classroom.catalogue import system as catalogued
-from lsys_kit.classroom.exercises.differences import Values, differing_system, differing_values, differing_word
+from lsys_kit.classroom.exercises.differences import Valuations, differing_system, differing_values, differing_word
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
@@ -22,14 +22,14 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, span, suggestion
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.expressions import Expression, gives
+from lsys_kit.notation.model.expressions import Expression, expression_type
 from lsys_kit.notation.model.system import LSystem, Module, symbols
 from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.worlds.derive import derive
 
 
 @dataclass(frozen=True)
-class Slip:
+class KnownMistake:
     """A wrong answer that is to be expected, and what is said to it."""
 
     answer: str
@@ -45,7 +45,7 @@ class Exercise:
     id, title, question
         What is asked; the question is Markdown.
     kind
-        "word", "number", "system" or "expression": a key of `KINDS`.
+        "word", "number", "system" or "expression": a key of `ANSWER_KINDS`.
     solution
         The right answer, as text; `explanation` says why.
     hints, slips
@@ -67,7 +67,7 @@ class Exercise:
     solution: str
     explanation: str
     hints: tuple[str, ...]
-    slips: tuple[Slip, ...] = ()
+    slips: tuple[KnownMistake, ...] = ()
     system: str = ""
     given: str = ""
     steps: int = 0
@@ -75,7 +75,7 @@ class Exercise:
 
 
 @dataclass(frozen=True)
-class Kind:
+class AnswerKind:
     """One kind of answers.
 
     Attributes
@@ -141,11 +141,11 @@ def _reply_to_word(exercise: Exercise, word: tuple[Module, ...], solution: tuple
     return Verdict("Almost", differing_word(derivation, exercise.steps, word))
 
 
-def one_after_another(states: States, steps: int) -> list[int]:
+def sequential(states: States, steps: int) -> list[int]:
     """The word of a sequential rewriter: each step applies the first production everywhere, then the second to the result.
 
     >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
-    >>> "".join(states.modules[state].symbol for state in one_after_another(states, 2))
+    >>> "".join(states.modules[state].symbol for state in sequential(states, 2))
     'aaaa'
     """
     word = list(states.axiom)
@@ -170,7 +170,7 @@ def leftmost_only(states: States, steps: int) -> list[int]:
 
 
 _NOT_PARALLEL: tuple[tuple[Callable[[States, int], list[int]], str], ...] = (
-    (one_after_another, "You applied one production after another, the second to what the first had made. All modules are "
+    (sequential, "You applied one production after another, the second to what the first had made. All modules are "
                         "rewritten at the same time: what a step makes is rewritten in the next step, not in the same."),
     (leftmost_only, "You replaced one module in each step. In each step every module of the word is replaced."),
 )
@@ -214,11 +214,11 @@ def _reply_to_system(_: Exercise, derivation: Derivation, solution: Derivation) 
 def _read_expression(exercise: Exercise, answer: object) -> Expression:
     text = _text(answer, "An expression", '"t + 1"')
     expression = read_expression(text)
-    check_expression(expression, exercise.values, text, gives(read_expression(exercise.solution)))
+    check_expression(expression, exercise.values, text, expression_type(read_expression(exercise.solution)))
     return expression
 
 
-def _asked_values(exercise: Exercise) -> Iterator[Values]:
+def _asked_values(exercise: Exercise) -> Iterator[Valuations]:
     """All combinations of the values for which the expression is asked."""
     for combination in itertools.product(*exercise.values.values()):
         yield dict(zip(exercise.values, combination, strict=True))
@@ -228,12 +228,12 @@ def _reply_to_expression(exercise: Exercise, expression: Expression, solution: E
     return Verdict("Not yet", differing_values(expression, solution, _asked_values(exercise)) or "")
 
 
-KINDS: Mapping[str, Kind] = {
-    "word": Kind("word, as a text in quotation marks", _read_word, lambda _, a, b: a == b, _reply_to_word),
-    "number": Kind("number", _read_number, lambda _, a, b: a == b, _reply_to_number),
-    "system": Kind('lines of the system, as a text between """ and """', _read_system, lambda _, a, b: list(a) == list(b),
+ANSWER_KINDS: Mapping[str, AnswerKind] = {
+    "word": AnswerKind("word, as a text in quotation marks", _read_word, lambda _, a, b: a == b, _reply_to_word),
+    "number": AnswerKind("number", _read_number, lambda _, a, b: a == b, _reply_to_number),
+    "system": AnswerKind('lines of the system, as a text between """ and """', _read_system, lambda _, a, b: list(a) == list(b),
                    _reply_to_system),
-    "expression": Kind("expression, as a text in quotation marks", _read_expression,
+    "expression": AnswerKind("expression, as a text in quotation marks", _read_expression,
                        lambda exercise, a, b: differing_values(a, b, _asked_values(exercise)) is None, _reply_to_expression),
 }
 """The kinds of answers, by their names."""

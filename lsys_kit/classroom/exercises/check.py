@@ -15,7 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from lsys_kit.budget import limits
-from lsys_kit.classroom.exercises.answers import KINDS, Exercise, Slip
+from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, Exercise, KnownMistake
 from lsys_kit.classroom.exercises.differences import proved_equal
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.derivation.core.rules import number_from
@@ -93,7 +93,7 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
         return _hint(asked, hint)
     if answer is None or answer is ... or (isinstance(answer, str) and answer.strip().strip("\"'") in ("", "...", "…")):
         after = " The solution is there after a try." if solution else ""
-        return Verdict("Not answered yet", f"Replace the ... with your {KINDS[asked.kind].what}.{after}")
+        return Verdict("Not answered yet", f"Replace the ... with your {ANSWER_KINDS[asked.kind].what}.{after}")
     try:
         with limits(**BUDGET):
             verdict = _judged(asked, answer)
@@ -133,7 +133,7 @@ def _lesson(name: str, declared: Mapping[str, Any]) -> Lesson:
 
 def _exercise(declared: Mapping[str, Any]) -> Exercise:
     values = {name: tuple(map(number_from, given)) for name, given in declared.get("values", {}).items()}
-    slips = tuple(Slip(**slip) for slip in declared.get("slips", ()))
+    slips = tuple(KnownMistake(**slip) for slip in declared.get("slips", ()))
     return Exercise(**{**declared, "hints": tuple(declared["hints"]), "slips": slips, "values": values})
 
 
@@ -147,7 +147,7 @@ def _hint(exercise: Exercise, number: object) -> Verdict:
 
 def _judged(exercise: Exercise, answer: object) -> Verdict:
     """Right, a known slip, or how it differs: the first of these that applies."""
-    kind = KINDS[exercise.kind]
+    kind = ANSWER_KINDS[exercise.kind]
     solution = kind.read(exercise, exercise.solution)
     if isinstance(answer, str) and len(answer) > MOST_CHARACTERS:
         raise ModelLimitError(f"It has {len(answer):,} characters; the limit is {MOST_CHARACTERS:,}", limit=MOST_CHARACTERS)

@@ -7,15 +7,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
 
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.notation.model.arithmetic import Value, number_text, reason
+from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, to_sympy
 from lsys_kit.notation.model.system import Module
 
-Values: TypeAlias = Mapping[str, Value]
+Valuations: TypeAlias = Mapping[str, Value]
 """A value for each name."""
 MOST_NODES = 40
 """Operators, names and numbers of an expression that sympy is asked about."""
-MOST_DEGREE = 12
+MOST_PROOF_DEGREE = 12
 """Its degree, with the exponents of its numbers: what is larger is not multiplied out."""
 
 
@@ -84,7 +84,7 @@ def _shown(word: Sequence[Module], at: int) -> str:
     return str(word[at]) if at < len(word) else "the end of the word"
 
 
-def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Values]) -> str | None:
+def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valuations]) -> str | None:
     """The first case in which two expressions have different values, or None.
 
     >>> from lsys_kit.notation.read import read_expression
@@ -100,13 +100,13 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Value
     return None
 
 
-def _value(expression: Expression, case: Values) -> Value | str:
+def _value(expression: Expression, case: Valuations) -> Value | str:
     """The value, or in words why there is none."""
     try:
         run = function_of(expression, {name: i for i, name in enumerate(case)})
         return run(tuple(case.values()))  # type: ignore[no-any-return]
     except (ArithmeticError, ValueError) as fault:
-        return f"has no value ({reason(fault)})"
+        return f"has no value ({reason_of(fault)})"
 
 
 def _close(own: Value | str, right: Value | str) -> bool:
@@ -144,7 +144,7 @@ def proved_equal(mine: Expression, wanted: Expression) -> bool:
 
 
 def _is_small(expression: Expression) -> bool:
-    return _nodes(expression) <= MOST_NODES and _degree(expression) <= MOST_DEGREE
+    return _nodes(expression) <= MOST_NODES and _degree(expression) <= MOST_PROOF_DEGREE
 
 
 def _nodes(expression: Expression) -> int:

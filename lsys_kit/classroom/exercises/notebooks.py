@@ -16,7 +16,7 @@ from lsys_kit.classroom.exercises.answers import Exercise
 from lsys_kit.classroom.exercises.check import Lesson, check, lessons
 from lsys_kit.classroom.exercises.verdict import Verdict
 
-Cell: TypeAlias = dict[str, Any]
+NotebookCell: TypeAlias = dict[str, Any]
 
 _HOW = """\
 Replace the `...` of an answer and run its cell: the reply says whether the answer is right, or how it differs. A cell for
@@ -26,11 +26,11 @@ shows the solution.
 The answers come with the kit, and whoever looks for them finds them. This is a check of your own, and no examination."""
 
 
-def sheet(lesson: Lesson) -> str:
+def exercise_notebook(lesson: Lesson) -> str:
     """The notebook of a lesson's exercises, as the text of its file.
 
     >>> from lsys_kit.classroom.exercises.check import lessons
-    >>> json.loads(sheet(lessons()[0]))["cells"][1]["source"]
+    >>> json.loads(exercise_notebook(lessons()[0]))["cells"][1]["source"]
     ['from lsys_kit import check']
     """
     notebook = {
@@ -43,16 +43,16 @@ def sheet(lesson: Lesson) -> str:
     return json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
 
 
-def write_sheets(folder: str | Path) -> list[Path]:
+def write_notebooks(folder: str | Path) -> list[Path]:
     """Write the notebooks of all lessons into a folder."""
     paths = []
     for lesson in lessons():
         paths.append(Path(folder) / f"{lesson.name}.ipynb")
-        paths[-1].write_text(sheet(lesson), encoding="utf-8", newline="\n")
+        paths[-1].write_text(exercise_notebook(lesson), encoding="utf-8", newline="\n")
     return paths
 
 
-def _cells(lesson: Lesson) -> Iterator[Cell]:
+def _cells(lesson: Lesson) -> Iterator[NotebookCell]:
     yield _markdown("head", _head(lesson))
     yield _code("import", "from lsys_kit import check")
     for exercise in lesson.exercises:
@@ -67,18 +67,18 @@ def _head(lesson: Lesson) -> str:
             f"{_HOW.format(id=lesson.exercises[0].id)}")
 
 
-def _exercise_cells(exercise: Exercise) -> Iterator[Cell]:
+def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
     name = f"exercise-{exercise.id.replace('.', '-')}"
     yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}")
     yield _code(f"{name}-answer", f'answer = ...\ncheck("{exercise.id}", answer)', check(exercise.id))
     yield _code(f"{name}-hints", f'# check("{exercise.id}", hint=1)   # hints 1 to {len(exercise.hints)}')
 
 
-def _markdown(name: str, text: str) -> Cell:
+def _markdown(name: str, text: str) -> NotebookCell:
     return {"cell_type": "markdown", "id": name, "metadata": {}, "source": _lines(text)}
 
 
-def _code(name: str, text: str, shown: Verdict | None = None) -> Cell:
+def _code(name: str, text: str, shown: Verdict | None = None) -> NotebookCell:
     outputs = [] if shown is None else [{
         "data": {"text/html": _lines(shown._repr_html_()), "text/plain": _lines(repr(shown))},
         "execution_count": None, "metadata": {}, "output_type": "execute_result"}]
@@ -86,7 +86,7 @@ def _code(name: str, text: str, shown: Verdict | None = None) -> Cell:
             "source": _lines(text)}
 
 
-def _numbered(cells: Iterable[Cell]) -> Iterator[Cell]:
+def _numbered(cells: Iterable[NotebookCell]) -> Iterator[NotebookCell]:
     """The cells with the numbers that a first run from top to bottom gives them."""
     number = 0
     for cell in cells:
@@ -103,5 +103,5 @@ def _lines(text: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    for path in write_sheets(sys.argv[1] if len(sys.argv) > 1 else "exercises"):
+    for path in write_notebooks(sys.argv[1] if len(sys.argv) > 1 else "exercises"):
         print(path)

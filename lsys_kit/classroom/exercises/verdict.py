@@ -18,7 +18,7 @@ _SIGNS: Mapping[str, tuple[str, str]] = {
 """For each verdict its sign and its colour: what it says never hangs on the colour."""
 
 
-PLAIN = "mathjax_ignore tex2jax_ignore"
+PLAIN_TEXT = "mathjax_ignore tex2jax_ignore"
 """The classes of HTML in which dollar signs begin no formula: those of MathJax 3, which notebooks use, and of its version 2,
 which web pages made of notebooks use."""
 
@@ -59,7 +59,7 @@ class Verdict(float):
     def _repr_html_(self) -> str:
         """The box: a sign, a word and the message, all text escaped."""
         sign, colour = _SIGNS[self.said]
-        return (f'<div class="{PLAIN}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
+        return (f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
                 'padding:6px 12px">'
                 f'<span aria-hidden="true">{sign}</span> <b>{escaped(self.said)}.</b> {_html(self.message)}</div>')
 

@@ -58,10 +58,10 @@ def packed(scene: Scene, path: Path | None, colour_of: Mapping[int, str], marked
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.geometry.turtle import placed, traced
+    >>> from lsys_kit.geometry.turtle import place_path, trace
     >>> from lsys_kit.notation.read import read
-    >>> path = traced(derive(read("axiom: F+F"), 0)[0])
-    >>> traits = packed(placed(path, 90), path, {0: "#009E73"})
+    >>> path = trace(derive(read("axiom: F+F"), 0)[0])
+    >>> traits = packed(place_path(path, 90), path, {0: "#009E73"})
     >>> np.frombuffer(traits["shapes"], "<i4")[:9].tolist()  # 2 strokes, 0 other shapes, 2 steps; from 0 and 1, to 1 and 2
     [2, 0, 0, 0, 2, 0, 1, 1, 2]
     """

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lsys_kit.derivation.core.rules import constants_of
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, number_text, tidy
+from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, function_of
 from lsys_kit.notation.model.system import LSystem
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Span:
+class SliderRange:
     """The values that a slider offers: `low`, `low + step`, ... up to `high`; it starts at `value`."""
 
     value: Value
@@ -33,14 +33,14 @@ class Span:
     def nearest(self, reading: float) -> Value:
         """The exact value that a slider's reading stands for.
 
-        >>> Span(Fraction(7, 10), Fraction(1, 10), 2, Fraction(1, 10)).nearest(0.7000000000000001)
+        >>> SliderRange(Fraction(7, 10), Fraction(1, 10), 2, Fraction(1, 10)).nearest(0.7000000000000001)
         Fraction(7, 10)
         """
         low, step = Fraction(self.low), Fraction(self.step)
-        return tidy(low + round((Fraction(reading) - low) / step) * step)
+        return normalised(low + round((Fraction(reading) - low) / step) * step)
 
 
-def spans(system: LSystem, changes: Mapping[str, object]) -> dict[str, Span]:
+def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, SliderRange]:
     """For each constant that has a slider, the slider's values.
 
     Raises
@@ -51,11 +51,11 @@ def spans(system: LSystem, changes: Mapping[str, object]) -> dict[str, Span]:
     Examples
     --------
     >>> from lsys_kit.notation.read import read
-    >>> spans(read("lifeTime = 3 in 1 .. 6\\naxiom: A(lifeTime)"), {})["lifeTime"].high
+    >>> slider_ranges(read("lifeTime = 3 in 1 .. 6\\naxiom: A(lifeTime)"), {})["lifeTime"].high
     6
     """
     values = dict(zip((c.name for c in system.constants), constants_of(system, changes), strict=True))
-    found: dict[str, Span] = {}
+    found: dict[str, SliderRange] = {}
     order = {name: i for i, name in enumerate(values)}
     for constant in system.constants:
         value = values[constant.name]
@@ -64,19 +64,19 @@ def spans(system: LSystem, changes: Mapping[str, object]) -> dict[str, Span]:
             if not low <= value <= high:
                 raise ModelValueError(f"{constant.name} = {number_text(value)} lies outside its slider's range",
                                       hint=f"It goes from {number_text(low)} to {number_text(high)}.")
-            found[constant.name] = Span(value, low, high, step)
+            found[constant.name] = SliderRange(value, low, high, step)
         elif _calculated_with(constant.name, system):
             found[constant.name] = _guessed(value)
     return found
 
 
-def _guessed(value: Value) -> Span:
+def _guessed(value: Value) -> SliderRange:
     """A range for a constant that declares none: from nothing, or one, to about twice its value."""
     if isinstance(value, int) and value >= 1:
-        return Span(value, 1, max(2 * value, 6), 1)
+        return SliderRange(value, 1, max(2 * value, 6), 1)
     size = abs(Fraction(value)) or Fraction(1, 2)
     low, high = (-2 * size, Fraction(0)) if value < 0 else (Fraction(0), 2 * size)
-    return Span(tidy(Fraction(value)), tidy(low), tidy(high), tidy(size / 10))
+    return SliderRange(normalised(Fraction(value)), normalised(low), normalised(high), normalised(size / 10))
 
 
 def _calculated_with(name: str, system: LSystem) -> bool:
@@ -101,7 +101,7 @@ class Control:
 
     slider: ipywidgets.Widget
     box: ipywidgets.Widget
-    span: Span
+    span: SliderRange
 
     @property
     def value(self) -> Value:
@@ -126,7 +126,7 @@ class Control:
         return widgets.HBox([self.box, self.slider], layout=widgets.Layout(align_items="center"))
 
 
-def control(name: str, span: Span) -> Control:
+def control(name: str, span: SliderRange) -> Control:
     """A slider and a labelled number box, not linked yet."""
     import ipywidgets as widgets
 

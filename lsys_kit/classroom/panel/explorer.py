@@ -18,8 +18,8 @@ import ipywidgets as widgets
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.panel.canvas import HOW_TO_TURN, packed, widget_classes
-from lsys_kit.classroom.panel.controls import Control, Span, control, spans
-from lsys_kit.classroom.panel.view_model import Sight, Study
+from lsys_kit.classroom.panel.controls import Control, SliderRange, control, slider_ranges
+from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.derivation.petri.stages import Stages
@@ -69,7 +69,7 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     system = catalogued(what) if isinstance(what, str) else what
     if not isinstance(system, LSystem):
         raise ModelValueError(f"Only a system, or the id of one, can be explored, not {type(what).__name__}")
-    return Explorer(Study(system, seed), step, angle, constants)
+    return Explorer(ViewModel(system, seed), step, angle, constants)
 
 
 class Explorer(widgets.VBox):  # type: ignore[misc]
@@ -88,11 +88,11 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         What it shows: word, net, tokens, picture.
     """
 
-    def __init__(self, study: Study, step: int | None, angle: object, changes: dict[str, object]) -> None:
+    def __init__(self, study: ViewModel, step: int | None, angle: object, changes: dict[str, object]) -> None:
         self.system, self._study = study.system, study
         system = study.system
-        self._fixed = {name: value for name, value in changes.items() if name not in spans(system, changes)}
-        self.constants = {name: control(name, span) for name, span in spans(system, changes).items()}
+        self._fixed = {name: value for name, value in changes.items() if name not in slider_ranges(system, changes)}
+        self.constants = {name: control(name, span) for name, span in slider_ranges(system, changes).items()}
         self._make_controls(step, angle)
         self._make_views()
         self._playing: asyncio.Task[None] | None = None
@@ -112,14 +112,15 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         most = max(2 * asked, 10, first)
         if isinstance(first, bool) or not isinstance(first, int) or first < 0:
             raise ModelValueError(f"The step must be a whole number from 0 on, not {step!r}")
-        self._step = control("step", Span(first, 0, most, 1))
+        self._step = control("step", SliderRange(first, 0, most, 1))
         self.step = self._step.slider
         turn = real_from(angle, "angle") if angle is not None else float(self.system.angle)
         if not 0 <= turn <= 180:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
-        self._angle = control("angle", Span(number_from(turn), 0, 180, number_from("0.1")))
+        self._angle = control("angle", SliderRange(number_from(turn), 0, 180, number_from("0.1")))
         self.angle = self._angle.slider
-        self._around, self._above = control("around", Span(0, -180, 180, 1)), control("above", Span(0, -90, 90, 1))
+        self._around, self._above = control("around", SliderRange(0, -180, 180, 1)), \
+            control("above", SliderRange(0, -90, 90, 1))
         self.around, self.above = self._around.slider, self._above.slider
         self._play = widgets.Button(description="play", tooltip="show one step after another", layout=_button())
         self._reset = widgets.Button(description="reset", tooltip="back to the first settings", layout=_button())
@@ -239,7 +240,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._status.value = f'<span role="status" style="font:14px sans-serif;color:{INK}">{said}</span>'
         self.sight, self._chosen = sight, constants
 
-    def _sight(self, step: int, constants: dict[str, Any]) -> Sight:
+    def _sight(self, step: int, constants: dict[str, Any]) -> StepView:
         return self._study.sight(step, constants, self.angle.value, self._mark.value, self.around.value, self.above.value)
 
     def _offer_stages(self, net: Stages) -> None:
@@ -251,7 +252,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
                 self._mark.options = options
                 self._mark.value = chosen
 
-    def _show_drawing(self, sight: Sight) -> None:
+    def _show_drawing(self, sight: StepView) -> None:
         """Send shapes to a canvas, once; or a picture to a page that has none."""
         if not self._by_itself:
             self._drawing.value = sight.picture.svg

@@ -10,26 +10,26 @@ from dataclasses import dataclass
 from typing import Any
 
 from lsys_kit.derivation.core.interpretation import is_filament
-from lsys_kit.derivation.core.words import Word, shortened
+from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.space import in_plane
-from lsys_kit.geometry.turtle import Path, placed, traced
+from lsys_kit.geometry.turtle import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.style.labels import place_text
-from lsys_kit.pictures.svg import Row
-from lsys_kit.pictures.view import seen
+from lsys_kit.pictures.svg import FilamentRow
+from lsys_kit.pictures.view import project
 from lsys_kit.worlds.derive import derive
 
 
 @dataclass(frozen=True)
-class Sight:
+class StepView:
     """What there is to see at one step.
 
     Attributes
@@ -66,11 +66,11 @@ class Sight:
         """The sight in words."""
         places = [f"{place_text(place, self.net.system)}: {count:,}"
                   for place, count in zip(self.net.places, self.tokens, strict=True) if place.symbol[0].isalpha()]
-        return (f"Step {self.step}: {self.modules}. {shortened(self.word, 160)}. Stages {', '.join(places)}. "
+        return (f"Step {self.step}: {self.modules}. {abridged(self.word, 160)}. Stages {', '.join(places)}. "
                 f"{self.scene}.")
 
 
-class Study:
+class ViewModel:
     """A system under changing constants: its derivations, nets, scenes and paths, each computed once.
 
     Parameters
@@ -83,7 +83,7 @@ class Study:
     Examples
     --------
     >>> from lsys_kit.classroom.catalogue import system
-    >>> print(Study(system("J4")).sight(3, {"lifeTimeB": 5}))
+    >>> print(ViewModel(system("J4")).sight(3, {"lifeTimeB": 5}))
     Step 3: 2 modules. Al(1)Br(1). Stages A(1): 1, A(2): 0, A(3): 0, B(1): 1, B(2): 0, B(3): 0, B(4): 0, B(5): 0. \
 2 cells, width 3, height 1.
     """
@@ -92,7 +92,7 @@ class Study:
         self.system, self.seed, self.is_filament = system, seed, is_filament(system)
         self.in_space = not self.is_filament and not in_plane(system)
         self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
-        self._rows: dict[tuple[tuple[Value, ...], int], Row] = {}
+        self._rows: dict[tuple[tuple[Value, ...], int], FilamentRow] = {}
         self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
         self._scenes: dict[tuple[tuple[Value, ...], int], tuple[float, Scene]] = {}
 
@@ -105,7 +105,7 @@ class Study:
         return self._known[key]
 
     def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1,
-              around: float = 0.0, above: float = 0.0) -> Sight:
+              around: float = 0.0, above: float = 0.0) -> StepView:
         """What there is to see at a step.
 
         Parameters
@@ -119,7 +119,7 @@ class Study:
         place
             The stage that is marked; -1 for none.
         around, above
-            From where a scene in space is seen, as `seen` counts.
+            From where a scene in space is seen, as `project` counts.
 
         Raises
         ------
@@ -137,23 +137,23 @@ class Study:
             scene = rows[-1].scene
             picture = filament_picture(derivation, rows, step, marked)
         else:
-            scene = placed(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
-            picture = Picture((Row(step, seen(scene, around, above)),), state_colours(derivation), None, marked)
-        return Sight(step, word, net, net.tokens(word), marked, scene, picture, path)
+            scene = place_path(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
+            picture = Picture((FilamentRow(step, project(scene, around, above)),), state_colours(derivation), None, marked)
+        return StepView(step, word, net, net.tokens(word), marked, scene, picture, path)
 
-    def _sequence(self, derivation: Derivation, last: int) -> tuple[Row, ...]:
+    def _sequence(self, derivation: Derivation, last: int) -> tuple[FilamentRow, ...]:
         """The rows of a filament's steps, each made once."""
         constants = derivation.states.constants
         steps = range(max(0, last + 1 - MOST_ROWS), last + 1)
         for step in steps:
             if (constants, step) not in self._rows:
-                self._rows[constants, step] = Row(step, filament(derivation[step]))
+                self._rows[constants, step] = FilamentRow(step, filament(derivation[step]))
         return tuple(self._rows[constants, step] for step in steps)
 
     def _path(self, derivation: Derivation, step: int) -> Path:
         key = derivation.states.constants, step
         if key not in self._paths:
-            self._paths[key] = traced(derivation[step])
+            self._paths[key] = trace(derivation[step])
         return self._paths[key]
 
     def _scene(self, derivation: Derivation, angle: float) -> Scene:

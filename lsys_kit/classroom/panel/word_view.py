@@ -10,7 +10,7 @@ from lsys_kit.notation.model.system import LSystem, Module
 from lsys_kit.pictures.style.labels import html_label
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, QUIET, colours, tinted
 
-SHOWN = 240
+MOST_MODULES_SHOWN = 240
 """How many modules of a word are shown; of a longer one the beginning and the end."""
 
 
@@ -24,11 +24,11 @@ def word_html(word: Word, marked: Collection[int] = ()) -> str:
     """
     system, numbers = word.states.system, word.numbers()
     chips = {state: _chip(word.states.modules[state], system, state in marked)
-             for state in {*numbers[:SHOWN], *numbers[-SHOWN:]}}
-    if len(numbers) <= SHOWN:
+             for state in {*numbers[:MOST_MODULES_SHOWN], *numbers[-MOST_MODULES_SHOWN:]}}
+    if len(numbers) <= MOST_MODULES_SHOWN:
         shown = "".join(chips[state] for state in numbers)
     else:
-        half = SHOWN // 2
+        half = MOST_MODULES_SHOWN // 2
         gap = f'<span style="color:{QUIET};padding:0 .6em">&hellip; {len(numbers) - 2 * half:,} more &hellip;</span>'
         shown = "".join(chips[s] for s in numbers[:half]) + gap + "".join(chips[s] for s in numbers[-half:])
     return (f'<div class="lsys-word" tabindex="0" aria-label="Word of {len(word):,} modules" '

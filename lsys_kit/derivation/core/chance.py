@@ -16,16 +16,16 @@ from typing import Any
 
 import numpy as np
 
-from lsys_kit.notation.model.arithmetic import Value, tidy
+from lsys_kit.notation.model.arithmetic import Value, normalised
 
 _GOLDEN, _FIRST, _SECOND, _MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
 _UNIT = 2.0**-53
 
 
-def mixed(number: int) -> int:
+def splitmix64(number: int) -> int:
     """splitmix64's output for a state.
 
-    >>> hex(mixed(0)), hex(mixed(0x9E3779B97F4A7C15))
+    >>> hex(splitmix64(0)), hex(splitmix64(0x9E3779B97F4A7C15))
     ('0xe220a8397b1dcdaf', '0x6e789e6aa1b965f4')
     """
     number = (number + _GOLDEN) & _MASK
@@ -34,7 +34,7 @@ def mixed(number: int) -> int:
     return number ^ number >> 31
 
 
-def mixed_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarray[Any, np.dtype[np.uint64]]:
+def splitmix64_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarray[Any, np.dtype[np.uint64]]:
     """The same for many states at once."""
     numbers = numbers + np.uint64(_GOLDEN)
     numbers = (numbers ^ numbers >> np.uint64(30)) * np.uint64(_FIRST)
@@ -48,12 +48,12 @@ def units(seed: int, step: int, positions: np.ndarray[Any, Any]) -> np.ndarray[A
     >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]
     True
     """
-    keys = mixed_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
-    return (mixed_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
+    keys = splitmix64_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
+    return (splitmix64_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
 
 
 def _stem(seed: int, step: int) -> int:
-    return mixed(mixed(seed & _MASK) ^ step)
+    return splitmix64(splitmix64(seed & _MASK) ^ step)
 
 
 @dataclass
@@ -84,9 +84,9 @@ class Chance:
 
     def unit(self) -> float:
         """A number from 0 up to, but not, 1."""
-        key = mixed(_stem(self.seed, self.step) ^ self.position)
+        key = splitmix64(_stem(self.seed, self.step) ^ self.position)
         self.drawn += 1
-        return (mixed((key + (self.drawn - 1) * _GOLDEN) & _MASK) >> 11) * _UNIT
+        return (splitmix64((key + (self.drawn - 1) * _GOLDEN) & _MASK) >> 11) * _UNIT
 
     def uniform(self, low: float, high: float) -> float:
         """A number from `low` up to `high`, each equally likely."""
@@ -117,13 +117,13 @@ class Chance:
 
     def table(self, *weights: float) -> int:
         """A number 0, 1, 2, ..., each as likely as its weight says."""
-        return chosen(weights, self.unit())
+        return choose(weights, self.unit())
 
 
-def chosen(weights: Sequence[Value], unit: float) -> int:
+def choose(weights: Sequence[Value], unit: float) -> int:
     """Which of some weighted things a random number from 0 up to 1 chooses; the weights need not sum to one.
 
-    >>> chosen((1, 1, 2), 0.49), chosen((1, 1, 2), 0.5)
+    >>> choose((1, 1, 2), 0.49), choose((1, 1, 2), 0.5)
     (1, 2)
     """
     total = _total(weights)
@@ -143,7 +143,7 @@ def shares(weights: Sequence[Value]) -> list[Value]:
     """
     total = _total(weights)
     exact = all(isinstance(weight, int | Fraction) for weight in weights)
-    return [tidy(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
+    return [normalised(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
 
 
 def _total(weights: Sequence[Value]) -> Value:

@@ -10,20 +10,20 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.system import CELLS, WALL, LSystem, Module, flat
 
 
-def images(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
+def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
     """For each of some states the modules that it is drawn as: itself, where no interpretation rule matches.
 
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: A(2)[B]\\ninterpretation:\\nA(t) -> F(t) F(1)"))
-    >>> {str(states.modules[s]): " ".join(map(str, image)) for s, image in images(states, states.axiom).items()}
+    >>> {str(states.modules[s]): " ".join(map(str, drawn)) for s, drawn in interpretations(states, states.axiom).items()}
     {'A(2)': 'F(2) F(1)', '[': '[', 'B': 'B', ']': ']'}
     """
     if not states.system.interpretation:
         return {state: (states.modules[state],) for state in dict.fromkeys(numbers)}
-    return {state: image(states, states.modules[state]) for state in dict.fromkeys(numbers)}
+    return {state: interpretation_of(states, states.modules[state]) for state in dict.fromkeys(numbers)}
 
 
-def image(states: States, module: Module) -> tuple[Module, ...]:
+def interpretation_of(states: States, module: Module) -> tuple[Module, ...]:
     """The modules that a module is drawn as."""
     return tuple(_image(states, module, states.system.depth))
 

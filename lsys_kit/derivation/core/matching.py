@@ -15,13 +15,13 @@ from lsys_kit.derivation.core.rules import Branch, Rule, is_branch
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CLOSING, END, OPENING, Module
 
-NOBODY = -1
+NO_NEIGHBOUR = -1
 """The position of a neighbour that is not there."""
 
 
 @dataclass(frozen=True)
 class Neighbours:
-    """For each position of a word its neighbours' positions, or `NOBODY`.
+    """For each position of a word its neighbours' positions, or `NO_NEIGHBOUR`.
 
     Attributes
     ----------
@@ -51,8 +51,8 @@ class Neighbours:
 def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
     """The neighbours of all positions of a word, in one pass in each direction."""
     size = len(symbols)
-    before, after, inside, closing = ([NOBODY] * size for _ in range(4))
-    last, stack = NOBODY, []
+    before, after, inside, closing = ([NO_NEIGHBOUR] * size for _ in range(4))
+    last, stack = NO_NEIGHBOUR, []
     for position, symbol in enumerate(symbols):
         before[position] = last
         if symbol in OPENING:
@@ -63,32 +63,32 @@ def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
                 closing[opened] = position
         elif symbol not in ignored:
             last = position
-    following = NOBODY
+    following = NO_NEIGHBOUR
     behind: list[int] = []
     for position in range(size - 1, -1, -1):
         symbol = symbols[position]
         if symbol in OPENING:
             inside[position] = following
-            following = behind.pop() if behind else NOBODY
+            following = behind.pop() if behind else NO_NEIGHBOUR
         after[position] = following
         if symbol in CLOSING:
             behind.append(following)
-            following = NOBODY
+            following = NO_NEIGHBOUR
         elif symbol not in OPENING and symbol not in ignored:
             following = position
     return Neighbours(before, after, inside, closing)
 
 
-def chain(links: Sequence[int], position: int, length: int) -> tuple[int, ...]:
+def neighbours_along(links: Sequence[int], position: int, length: int) -> tuple[int, ...]:
     """The first so many neighbours of a position, following `before` or `after`; fewer where the branch ends.
 
-    >>> chain([-1, 0, 1, 2], 3, 2)
+    >>> neighbours_along([-1, 0, 1, 2], 3, 2)
     (2, 1)
     """
     found: list[int] = []
     while len(found) < length:
         position = links[position]
-        if position == NOBODY:
+        if position == NO_NEIGHBOUR:
             break
         found.append(position)
     return tuple(found)
@@ -101,17 +101,17 @@ def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored:
         if symbols[position] in OPENING:
             yield position
             position = around.closing[position]
-            if position == NOBODY:
+            if position == NO_NEIGHBOUR:
                 return
         elif symbols[position] in CLOSING or symbols[position] not in ignored:
             return
         position += 1
 
 
-def context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
+def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
             ignored: Container[str]) -> tuple[int, ...] | None:
     """The positions of the modules that a rule names, in the order written, where its contexts match; else None."""
-    left = chain(around.before, position, len(rule.left))
+    left = neighbours_along(around.before, position, len(rule.left))
     if len(left) < len(rule.left) or any(_kind(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
         return None
     right = _followed(rule.right, word, symbols, around, position, ignored)
@@ -137,8 +137,8 @@ def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
         return _branched(row, word, symbols, around, position, position, ignored)
     at = around.inside[position] if symbols[position] in OPENING else around.after[position]
     if first[0] == END:
-        return () if at == NOBODY else None
-    if at == NOBODY or _kind(word[at]) != first:
+        return () if at == NO_NEIGHBOUR else None
+    if at == NO_NEIGHBOUR or _kind(word[at]) != first:
         return None
     found = _followed(rest, word, symbols, around, at, ignored)
     return None if found is None else (at, *found)

@@ -6,31 +6,31 @@ from collections.abc import Sequence
 
 from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.errors import LSystemError, ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, reason
+from lsys_kit.notation.model.arithmetic import Value, reason_of
 from lsys_kit.notation.model.system import LSystem, Module
-from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 
 AXIOM = Module("axiom")
 """What the axiom is made of."""
 
 
-def fault_in(system: LSystem, module: Module, rule: Rule, fault: Exception) -> LSystemError:
+def rule_error(system: LSystem, module: Module, rule: Rule, fault: Exception) -> LSystemError:
     """A value that cannot be computed."""
-    shown, production = notation_called(system.notation).module(module), as_written(system, rule.production)
+    shown, production = dialect_named(system.notation).module(module), as_written(system, rule.production)
     what = "The axiom" if module is AXIOM else f"{shown} under production {rule.number + 1}, {production},"
     hint = None if module is AXIOM else "A condition before the arrow can keep such values out."
     if rule.looks:
         hint = "Where there is no such shoot, an answer is infinite." if isinstance(fault, OverflowError) else None
     start, end = rule.production.at or (None, None)
-    return ModelValueError(f"{what} has no value: {reason(fault)}", system.source or None, start, end, hint)
+    return ModelValueError(f"{what} has no value: {reason_of(fault)}", system.source or None, start, end, hint)
 
 
-def undecided(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
+def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
     """A condition that hangs on a constant that is not known."""
     names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
     said = (f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, is for "
-            f"{notation_called(system.notation).module(module)} cannot be decided")
+            f"{dialect_named(system.notation).module(module)} cannot be decided")
     start, end = rule.production.at or (None, None)
     return ModelValueError(said, system.source or None, start, end,
                            f"It depends on {', '.join(names)}: choose a value for {names[0]}.")

@@ -16,19 +16,19 @@ from typing import Any, TypeAlias, TypeGuard
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import Value, is_symbolic, reason, settled_value, sound, tidy
-from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, questions_in
+from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
+from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
 from lsys_kit.notation.model.system import CLOSING, OPENING, Item, LSystem, Module, Production, Repeat, expressions_of
 from lsys_kit.notation.read import read_number
 
-Kind: TypeAlias = tuple[str, int]
+ModuleKind: TypeAlias = tuple[str, int]
 """What a rule asks of a module first: its symbol and the number of its parameters."""
-Branch: TypeAlias = tuple["Kind | Branch", ...]
+Branch: TypeAlias = tuple["ModuleKind | Branch", ...]
 """A row of modules, some of them branches: what a right context asks for."""
 
 
 @dataclass(frozen=True)
-class Part:
+class ModuleTemplate:
     """A module of a successor: its symbol and the functions of its arguments."""
 
     symbol: str
@@ -36,11 +36,11 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Parts:
+class RepeatTemplate:
     """A repeated part of a successor: the function that counts, and what is written each time."""
 
     count: Function
-    body: tuple[Part | Parts, ...]
+    body: tuple[ModuleTemplate | RepeatTemplate, ...]
 
 
 @dataclass(frozen=True)
@@ -69,12 +69,12 @@ class Rule:
 
     number: int
     production: Production
-    left: tuple[Kind, ...]
+    left: tuple[ModuleKind, ...]
     right: Branch
     equalities: tuple[tuple[int, Function], ...]
     condition: Function | None
     probability: Function | None
-    successor: tuple[Part | Parts, ...]
+    successor: tuple[ModuleTemplate | RepeatTemplate, ...]
     random: bool
     looks: bool
     questions: tuple[tuple[Apply, Function], ...]
@@ -82,7 +82,7 @@ class Rule:
     @cached_property
     def least(self) -> int:
         """How many modules it makes at least, before any decomposition."""
-        return sum(isinstance(part, Part) for part in self.successor)
+        return sum(isinstance(part, ModuleTemplate) for part in self.successor)
 
     @cached_property
     def settled(self) -> bool:
@@ -90,7 +90,7 @@ class Rule:
         return not (self.left or self.right or self.random or self.looks or self.probability is not None)
 
 
-Rules: TypeAlias = Mapping[Kind, tuple[Rule, ...]]
+Rules: TypeAlias = Mapping[ModuleKind, tuple[Rule, ...]]
 """For each symbol and number of parameters its rules, in the order written."""
 
 
@@ -118,13 +118,13 @@ def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "product
 @lru_cache(maxsize=256)
 def _rules(system: LSystem, source: str, arithmetic: str, section: str) -> Rules:
     """The rules; a system that is equal, and was written otherwise, has rules of its own, which stand elsewhere in its text."""
-    rules: dict[Kind, list[Rule]] = {}
+    rules: dict[ModuleKind, list[Rule]] = {}
     for number, production in enumerate(getattr(system, section)):
         rules.setdefault(kind_of(production.predecessor), []).append(rule_for(system, number, production, arithmetic))
     return {kind: tuple(found) for kind, found in rules.items()}
 
 
-def kind_of(module: Module) -> Kind:
+def kind_of(module: Module) -> ModuleKind:
     """A module's symbol and the number of its parameters."""
     return module.symbol, len(module.arguments)
 
@@ -148,23 +148,25 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
         _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
-        any(map(is_random, made)), any(question for part in asked for question in questions_in(part)),
-        tuple((question, ready(question)) for question in questions_in(production.condition)) if production.condition else ())
+        any(map(is_random, made)), any(question for part in asked for question in sensed_in(part)),
+        tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else ())
 
 
-def _parts(items: Sequence[Item], order: Mapping[str, int], size: int, arithmetic: str) -> tuple[Part | Parts, ...]:
+def _parts(items: Sequence[Item], order: Mapping[str, int], size: int,
+           arithmetic: str) -> tuple[ModuleTemplate | RepeatTemplate, ...]:
     """A successor's functions; those of a repeated part take one value more, what counts in it."""
-    found: list[Part | Parts] = []
+    found: list[ModuleTemplate | RepeatTemplate] = []
     for item in items:
         if isinstance(item, Repeat):
             inner = {**order, item.index: size} if item.index else order
-            found.append(Parts(function_of(item.count, order, arithmetic), _parts(item.body, inner, size + 1, arithmetic)))
+            body = _parts(item.body, inner, size + 1, arithmetic)
+            found.append(RepeatTemplate(function_of(item.count, order, arithmetic), body))
         else:
-            found.append(Part(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
+            found.append(ModuleTemplate(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
     return tuple(found)
 
 
-def is_branch(item: Kind | Branch) -> TypeGuard[Branch]:
+def is_branch(item: ModuleKind | Branch) -> TypeGuard[Branch]:
     """Whether an item of what a right context asks for is a branch, perhaps an empty one, and no module."""
     return not item or not isinstance(item[0], str)
 
@@ -200,9 +202,9 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
     for constant in system.constants:
         try:
             value = (number_from(changes[constant.name], constant.name) if constant.name in changes
-                     else sound(function_of(constant.value, order, arithmetic)(tuple(values))))
+                     else finite(function_of(constant.value, order, arithmetic)(tuple(values))))
         except (ArithmeticError, ValueError) as fault:
-            raise ModelValueError(f'The constant "{constant.name}" has no value: {reason(fault)}', system.source or None,
+            raise ModelValueError(f'The constant "{constant.name}" has no value: {reason_of(fault)}', system.source or None,
                                   *(constant.at or (None, None))) from None
         except TypeError:
             if not any(map(is_symbolic, values)):
@@ -222,13 +224,13 @@ def number_from(given: object, name: str = "value") -> Value:
     (Fraction(7, 5), Fraction(7, 5), 2, dt)
     """
     if isinstance(given, str):
-        return unknown(name) if given == name else read_number(given)
+        return unknown_constant(name) if given == name else read_number(given)
     if hasattr(given, "free_symbols") and given.free_symbols:
-        return settled_value(given)
+        return expanded_value(given)
     if isinstance(given, numbers.Real) and not isinstance(given, bool) and _finite(given):
         if isinstance(given, numbers.Rational):
-            return tidy(Fraction(int(given.numerator), int(given.denominator)))
-        return tidy(Fraction(repr(float(given))))
+            return normalised(Fraction(int(given.numerator), int(given.denominator)))
+        return normalised(Fraction(repr(float(given))))
     raise ModelValueError(f'"{name}" must be a number, not {str(given)[:40]!r}')
 
 
@@ -245,7 +247,7 @@ def real_from(given: object, name: str) -> float:
         raise ModelValueError(f'"{name}" must be a number that is known and not too large, not {str(given)[:40]!r}') from None
 
 
-def unknown(name: str) -> Any:
+def unknown_constant(name: str) -> Any:
     """A constant whose value is not known: a real number with a name."""
     import sympy
 

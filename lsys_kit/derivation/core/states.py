@@ -11,11 +11,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.chance import Chance, chosen
-from lsys_kit.derivation.core.rule_errors import AXIOM, fault_in, undecided
-from lsys_kit.derivation.core.rules import Part, Parts, Rule, Rules, constants_of, kind_of, rule_for, rules_of
+from lsys_kit.derivation.core.chance import Chance, choose
+from lsys_kit.derivation.core.rule_errors import AXIOM, rule_error, undecided_condition
+from lsys_kit.derivation.core.rules import (
+    ModuleTemplate,
+    RepeatTemplate,
+    Rule,
+    Rules,
+    constants_of,
+    kind_of,
+    rule_for,
+    rules_of,
+)
 from lsys_kit.errors import ModelLimitError, ModelNameError
-from lsys_kit.notation.model.arithmetic import SMALL, Value, is_symbolic, same, settled_value, sound
+from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic
 from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.write import as_written
 
@@ -156,12 +165,12 @@ class States:
         """Whether a rule's values are what it asks for and its condition is true."""
         given = (*values, *self.constants, chance)
         try:
-            return (all(same(values[i], wanted(given)) for i, wanted in rule.equalities)
+            return (all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities)
                     and (rule.condition is None or bool(rule.condition(given))))
         except TypeError:
-            raise undecided(self.system, self.constants, module, rule) from None
+            raise undecided_condition(self.system, self.constants, module, rule) from None
         except (ArithmeticError, ValueError) as fault:
-            raise fault_in(self.system, module, rule, fault) from None
+            raise rule_error(self.system, module, rule, fault) from None
 
     def drawn(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None) -> Rule | None:
         """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
@@ -170,9 +179,9 @@ class States:
         lots = self.lots(matched, chance)
         unit = chance.unit() if chance else 0.0
         try:
-            return lots[chosen([weight for _, weight in lots], unit)][0]
+            return lots[choose([weight for _, weight in lots], unit)][0]
         except ValueError as fault:
-            raise fault_in(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
+            raise rule_error(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
 
     def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
         """Of the rules that match those that are chosen by lot, each with its weight."""
@@ -182,9 +191,9 @@ class States:
         """How likely a rule that is left to chance is chosen, beside others."""
         assert rule.probability
         try:
-            return sound(rule.probability((*values, *self.constants, chance)))
+            return finite(rule.probability((*values, *self.constants, chance)))
         except (ArithmeticError, ValueError) as fault:
-            raise fault_in(self.system, rule.production.predecessor, rule, fault) from None
+            raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
 
     def made(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
              chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:
@@ -193,17 +202,17 @@ class States:
         try:
             yield from self._written(rule.successor, given, chance)
         except (ArithmeticError, ValueError) as fault:
-            raise fault_in(self.system, module, rule, fault) from None
+            raise rule_error(self.system, module, rule, fault) from None
         except TypeError:
             if not any(map(is_symbolic, given)):
                 raise
-            raise fault_in(self.system, module, rule, ValueError("it depends on an unknown constant")) from None
+            raise rule_error(self.system, module, rule, ValueError("it depends on an unknown constant")) from None
 
-    def _written(self, parts: Iterable[Part | Parts], given: tuple[object, ...],
+    def _written(self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...],
                  chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
         values: tuple[object, ...] = (*given, chance)
         for part in parts:
-            if isinstance(part, Part):
+            if isinstance(part, ModuleTemplate):
                 yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
             else:
                 for index in range(_times(part.count(values))):
@@ -275,9 +284,9 @@ class States:
         """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
         if value.__class__ is int and -SMALL < value < SMALL:
             return value
-        sound(value)
+        finite(value)
         if is_symbolic(value):
-            value = settled_value(value)
+            value = expanded_value(value)
         if isinstance(value, float) or is_symbolic(value):
             return value
         if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:

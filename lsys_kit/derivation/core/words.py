@@ -10,9 +10,9 @@ import numpy as np
 
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.system import Module, joined
-from lsys_kit.notation.registry import notation_called
+from lsys_kit.notation.registry import dialect_named
 
-SHOWN = 2_000
+MOST_SHOWN = 2_000
 """How many characters `repr` shows of a long word."""
 
 
@@ -69,7 +69,7 @@ class Word(Sequence[Module]):
         return text_of(self.states, self.codes)
 
     def __repr__(self) -> str:
-        return shortened(self, SHOWN)
+        return abridged(self, MOST_SHOWN)
 
     def numbers(self) -> list[int]:
         """The states' numbers as a plain list."""
@@ -110,17 +110,17 @@ def state_counts(word: Word) -> Counter[int]:
 def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     """The text of a row of states, in their system's notation."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
-    notation = notation_called(states.system.notation)
+    notation = dialect_named(states.system.notation)
     texts = {state: notation.module(states.modules[state]) for state in set(numbers)}
     return notation.joined(map(texts.__getitem__, numbers))
 
 
-def shortened(word: Word, characters: int) -> str:
+def abridged(word: Word, characters: int) -> str:
     """The text of a word, with its middle left out where it is long.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
-    >>> shortened(derive(read("axiom: F\\nF -> F+F"), 9)[-1], 40)
+    >>> abridged(derive(read("axiom: F\\nF -> F+F"), 9)[-1], 40)
     'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
     """
     half = max(1, characters // 2)

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from lsys_kit.derivation.core.rules import Kind, Rule, kind_of
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
@@ -96,7 +96,7 @@ class ColumnWord(Word):
 
     __slots__ = ("_row", "kinds", "names", "values")
 
-    def __init__(self, states: States, kinds: Array, values: Array, names: Sequence[Kind]) -> None:
+    def __init__(self, states: States, kinds: Array, values: Array, names: Sequence[ModuleKind]) -> None:
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
         self._row: Array | None = None
 
@@ -112,14 +112,14 @@ class ColumnWord(Word):
         return self._row
 
 
-class Columns:
+class ColumnarSteps:
     """The steps of a system in columns.
 
     Examples
     --------
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: A(1) B\\nA(x) : x < 3 -> A(x+1) A(x+2)"), {}, "float")
-    >>> columns = Columns(states)
+    >>> columns = ColumnarSteps(states)
     >>> word = columns.step(columns.word([states.modules[code] for code in states.axiom]))
     >>> str(word), len(word)
     ('A(2)A(3)B', 3)

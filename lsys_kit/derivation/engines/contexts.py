@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lsys_kit.derivation.core.chance import units
-from lsys_kit.derivation.core.matching import NOBODY
+from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
 from lsys_kit.derivation.core.rules import is_branch
 from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.derivation.engines.expansion import Letters, code_type
@@ -22,9 +22,9 @@ from lsys_kit.notation.model.system import CLOSING, OPENING
 Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """What a module is to contexts: `PASSED` is passed over but has a context itself, `SKIPPED` has none."""
-TABLE = 2**22
+LARGEST_TABLE = 2**22
 """The largest table of cases that is looked up directly."""
-FEW = 12
+FEW_REPLACEMENTS = 12
 """So many kinds of replacements are counted one after another."""
 
 
@@ -38,7 +38,7 @@ def possible(stepper: Stepper) -> bool:
     return near and stepper.states.parts_settled and not cuts and not any(rule.random or rule.looks for rule in rules)
 
 
-class Fates:
+class Replacements:
     """What modules may become, numbered, and how a word is made of it."""
 
     def __init__(self, states: States) -> None:
@@ -63,7 +63,7 @@ class Fates:
         """How many modules the replacements of some numbers have together."""
         sizes = [len(replacement.states) for replacement in self.replacements]
         others = [(number, size) for number, size in enumerate(sizes) if size != 1]
-        if len(others) > FEW:
+        if len(others) > FEW_REPLACEMENTS:
             return int(np.dot(np.bincount(chosen, minlength=len(sizes)), sizes))
         return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
 
@@ -81,7 +81,7 @@ class Fates:
         return gathered
 
 
-class Bulk:
+class ContextEngine:
     """The bulk steps of one system under one seed.
 
     Examples
@@ -89,13 +89,13 @@ class Bulk:
     >>> from lsys_kit.derivation.core.states import States
     >>> from lsys_kit.notation.read import read
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
-    >>> bulk = Bulk(stepper)
+    >>> bulk = ContextEngine(stepper)
     >>> bulk.fates.replaced(bulk.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
     [0, 0, 1]
     """
 
     def __init__(self, stepper: Stepper) -> None:
-        self.stepper, self.fates = stepper, Fates(stepper.states)
+        self.stepper, self.fates = stepper, Replacements(stepper.states)
         self._roles: list[int] = []
         self._fixed: list[int] = []
         self._numbers: dict[tuple[int, int, int], int] = {}
@@ -106,7 +106,7 @@ class Bulk:
         """For each module of a word the number of the replacement that it gets."""
         size = len(self.stepper.states)
         if not self.stepper.in_context:
-            return self._drawn(self._cases(codes, size, lambda key: (NOBODY, key, NOBODY)), None, step)
+            return self._drawn(self._cases(codes, size, lambda key: (NO_NEIGHBOUR, key, NO_NEIGHBOUR)), None, step)
         for state in range(len(self._roles), size):
             self._meet(state)
         roles = np.zeros(len(codes), dtype=np.uint8)
@@ -136,14 +136,14 @@ class Bulk:
 
     def _in_context(self, codes: Integers, roles: Integers, size: int) -> Integers:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
-        left, right = beside(codes.astype(code_type(size + 1), copy=False), roles, size)
+        left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
         kind = code_type(size * (size + 1) ** 2)
         keys = (left.astype(kind) * kind.type(size + 1) + right) * kind.type(size) + codes
 
         def case(key: int) -> tuple[int, int, int]:
             rest, code = divmod(key, size)
             before, after = divmod(rest, size + 1)
-            return before if before < size else NOBODY, code, after if after < size else NOBODY
+            return before if before < size else NO_NEIGHBOUR, code, after if after < size else NO_NEIGHBOUR
 
         return self._cases(keys, size * (size + 1) ** 2, case)
 
@@ -152,7 +152,7 @@ class Bulk:
 
         Where lots are drawn it is below zero. What a key stands for is asked when it is met first.
         """
-        if bound > TABLE:
+        if bound > LARGEST_TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
             return np.array([self._number(case(key)) for key in distinct.tolist()])[which]
         if len(self._table) != bound:
@@ -190,8 +190,8 @@ class Bulk:
         states = self.stepper.states
         if states.is_settled(code):
             return [self.fates.number(Replacement(states.successor(code), states.production(code)))], [1.0]
-        word = [state for state in (left, code, right) if state != NOBODY]
-        matched = self.stepper.matched(self.stepper.old(word), int(left != NOBODY))
+        word = [state for state in (left, code, right) if state != NO_NEIGHBOUR]
+        matched = self.stepper.matched(self.stepper.old(word), int(left != NO_NEIGHBOUR))
         if not matched:
             return [self.fates.number(Replacement(states.parts(states.modules[code]), None))], [1.0]
         states.drawn(matched, None)  # refuses weights that are none
@@ -201,7 +201,7 @@ class Bulk:
         return [self.fates.number(replacement) for replacement in made], weights or [1.0]
 
 
-def beside(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:
+def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
@@ -216,7 +216,7 @@ def beside(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Int
     Examples
     --------
     >>> word, roles = np.array([10, 1, 11, 2, 1, 12, 2, 13]), np.array([0, 1, 0, 2, 1, 0, 2, 0])  # A[B][C]D
-    >>> left, right = beside(word, roles, 99)
+    >>> left, right = context_neighbours(word, roles, 99)
     >>> left[[0, 2, 5, 7]].tolist(), right[[0, 2, 5, 7]].tolist()
     ([99, 10, 10, 10], [13, 99, 99, 99])
     """

@@ -20,16 +20,16 @@ import numpy as np
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts
-from lsys_kit.derivation.engines.columnar import Columns, ColumnWord
+from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.columnar import possible as columns_possible
-from lsys_kit.derivation.engines.contexts import Bulk, possible
-from lsys_kit.derivation.engines.expansion import Letters, code_type, expanded
-from lsys_kit.derivation.engines.meta import shortened_by_rules
-from lsys_kit.derivation.engines.stepwise import Sees, Stepper
+from lsys_kit.derivation.engines.contexts import ContextEngine, possible
+from lsys_kit.derivation.engines.expansion import Letters, code_type, expand
+from lsys_kit.derivation.engines.meta import apply_meta_rules
+from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.arithmetic import Value
 
-PLAIN = 4_096
+MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
 BULK = 64
 """Words from this length on are stepped in bulk, where that is possible."""
@@ -41,7 +41,7 @@ OFTEN = 1_024
 """After how many states or modules somebody looks at the clock."""
 
 
-class Sight(Protocol):
+class Observation(Protocol):
     """What is seen of a word."""
 
     @property
@@ -52,7 +52,7 @@ class Sight(Protocol):
         """What a sensitive function answers to the module at a position."""
 
 
-World: TypeAlias = Callable[[Word, Callable[[], None]], Sight]
+Observer: TypeAlias = Callable[[Word, Callable[[], None]], Observation]
 """What looks at a word before a step; it is also given what looks at the clock now and then, and may raise an error."""
 
 
@@ -72,7 +72,7 @@ class Origins:
     productions: Sequence[int | None]
 
 
-class Counting:
+class CountingEngine:
     """The course of a system in which every module's fate depends on itself alone."""
 
     def __init__(self, states: States) -> None:
@@ -80,7 +80,7 @@ class Counting:
         self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
         self._words: dict[int, Word] = {}
         self._letters = Letters(states)
-        self._columns = Columns(states) if columns_possible(states) else None
+        self._columns = ColumnarSteps(states) if columns_possible(states) else None
         self._late: list[ColumnWord] = []
 
     @property
@@ -104,13 +104,13 @@ class Counting:
             return
         if len(self.states.successors) < len(self.states):  # some have to be made: not for a step that is refused
             check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
-        after = counted(self.states, before, partial(check_time, self.states, step, until))
+        after = next_counts(self.states, before, partial(check_time, self.states, step, until))
         check_time(self.states, step, until)
         size = sum(after.values())
         check_size(self.states, step, size)
         self._steps.append((after, size))
 
-    def _in_columns(self, columns: Columns, step: int, until: float) -> ColumnWord:
+    def _in_columns(self, columns: ColumnarSteps, step: int, until: float) -> ColumnWord:
         """The next word, where nearly all modules are different."""
         before = self._late[-1] if self._late else columns.word(list(self.word(step - 1)))
         check_time(self.states, step, until)
@@ -127,10 +127,10 @@ class Counting:
     def _built(self, step: int) -> Word:
         if step == 0:
             return Word(self.states, list(self.states.axiom))
-        before, small = self._words.get(step - 1), self.size(step) <= PLAIN
+        before, small = self._words.get(step - 1), self.size(step) <= MOST_LISTED
         if small and before is not None:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
-        array = expanded(self.states, [counts for counts, _ in self._steps[:step + 1]])
+        array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
     def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
@@ -154,13 +154,13 @@ class Counting:
         """Nobody looks at words whose modules ask for nothing."""
 
 
-class Stepping:
+class SteppingEngine:
     """The course of a system in which neighbours or chance have a say."""
 
-    def __init__(self, states: States, seed: int, world: World | None = None) -> None:
+    def __init__(self, states: States, seed: int, world: Observer | None = None) -> None:
         self.states, self._world = states, world
         self._stepper = Stepper(states, seed)
-        self._bulk = Bulk(self._stepper) if possible(self._stepper) else None
+        self._bulk = ContextEngine(self._stepper) if possible(self._stepper) else None
         self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
 
     @property
@@ -189,7 +189,7 @@ class Stepping:
         check_time(self.states, step, until)
         self._steps.append(made)
 
-    def _in_bulk(self, bulk: Bulk, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
+    def _in_bulk(self, bulk: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
         codes = np.asarray(before.codes)
         chosen = bulk.chosen(codes, step - 1)
@@ -205,7 +205,7 @@ class Stepping:
         return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
 
     def _one_by_one(self, codes: Sequence[int], step: int, until: float,
-                    sees: Sees | None) -> tuple[Word, Callable[[], Origins]]:
+                    sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
         made = []
         size = 0
@@ -226,7 +226,7 @@ class Stepping:
 
     def _shortened(self, codes: Sequence[int], origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
         """A word after its meta-rules, with its origins."""
-        short, first = shortened_by_rules(self.states, codes)
+        short, first = apply_meta_rules(self.states, codes)
 
         def after() -> Origins:
             old = origins()
@@ -235,7 +235,7 @@ class Stepping:
         return self._word(short), after
 
     def _word(self, codes: Sequence[int]) -> Word:
-        return Word(self.states, codes if len(codes) <= PLAIN else np.array(codes, code_type(len(self.states))))
+        return Word(self.states, codes if len(codes) <= MOST_LISTED else np.array(codes, code_type(len(self.states))))
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
@@ -245,17 +245,17 @@ class Stepping:
         """Where the modules of a step's word come from."""
         return self._steps[step][1]()
 
-    def sight(self, step: int) -> Sight | None:
+    def sight(self, step: int) -> Observation | None:
         """What the next step sees of a known step's word; None where nobody looks."""
         return self._world(self.word(step), lambda: None) if self._world else None
 
 
-def course_of(states: States, seed: int, world: World | None = None) -> Counting | Stepping:
+def engine_for(states: States, seed: int, world: Observer | None = None) -> CountingEngine | SteppingEngine:
     """The course that a system's derivation takes; where it asks for what the turtle sees, in a world that answers."""
-    return Counting(states) if states.settled else Stepping(states, seed, world if states.asks else None)
+    return CountingEngine(states) if states.settled else SteppingEngine(states, seed, world if states.asks else None)
 
 
-def counted(states: States, counts: Mapping[int, int], watch: Callable[[], None] = lambda: None) -> dict[int, int]:
+def next_counts(states: States, counts: Mapping[int, int], watch: Callable[[], None] = lambda: None) -> dict[int, int]:
     """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
     after: dict[int, int] = {}
     already, successors = after.get, states.successors

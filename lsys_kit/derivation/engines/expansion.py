@@ -77,7 +77,7 @@ class Letters:
         return np.frombuffer(word, np.uint8)
 
 
-def expanded(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any, Any]:
+def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any, Any]:
     """The word of the last step, as an array of states.
 
     Parameters

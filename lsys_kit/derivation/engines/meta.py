@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 
-from lsys_kit.derivation.core.rules import Kind, Rule, kind_of, rule_for
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem, Production
 
 
 @lru_cache(maxsize=64)
-def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[Kind, ...], Rule], ...]:
+def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[ModuleKind, ...], Rule], ...]:
     """A system's meta-rules: the modules that each asks for, and the rule that replaces them.
 
     The modules before the last are to the rule what a left context is to a production.
@@ -25,12 +25,12 @@ def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[Kind, ...]
     return tuple(found)
 
 
-def shortened_by_rules(states: States, codes: Sequence[int]) -> tuple[list[int], list[int]]:
+def apply_meta_rules(states: States, codes: Sequence[int]) -> tuple[list[int], list[int]]:
     """A word after its meta-rules, and for each module of it the position of the first module that it stands for.
 
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: f(1) f(2) f(3) A\\nmeta: f(x) f(y) -> f(x+y)"))
-    >>> codes, origins = shortened_by_rules(states, states.axiom)
+    >>> codes, origins = apply_meta_rules(states, states.axiom)
     >>> [str(states.modules[code]) for code in codes], origins
     (['f(6)', 'A'], [0, 3])
     """
@@ -52,7 +52,7 @@ def shortened_by_rules(states: States, codes: Sequence[int]) -> tuple[list[int],
     return done, origins
 
 
-def _applied(states: States, rules: Sequence[tuple[tuple[Kind, ...], Rule]],
+def _applied(states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]],
              done: Sequence[int]) -> tuple[int, tuple[int, ...]] | None:
     """How many of the last modules the first matching meta-rule takes, and what it makes of them."""
     for kinds, rule in rules:

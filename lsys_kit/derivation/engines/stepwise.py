@@ -12,7 +12,7 @@ from functools import partial
 from typing import TypeAlias
 
 from lsys_kit.derivation.core.chance import Chance
-from lsys_kit.derivation.core.matching import Neighbours, chain, context, neighbours, values_at
+from lsys_kit.derivation.core.matching import Neighbours, match_context, neighbours, neighbours_along, values_at
 from lsys_kit.derivation.core.rules import Rule, is_branch
 from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.notation.model.arithmetic import Value
@@ -20,7 +20,7 @@ from lsys_kit.notation.model.system import CLOSING, OPENING, LSystem, Module
 
 Matches = list[tuple[Rule, tuple[Value, ...]]]
 """The rules that match a module, in the order written, with the values of the parameters that they name."""
-Sees: TypeAlias = Callable[..., Value]
+SensingFunction: TypeAlias = Callable[..., Value]
 """What a module sees that asks the turtle: from its position, a function's number and the values that it is asked with."""
 
 
@@ -41,14 +41,14 @@ class Replacement:
 
 
 @dataclass(frozen=True)
-class Old:
+class ParentWord:
     """The word before a step: its states, modules and symbols, who stands beside whom, and what each module sees."""
 
     codes: Sequence[int]
     modules: Sequence[Module]
     symbols: Sequence[str]
     around: Neighbours | None
-    sees: Sees | None
+    sees: SensingFunction | None
 
     def chance(self, seed: int, step: int, position: int) -> Chance:
         """What a module is given besides its neighbours: random numbers, and what it sees."""
@@ -76,19 +76,19 @@ class Stepper:
 
     def __init__(self, states: States, seed: int) -> None:
         self.states, self.seed = states, seed
-        self.passed = passed_symbols(states.system)
+        self.passed = ignored_symbols(states.system)
         self.in_context = any(rule.left or rule.right for rules in states.rules.values() for rule in rules)
         self._settled: dict[int, Replacement] = {}
         self._matched: dict[tuple[object, ...], Matches] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
 
-    def old(self, codes: Sequence[int], sees: Sees | None = None) -> Old:
+    def old(self, codes: Sequence[int], sees: SensingFunction | None = None) -> ParentWord:
         """A word as a step needs it."""
         modules = [self.states.modules[code] for code in codes]
         symbols = [module.symbol for module in modules]
-        return Old(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
+        return ParentWord(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
 
-    def replacements(self, codes: Sequence[int], step: int, sees: Sees | None = None) -> Iterator[Replacement]:
+    def replacements(self, codes: Sequence[int], step: int, sees: SensingFunction | None = None) -> Iterator[Replacement]:
         """What each module of a word becomes; what is cut off becomes nothing.
 
         Parameters
@@ -101,7 +101,7 @@ class Stepper:
             What answers the modules' questions to the turtle.
         """
         old, nothing = self.old(codes, sees), Replacement((), None)
-        for position, (code, kept) in enumerate(zip(codes, uncut(old.symbols), strict=True)):
+        for position, (code, kept) in enumerate(zip(codes, surviving(old.symbols), strict=True)):
             if not kept:
                 yield nothing
             elif code in self._settled:
@@ -111,7 +111,7 @@ class Stepper:
             else:
                 yield self._open(old, position, old.chance(self.seed, step, position))
 
-    def _open(self, old: Old, position: int, chance: Chance) -> Replacement:
+    def _open(self, old: ParentWord, position: int, chance: Chance) -> Replacement:
         """What becomes of a module whose fate is not settled by itself."""
         matched = self.matched(old, position, chance)
         rule = self.states.drawn(matched, chance)
@@ -127,7 +127,7 @@ class Stepper:
             self._made[key] = replacement
         return replacement
 
-    def matched(self, old: Old, position: int, chance: Chance | None = None) -> Matches:
+    def matched(self, old: ParentWord, position: int, chance: Chance | None = None) -> Matches:
         """The rules that match the module at a position."""
         rules = self.states.candidates(old.codes[position])
         case = self._case(rules, old, position)
@@ -137,7 +137,7 @@ class Stepper:
             self._matched[case] = self._matching(rules, old, position, chance)
         return self._matched[case]
 
-    def _case(self, rules: Sequence[Rule], old: Old, position: int) -> tuple[object, ...] | None:
+    def _case(self, rules: Sequence[Rule], old: ParentWord, position: int) -> tuple[object, ...] | None:
         """The states on which the matching depends; None where that is what is seen, or a branch, which may hold any number."""
         if any(rule.looks for rule in rules):
             return None
@@ -145,17 +145,17 @@ class Stepper:
             return (old.codes[position],)
         if any(is_branch(item) for rule in rules for item in rule.right):
             return None
-        left = chain(old.around.before, position, max((len(rule.left) for rule in rules), default=0))
-        right = chain(old.around.after, position, max((len(rule.right) for rule in rules), default=0))
+        left = neighbours_along(old.around.before, position, max((len(rule.left) for rule in rules), default=0))
+        right = neighbours_along(old.around.after, position, max((len(rule.right) for rule in rules), default=0))
         return (old.codes[position], *(old.codes[at] for at in left), None, *(old.codes[at] for at in right))
 
-    def context(self, rule: Rule, old: Old, position: int) -> tuple[int, ...] | None:
+    def context(self, rule: Rule, old: ParentWord, position: int) -> tuple[int, ...] | None:
         """The positions of the modules that a rule names, where its contexts match; else None."""
         if old.around is None:
             return (position,)
-        return context(rule, old.modules, old.symbols, old.around, position, self.passed)
+        return match_context(rule, old.modules, old.symbols, old.around, position, self.passed)
 
-    def _matching(self, rules: Sequence[Rule], old: Old, position: int, chance: Chance | None) -> Matches:
+    def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> Matches:
         found: Matches = []
         for rule in rules:
             at = self.context(rule, old, position)
@@ -180,20 +180,20 @@ class _AllBut:
         return symbol not in self.those
 
 
-def passed_symbols(system: LSystem) -> Container[str]:
+def ignored_symbols(system: LSystem) -> Container[str]:
     """The symbols that contexts pass over.
 
     >>> from lsys_kit.notation.read import read
-    >>> "+" in passed_symbols(read("ignore: + -\\naxiom: A")), "B" in passed_symbols(read("consider: A\\naxiom: A"))
+    >>> "+" in ignored_symbols(read("ignore: + -\\naxiom: A")), "B" in ignored_symbols(read("consider: A\\naxiom: A"))
     (True, True)
     """
     return _AllBut(frozenset(system.considered)) if system.considered else frozenset(system.ignored)
 
 
-def uncut(symbols: Sequence[str]) -> Iterator[bool]:
+def surviving(symbols: Sequence[str]) -> Iterator[bool]:
     """For each position whether it is kept: a cut takes itself away and all behind it, up to the end of its branch.
 
-    >>> [symbol for symbol, kept in zip("A[B%C[D]]E", uncut("A[B%C[D]]E")) if kept]
+    >>> [symbol for symbol, kept in zip("A[B%C[D]]E", surviving("A[B%C[D]]E")) if kept]
     ['A', '[', 'B', ']', 'E']
     """
     depth = 0  # of the brackets inside what is cut off, from 1 on

@@ -16,10 +16,10 @@ from itertools import count, islice
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.chance import mixed
+from lsys_kit.derivation.core.chance import splitmix64
 from lsys_kit.derivation.core.closure import check_settled, closure
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.engines import counted
+from lsys_kit.derivation.engines.engines import next_counts
 from lsys_kit.derivation.growth.recurrences import (
     closed_form,
     generating_function,
@@ -30,7 +30,7 @@ from lsys_kit.derivation.growth.recurrences import (
     shortest_recurrence,
     shortest_rule,
 )
-from lsys_kit.derivation.growth.slicing import lumped
+from lsys_kit.derivation.growth.slicing import slice_system
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.system import LSystem, Module
 
@@ -115,7 +115,7 @@ class Growth:
         counts: Mapping[int, int] = Counter(self.table.axiom)
         while True:
             yield counts
-            counts = counted(self.table, counts)
+            counts = next_counts(self.table, counts)
 
     def _vector(self, counts: Mapping[int, int]) -> tuple[int, ...]:
         return tuple(counts.get(state, 0) for state in range(len(self.table)))
@@ -178,7 +178,7 @@ class Growth:
         """
         rows = [self._vector(counts) for counts in islice(self._followed(), 2 * len(self.table) + 2)]
         for trial in count():
-            weights = [mixed(mixed(trial) ^ state) % 2**20 for state in range(len(self.table))]
+            weights = [splitmix64(splitmix64(trial) ^ state) % 2**20 for state in range(len(self.table))]
             rule = tuple(map(int, shortest_rule([sum(map(int.__mul__, weights, row)) for row in rows])))
             size = len(rule)
             if all(column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c)
@@ -269,7 +269,7 @@ def growth(system: LSystem, **constants: object) -> Growth:
     ----------
     system
         A system whose states come to an end: following it from the axiom, no new module appears after a while. Where they
-        do not, modules that differ only in parameters that decide nothing are counted as one (see `lumped`).
+        do not, modules that differ only in parameters that decide nothing are counted as one (see `slice_system`).
     **constants
         New values for declared constants.
 
@@ -290,7 +290,7 @@ def growth(system: LSystem, **constants: object) -> Growth:
         states = States(system, constants)
         if states.settled and closure(states, current().states) is not None:
             return Growth(states)
-    states = States(lumped(system), constants)
+    states = States(slice_system(system), constants)
     check_settled(states, "Growth")
     if closure(states, current().states) is None:
         raise ModelLimitError(f"The states of this system do not end: more than {current().states:,} were met",

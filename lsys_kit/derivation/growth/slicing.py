@@ -14,11 +14,11 @@ from typing import TypeAlias
 from lsys_kit.notation.model.expressions import Expression, Name, names_in
 from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat, flat
 
-Position: TypeAlias = tuple[str, int, int]
+ArgumentPosition: TypeAlias = tuple[str, int, int]
 """A parameter: the symbol of its module, how many parameters that has, and which of them it is, from 0."""
 
 
-def lumped(system: LSystem) -> LSystem:
+def slice_system(system: LSystem) -> LSystem:
     """The system with only those parameters that have a say in which production rewrites any module, or how much it makes.
 
     How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
@@ -27,26 +27,26 @@ def lumped(system: LSystem) -> LSystem:
     Examples
     --------
     >>> from lsys_kit.notation.read import read
-    >>> print(lumped(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(t+1,x+t)\\nA(t,x) -> A(0,1) L(x)\\nL(x) -> L(x+1)")))
+    >>> print(slice_system(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(t+1,x+t)\\nA(t,x) -> A(0,1) L(x)\\nL(x) -> L(x+1)")))
     axiom: A(0)
     A(t) : t < 7 -> A(t + 1)
     A(t) -> A(0)L
     L -> L
     """
-    kept = deciding(system)
+    kept = deciding_positions(system)
     return replace(
-        system, axiom=tuple(shorn(module, kept) for module in system.axiom),
+        system, axiom=tuple(without_arguments(module, kept) for module in system.axiom),
         productions=tuple(_production(rule, kept) for rule in system.productions),
         decomposition=tuple(_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
 
 
-def deciding(system: LSystem) -> frozenset[Position]:
+def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
     """The parameters that have a say: those that a rule asks for, and those of which such a parameter is made.
 
     Where two kinds of module would become the same, because their symbol is the same, they keep all their parameters.
 
     >>> from lsys_kit.notation.read import read
-    >>> sorted(deciding(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))
+    >>> sorted(deciding_positions(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))
     [('A', 2, 0), ('A', 2, 1)]
     """
     rules = (*system.productions, *system.decomposition)
@@ -61,7 +61,7 @@ def deciding(system: LSystem) -> frozenset[Position]:
         found |= more
 
 
-def _asked(rule: Production, constants: Set[str]) -> Iterator[Position]:
+def _asked(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
     """The parameters in a rule's condition, its probability and its counts of repetition, and those of a given value."""
     asked = [expression for expression in (rule.condition, rule.probability) if expression is not None]
     yield from _named(rule, (*asked, *_repetitions(rule.successor)))
@@ -71,7 +71,7 @@ def _asked(rule: Production, constants: Set[str]) -> Iterator[Position]:
                 yield module.symbol, len(module.arguments), i
 
 
-def _sources(rule: Production, found: Set[Position]) -> Iterator[Position]:
+def _sources(rule: Production, found: Set[ArgumentPosition]) -> Iterator[ArgumentPosition]:
     """The parameters of which a rule makes some that are found already."""
     for module in flat(rule.successor):
         size = len(module.arguments)
@@ -79,7 +79,7 @@ def _sources(rule: Production, found: Set[Position]) -> Iterator[Position]:
         yield from _named(rule, made)  # type: ignore[arg-type]  # a production's arguments are expressions
 
 
-def _named(rule: Production, expressions: Iterable[Expression]) -> Iterator[Position]:
+def _named(rule: Production, expressions: Iterable[Expression]) -> Iterator[ArgumentPosition]:
     names = frozenset().union(*map(names_in, expressions))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
@@ -94,7 +94,7 @@ def _repetitions(items: Iterable[Item]) -> Iterator[Expression]:
             yield from _repetitions(item.body)
 
 
-def _clashes(system: LSystem, found: Set[Position]) -> set[Position]:
+def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosition]:
     """All parameters of the modules that share a symbol, and would have equally many parameters left."""
     sizes: dict[str, set[int]] = defaultdict(set)
     for module in (*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)):
@@ -104,21 +104,21 @@ def _clashes(system: LSystem, found: Set[Position]) -> set[Position]:
             for size in all_sizes for i in range(size)}
 
 
-def _production(rule: Production, kept: Set[Position]) -> Production:
-    return replace(rule, predecessor=shorn(rule.predecessor, kept), successor=_items(rule.successor, kept),
-                   left=tuple(shorn(module, kept) for module in rule.left),
-                   right=tuple(shorn(module, kept) for module in rule.right))
+def _production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
+    return replace(rule, predecessor=without_arguments(rule.predecessor, kept), successor=_items(rule.successor, kept),
+                   left=tuple(without_arguments(module, kept) for module in rule.left),
+                   right=tuple(without_arguments(module, kept) for module in rule.right))
 
 
-def _items(items: Iterable[Item], kept: Set[Position]) -> tuple[Item, ...]:
-    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else shorn(item, kept)
+def _items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:
+    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else without_arguments(item, kept)
                  for item in items)
 
 
-def shorn(module: Module, kept: Set[Position]) -> Module:
+def without_arguments(module: Module, kept: Set[ArgumentPosition]) -> Module:
     """A module without those of its parameters that decide nothing.
 
-    >>> print(shorn(Module("A", (1, 2)), {("A", 2, 0)}))
+    >>> print(without_arguments(Module("A", (1, 2)), {("A", 2, 0)}))
     A(1)
     """
     size = len(module.arguments)

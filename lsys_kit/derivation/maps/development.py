@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from typing import overload
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.maps.divisions import stepped
+from lsys_kit.derivation.maps.divisions import map_step
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.maps import MapSystem
 
-SHOWN = 400
+MOST_MAPS_SHOWN = 400
 """How many characters of a map `repr` shows."""
 
 
@@ -50,10 +50,10 @@ class Development(Sequence[Map]):
 
     def __repr__(self) -> str:
         lines = (f"{step} {found}" for step, found in enumerate(self._maps))
-        return "\n".join(line if len(line) <= SHOWN else f"{line[:SHOWN]}..." for line in lines)
+        return "\n".join(line if len(line) <= MOST_MAPS_SHOWN else f"{line[:MOST_MAPS_SHOWN]}..." for line in lines)
 
 
-def developed(system: MapSystem, steps: int) -> Development:
+def develop(system: MapSystem, steps: int) -> Development:
     """The maps of a map system, from the first cell on; `derive` does the same for every kind of system.
 
     Parameters
@@ -71,7 +71,7 @@ def developed(system: MapSystem, steps: int) -> Development:
     Examples
     --------
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> developed(read_map("map: A>B>C>D>\\nA> -> D>[-A>]B>\\nC> -> B>[-A<]B>\\nD> -> C>"), 2)
+    >>> develop(read_map("map: A>B>C>D>\\nA> -> D>[-A>]B>\\nC> -> B>[-A<]B>\\nD> -> C>"), 2)
     0 A>B>C>D>
     1 D>A>B>C> | B>B>B>A<
     2 C>D>A>B> | B>B>B>A< | B>B>B>B<D<
@@ -82,7 +82,7 @@ def developed(system: MapSystem, steps: int) -> Development:
     productions = {production.predecessor: production for production in system.productions}
     for step in range(1, steps + 1):
         try:
-            maps.append(stepped(maps[-1], productions, step, until))
+            maps.append(map_step(maps[-1], productions, step, until))
         except ModelLimitError as error:
             error.partial = Development(system, maps)
             raise error.with_hint(f"{'Step 0 is' if step == 1 else f'Steps 0-{step - 1} are'} kept. {error.hint}") from None

@@ -22,7 +22,7 @@ OFTEN = 1_000
 """After so many cells the time is looked at."""
 
 
-class Parting(NamedTuple):
+class DividedWall(NamedTuple):
     """What a wall has become: its new walls, one after another, and between them vertices with their markers."""
 
     walls: range
@@ -40,7 +40,7 @@ class Mark(NamedTuple):
     edge: Edge
 
 
-def stepped(found: Map, productions: Mapping[Edge, EdgeProduction], step: int, until: float) -> Map:
+def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int, until: float) -> Map:
     """The map of the next step."""
     check_walls(sum(len(_successor(wall, productions)) for wall in found.walls), step)
     vertices, walls = [*found.vertices], list[Wall]()
@@ -66,7 +66,7 @@ def _successor(wall: Wall, productions: Mapping[Edge, EdgeProduction]) -> tuple[
     return productions[predecessor].walls if predecessor in productions else (predecessor,)
 
 
-def _parted(wall: Wall, production: EdgeProduction | None, vertices: list[Vertex], walls: list[Wall]) -> Parting:
+def _parted(wall: Wall, production: EdgeProduction | None, vertices: list[Vertex], walls: list[Wall]) -> DividedWall:
     """Replace a wall, in its own direction: its vertices and walls are put behind those that there are."""
     edges = production.walls if production else (_predecessor(wall),)
     between = range(len(vertices), len(vertices) + len(edges) - 1)
@@ -75,7 +75,7 @@ def _parted(wall: Wall, production: EdgeProduction | None, vertices: list[Vertex
     first = len(walls)
     walls += (Wall(edge.label, *((b, a) if edge.arrow == "<" else (a, b)), bool(edge.arrow))
               for edge, a, b in zip(edges, ends, ends[1:], strict=False))
-    return Parting(range(first, len(walls)), [edge.arrow == "<" for edge in edges], between,
+    return DividedWall(range(first, len(walls)), [edge.arrow == "<" for edge in edges], between,
                    _marked(production) if production else ())
 
 
@@ -90,7 +90,7 @@ def _marked(production: EdgeProduction) -> list[list[Marker]]:
     return marked[:-1]
 
 
-def _replaced(sides: Sequence[Side], partings: Sequence[Parting]) -> tuple[list[Side], list[Mark]]:
+def _replaced(sides: Sequence[Side], partings: Sequence[DividedWall]) -> tuple[list[Side], list[Mark]]:
     """The sides of a cell after the replacement of its walls, and the markers that point into it."""
     made: list[Side] = []
     marks: list[Mark] = []

@@ -60,9 +60,9 @@ class Map:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.maps.development import developed
+    >>> from lsys_kit.derivation.maps.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> divided = developed(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)[-1]
+    >>> divided = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)[-1]
     >>> print(divided)
     BABA | BABA
     >>> divided.counts

@@ -13,7 +13,7 @@ from functools import partial
 from itertools import product
 
 from lsys_kit.derivation.core.chance import shares
-from lsys_kit.derivation.core.rules import Kind, Rule, kind_of
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.notation.model.arithmetic import Value
@@ -41,11 +41,11 @@ def by_symbol(states: States) -> Stages:
                   tuple(start[kind] for kind in kinds), True, tuple(_besides(states)), partial(_place, where))
 
 
-def _place(where: dict[Kind, int], module: Module) -> int | None:
+def _place(where: dict[ModuleKind, int], module: Module) -> int | None:
     return where.get(kind_of(module))
 
 
-def _met(states: States, tables: Sequence[Mapping[Kind, Sequence[Rule]]]) -> list[Kind]:
+def _met(states: States, tables: Sequence[Mapping[ModuleKind, Sequence[Rule]]]) -> list[ModuleKind]:
     """The kinds of modules that may be met from the axiom on."""
     found = dict.fromkeys(map(kind_of, states.system.axiom))
     found.update(dict.fromkeys(kind_of(module) for meta in states.system.meta for module in flat(meta.successor)))
@@ -86,14 +86,14 @@ def _settled(expression: Expression | None, states: States) -> Value | None:
     return value
 
 
-def _made(items: Iterable[Item], states: States) -> Iterator[tuple[Kind, int, tuple[int, ...], str]]:
+def _made(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, int, tuple[int, ...], str]]:
     """For each kind that a successor holds how many, where in it they stand, and with what their number is multiplied."""
     parts = list(_parts(items, states))
-    spots: dict[Kind, list[int]] = {}
+    spots: dict[ModuleKind, list[int]] = {}
     for position, (kind, _, _) in enumerate(parts, 1):
         spots.setdefault(kind, []).append(position)
     repeated = any(times != 1 or factor for _, times, factor in parts)
-    totals: Counter[tuple[Kind, str]] = Counter()
+    totals: Counter[tuple[ModuleKind, str]] = Counter()
     for kind, times, factor in parts:
         totals[kind, factor] += times
     for (kind, factor), copies in totals.items():
@@ -101,7 +101,7 @@ def _made(items: Iterable[Item], states: States) -> Iterator[tuple[Kind, int, tu
             yield kind, copies, () if repeated else tuple(spots[kind]), factor
 
 
-def _parts(items: Iterable[Item], states: States) -> Iterator[tuple[Kind, int, str]]:
+def _parts(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, int, str]]:
     """The modules of a successor, each with how often it is written: a number and, where that is not known, a factor."""
     for item in items:
         if isinstance(item, Module):

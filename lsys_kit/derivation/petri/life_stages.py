@@ -15,8 +15,8 @@ from typing import TypeAlias
 
 from lsys_kit.derivation.core.rules import Rule, kind_of
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.petri.outcomes import Fate
-from lsys_kit.derivation.timed.ages import Ageing, ageing_of
+from lsys_kit.derivation.petri.outcomes import Outcome
+from lsys_kit.derivation.timed.ages import AgeModel, age_model
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, number_text
@@ -31,7 +31,7 @@ _Ages: TypeAlias = Sequence[Value]
 
 
 @dataclass(frozen=True)
-class Growing:
+class AgeingStates:
     """How the modules of a system grow older, and how they end.
 
     Attributes
@@ -65,17 +65,17 @@ class Growing:
         return [] if end is None else [Module(*made) for made in self.states.made(end[0], self.aged(module, end[1]))]
 
 
-def growing_in_time(system: Timed) -> Growing:
+def ageing_in_time(system: Timed) -> AgeingStates:
     """A timed system."""
     def end(module: Module) -> End:
         found = system.at_end(module)
         rule = system.states.rules.get(kind_of(module), (None,))[0]
         return None if found is None or rule is None else (rule, found.arguments[0])  # type: ignore[return-value]
 
-    return Growing(system.states, lambda module: 0 if module.arguments else None, end)
+    return AgeingStates(system.states, lambda module: 0 if module.arguments else None, end)
 
 
-def growing_in_steps(states: States) -> Growing:
+def ageing_in_steps(states: States) -> AgeingStates:
     """A system whose productions let time pass, and whose decomposition rules say at which age a module divides.
 
     Raises
@@ -87,11 +87,11 @@ def growing_in_steps(states: States) -> Growing:
     --------
     >>> from lsys_kit.notation.read import read
     >>> cells = read("axiom: M(0)\\nM(t) -> M(t+1)\\ndecomposition:\\nM(t) : t >= 3 -> M(t-3) M(t-2)")
-    >>> found = growing_in_steps(States(cells))
+    >>> found = ageing_in_steps(States(cells))
     >>> str(found.end(Module("M", (0,)))[1]), list(map(str, found.daughters(Module("M", (0,)))))
     ('3', ['M(0)', 'M(1)'])
     """
-    ageing = ageing_of(states)
+    ageing = age_model(states)
     for rules in states.rules.values():
         for rule in rules:
             if not _lets_time_pass(rule, ageing):
@@ -101,17 +101,17 @@ def growing_in_steps(states: States) -> Growing:
                 raise ModelValueError(said, states.system.source or None, start, end,
                                       'It is told by productions such as "a(t) -> a(t+dt)" and decomposition rules such as '
                                       '"a(t) : t > 1 -> b(t-1)"; and by those of timed(system).')
-    return Growing(states, lambda module: ageing.parameters.get(kind_of(module)), partial(_decomposed, ageing))
+    return AgeingStates(states, lambda module: ageing.parameters.get(kind_of(module)), partial(_decomposed, ageing))
 
 
-def _lets_time_pass(rule: Rule, ageing: Ageing) -> bool:
+def _lets_time_pass(rule: Rule, ageing: AgeModel) -> bool:
     """Whether all that a rule does is make a module of some kind older."""
     made = rule.production.successor
     return (rule.settled and rule.condition is None and not rule.equalities and len(made) == 1
             and isinstance(made[0], Module) and kind_of(made[0]) == kind_of(rule.production.predecessor) in ageing.parameters)
 
 
-def _decomposed(ageing: Ageing, module: Module) -> End:
+def _decomposed(ageing: AgeModel, module: Module) -> End:
     """The decomposition rule that is the first to apply as a module grows older, and the age from which on it does."""
     found: list[tuple[Value, int, Rule]] = []
     for rule in ageing.states.decomposition.get(kind_of(module), ()):
@@ -124,7 +124,7 @@ def _decomposed(ageing: Ageing, module: Module) -> End:
 
 
 @dataclass(frozen=True)
-class Lives:
+class LifeStages:
     """The stretches of all lives.
 
     Attributes
@@ -135,9 +135,9 @@ class Lives:
         For each stretch what it becomes, and after how long: the next stretch, or the daughters.
     """
 
-    growing: Growing
+    growing: AgeingStates
     modules: tuple[Module, ...]
-    fates: tuple[tuple[Fate, ...], ...]
+    fates: tuple[tuple[Outcome, ...], ...]
     _first: Mapping[_Kind, tuple[int, _Ages]] = field(repr=False)
 
     def stretch(self, module: Module) -> int | None:
@@ -149,7 +149,7 @@ class Lives:
         return number + max(0, bisect_right(ages, age) - 1)
 
 
-def lives(growing: Growing, limit: int) -> Lives:
+def life_stages(growing: AgeingStates, limit: int) -> LifeStages:
     """The stretches of all lives.
 
     Raises
@@ -163,7 +163,7 @@ def lives(growing: Growing, limit: int) -> Lives:
     --------
     >>> from lsys_kit.derivation.timed.timed import timed
     >>> from lsys_kit.notation.read import read
-    >>> found = lives(growing_in_time(timed(read("axiom: M(0)\\nM(1) -> M(0) M(1/5)"))), 9)
+    >>> found = life_stages(ageing_in_time(timed(read("axiom: M(0)\\nM(1) -> M(0) M(1/5)"))), 9)
     >>> for module, (fate,) in zip(found.modules, found.fates):
     ...     print(module, fate.span, *(found.modules[state] for state in fate.successor))
     M(0) 1/5 M(0.2)
@@ -176,7 +176,7 @@ def lives(growing: Growing, limit: int) -> Lives:
                               hint="Choose a value for it.") from None
 
 
-def _first_ages(growing: Growing, limit: int) -> dict[_Kind, dict[Value, Module]]:
+def _first_ages(growing: AgeingStates, limit: int) -> dict[_Kind, dict[Value, Module]]:
     """For each kind of module those that begin, by their age."""
     found: dict[_Kind, dict[Value, Module]] = {}
     todo = [growing.states.modules[state] for state in growing.states.axiom][::-1]
@@ -193,22 +193,22 @@ def _first_ages(growing: Growing, limit: int) -> dict[_Kind, dict[Value, Module]
     return found
 
 
-def _stretched(growing: Growing, first: Mapping[_Kind, Mapping[Value, Module]]) -> Lives:
+def _stretched(growing: AgeingStates, first: Mapping[_Kind, Mapping[Value, Module]]) -> LifeStages:
     ages: dict[_Kind, tuple[int, _Ages]] = {}
     modules: list[Module] = []
     for kind, begun in first.items():
         mortal = growing.end(next(iter(begun.values()))) is not None
         ages[kind] = len(modules), sorted(begun)[:None if mortal else 1]
         modules += [begun[age] for age in ages[kind][1]]
-    found = Lives(growing, tuple(modules), (), ages)
-    fates: list[tuple[Fate, ...]] = []
+    found = LifeStages(growing, tuple(modules), (), ages)
+    fates: list[tuple[Outcome, ...]] = []
     for number, row in ages.values():
-        fates += [(Fate(None, (later,), 1, after - age),) for later, (age, after) in enumerate(pairwise(row), number + 1)]
+        fates += [(Outcome(None, (later,), 1, after - age),) for later, (age, after) in enumerate(pairwise(row), number + 1)]
         fates.append(_last(found, modules[len(fates)], row[-1]))
-    return Lives(growing, found.modules, tuple(fates), ages)
+    return LifeStages(growing, found.modules, tuple(fates), ages)
 
 
-def _last(found: Lives, module: Module, age: Value) -> tuple[Fate, ...]:
+def _last(found: LifeStages, module: Module, age: Value) -> tuple[Outcome, ...]:
     """What becomes of a module in its last stretch."""
     end = found.growing.end(module)
     if end is None:
@@ -216,4 +216,4 @@ def _last(found: Lives, module: Module, age: Value) -> tuple[Fate, ...]:
     if end[1] < age:
         raise ModelValueError(f"{module} begins older than it divides, at the age {number_text(end[1])}")
     daughters = (found.stretch(daughter) for daughter in found.growing.daughters(module))
-    return (Fate(end[0].number, tuple(row for row in daughters if row is not None), 1, end[1] - age),)
+    return (Outcome(end[0].number, tuple(row for row in daughters if row is not None), 1, end[1] - age),)

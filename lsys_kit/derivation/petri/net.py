@@ -11,10 +11,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from lsys_kit.derivation.core.chance import Chance, chosen
+from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, number_text, tidy
+from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.system import LSystem, Module
 
 
@@ -201,7 +201,7 @@ class Stages:
                 raise ModelValueError(f"Which way a token in {self.places[place]} goes is left to chance",
                                       hint="Ask for expected(steps), or draw the lots with fired(tokens, Chance(1, 0, 0)).")
             weights = [self.transitions[number].chance or 0 for number in numbers]
-            drawn = Counter(chosen(weights, chance.unit()) for _ in range(tokens[place]))
+            drawn = Counter(choose(weights, chance.unit()) for _ in range(tokens[place]))
             for index, number in enumerate(numbers):
                 found[number] = drawn[index]
         return found
@@ -212,7 +212,7 @@ class Stages:
         after = [0 if place in left else count for place, count in enumerate(tokens)]
         for arc in self.arcs:
             after[arc.place] += arc.copies * times[arc.transition]
-        return tuple(map(tidy, after))
+        return tuple(map(normalised, after))
 
     def _check_moving(self) -> None:
         """Refuse to move tokens that do not know when, or whither."""

@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lsys_kit.derivation.core.chance import shares
-from lsys_kit.derivation.core.rule_errors import fault_in
+from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.states import CUT, States
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import symbols
 
 
 @dataclass(frozen=True)
-class Fate:
+class Outcome:
     """What may become of a state.
 
     Attributes
@@ -37,11 +37,11 @@ class Fate:
     span: Value | None = None
 
 
-def fates_of(states: States, state: int) -> tuple[Fate, ...]:
+def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     """What may become of a state of a system without contexts; nothing where no production matches.
 
     >>> from lsys_kit.notation.read import read
-    >>> for fate in fates_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
+    >>> for fate in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
     ...     print(fate.production, fate.successor, fate.chance)
     0 (0, 0) 1/3
     1 (0,) 2/3
@@ -49,25 +49,25 @@ def fates_of(states: States, state: int) -> tuple[Fate, ...]:
     module = states.modules[state]
     matched = states.matched(module, states.rules)
     if not matched or matched[0][0].probability is None:
-        return tuple(Fate(rule.number, states.replaced(rule, module)) for rule, _ in matched)
+        return tuple(Outcome(rule.number, states.replaced(rule, module)) for rule, _ in matched)
     lots = [(rule, weight) for rule, weight in states.lots(matched) if weight != 0]
     try:
         likely = shares([weight for _, weight in lots] or [0])
     except ValueError as fault:
-        raise fault_in(states.system, module, matched[0][0], fault) from None
+        raise rule_error(states.system, module, matched[0][0], fault) from None
     except TypeError:
-        raise fault_in(states.system, module, matched[0][0], ValueError("it depends on an unknown constant")) from None
-    return tuple(Fate(rule.number, states.replaced(rule, module), chance)
+        raise rule_error(states.system, module, matched[0][0], ValueError("it depends on an unknown constant")) from None
+    return tuple(Outcome(rule.number, states.replaced(rule, module), chance)
                  for (rule, _), chance in zip(lots, likely, strict=True))
 
 
-def all_fates(states: States, limit: int) -> list[tuple[Fate, ...]] | None:
+def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None:
     """The fates of all states that may be met from the axiom on; None where they are more than `limit`."""
-    found: list[tuple[Fate, ...]] = []
+    found: list[tuple[Outcome, ...]] = []
     while len(found) < len(states):
         if len(states) > limit:
             return None
-        found.append(fates_of(states, len(found)))
+        found.append(outcomes_of(states, len(found)))
     return found
 
 

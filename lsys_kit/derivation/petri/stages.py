@@ -5,7 +5,7 @@ order and polarity: states that look the same but for the way they point, and wh
 parameter that decides nothing keeps the states from ending, it is left out (see `lumping`); where they do not end all the
 same, or hang on their neighbours, a place stands for all modules of one symbol (see `grouping`).
 
-In a timed system a place is a stretch of a module's life (see `lives`), and its transition says how long that is.
+In a timed system a place is a stretch of a module's life (see `life_stages`), and its transition says how long that is.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
-from lsys_kit.derivation.core.interpretation import images
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.growth.slicing import Position, deciding, lumped, shorn
+from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
 from lsys_kit.derivation.petri.by_symbol import by_symbol
-from lsys_kit.derivation.petri.life_stages import Growing, growing_in_steps, growing_in_time, lives
+from lsys_kit.derivation.petri.life_stages import AgeingStates, ageing_in_steps, ageing_in_time, life_stages
 from lsys_kit.derivation.petri.net import Arc as Arc
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
-from lsys_kit.derivation.petri.outcomes import Fate, all_fates, has_fates
+from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes, has_fates
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
@@ -43,7 +43,7 @@ class _Table:
 
     states: States
     modules: Sequence[Module]
-    fates: Sequence[tuple[Fate, ...]]
+    fates: Sequence[tuple[Outcome, ...]]
     row: Callable[[Module], int | None]
     most: int = 10 * MOST_PLACES
 
@@ -89,18 +89,18 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
                                   hint="Write stages(timed(system, name=value)).")
-        return _in_time(growing_in_time(system), polarity)
+        return _in_time(ageing_in_time(system), polarity)
     states = States(system, constants)
     if durations:
-        return _in_time(growing_in_steps(states), polarity)
+        return _in_time(ageing_in_steps(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
     return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
                 None) or by_symbol(states)
 
 
-def _in_time(growing: Growing, polarity: bool) -> Stages:
+def _in_time(growing: AgeingStates, polarity: bool) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
-    found = lives(growing, MOST_PLACES)
+    found = life_stages(growing, MOST_PLACES)
     return _net(_Table(growing.states, found.modules, found.fates, found.stretch), growing.states, polarity)
 
 
@@ -108,27 +108,27 @@ def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
     """The states of a system, then those without the parameters that decide nothing; only where they end."""
     for fates in _ended(states):
         yield _Table(states, states.modules, fates, {module: row for row, module in enumerate(states.modules)}.get)
-    system, kept = states.system, deciding(states.system)
-    model = lumped(system)
+    system, kept = states.system, deciding_positions(states.system)
+    model = slice_system(system)
     if (model.axiom, model.productions, model.decomposition) == (system.axiom, system.productions, system.decomposition):
         return
-    whole = tuple(rule for rule in system.interpretation if shorn(rule.predecessor, kept) == rule.predecessor)
+    whole = tuple(rule for rule in system.interpretation if without_arguments(rule.predecessor, kept) == rule.predecessor)
     fewer = States(replace(model, interpretation=whole), constants)
     for fates in _ended(fewer):
         rows = {module: row for row, module in enumerate(fewer.modules)}
         yield _Table(fewer, fewer.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
 
 
-def _ended(states: States) -> Iterator[list[tuple[Fate, ...]]]:
+def _ended(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
     """The fates of all states, if these come to an end and no neighbour decides."""
     with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
-        fates = all_fates(states, 4 * MOST_PLACES) if has_fates(states) else None
+        fates = all_outcomes(states, 4 * MOST_PLACES) if has_fates(states) else None
         if fates is not None:
             yield fates
 
 
-def _row(rows: Mapping[Module, int], kept: Set[Position], module: Module) -> int | None:
-    return rows.get(shorn(module, kept))
+def _row(rows: Mapping[Module, int], kept: Set[ArgumentPosition], module: Module) -> int | None:
+    return rows.get(without_arguments(module, kept))
 
 
 def _net(table: _Table, states: States, polarity: bool) -> Stages:
@@ -155,7 +155,7 @@ def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], mo
     return None if row is None else classes[row]
 
 
-def _side_by_side(table: _Table, group: Sequence[int], classes: Sequence[int]) -> Iterator[tuple[Fate, ...]]:
+def _side_by_side(table: _Table, group: Sequence[int], classes: Sequence[int]) -> Iterator[tuple[Outcome, ...]]:
     """The fates of the rows of one class, those together that lead to the same classes, in the order of the productions."""
     ways = zip(*(sorted(table.fates[row], key=lambda fate: _likeness(fate, classes)) for row in group), strict=True)
     return iter(sorted(ways, key=lambda way: way[0].production or 0))
@@ -182,7 +182,7 @@ def _merged(table: _Table) -> list[int]:
         classes = finer
 
 
-def _likeness(fate: Fate, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
+def _likeness(fate: Outcome, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
     """What makes two fates alike."""
     return fate.chance, -1 if fate.span is None else fate.span, tuple(sorted(classes[row] for row in fate.successor))
 
@@ -196,5 +196,5 @@ def _numbered(keys: Sequence[Hashable]) -> list[int]:
 def _look(states: States, module: Module) -> Hashable:
     """What a module looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
     state = states.number(module.symbol, module.arguments)  # type: ignore[arg-type]
-    image = images(states, (state,))[state]
+    image = interpretations(states, (state,))[state]
     return tuple(cell.arguments for cell in image) if all(cell.symbol in CELLS for cell in image) else module

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from lsys_kit.derivation.core.rules import Kind, Rule, kind_of
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, is_random, names_in
@@ -22,7 +22,7 @@ _NEARLY = 1e-9
 
 
 @dataclass(frozen=True)
-class Ageing:
+class AgeModel:
     """How the modules of a system grow older.
 
     Attributes
@@ -36,7 +36,7 @@ class Ageing:
     """
 
     states: States
-    parameters: Mapping[Kind, int]
+    parameters: Mapping[ModuleKind, int]
     step: Value | None
 
     def age(self, module: Module) -> Value | None:
@@ -54,7 +54,7 @@ class Ageing:
 
         >>> from lsys_kit.notation.read import read
         >>> states = States(read("dt = 0.7\\naxiom: M(0.4)\\nM(t) : t+dt < 1 -> M(t+dt)\\nM(t) : t+dt >= 1 -> M(t+dt-1) M(0)"))
-        >>> ageing_of(states).applies_from(states.rules["M", 1][1], states.modules[0])
+        >>> age_model(states).applies_from(states.rules["M", 1][1], states.modules[0])
         Fraction(3, 10)
         """
         age = self.age(module)
@@ -80,20 +80,20 @@ class Ageing:
         return bound
 
 
-def ageing_of(states: States) -> Ageing:
+def age_model(states: States) -> AgeModel:
     """How the modules of a system grow older: what its productions say.
 
     >>> from lsys_kit.notation.read import read
-    >>> ageing_of(States(read("dt = 0.7\\naxiom: M(1,0)\\nM(p,t) -> M(p,t+dt)"))).step
+    >>> age_model(States(read("dt = 0.7\\naxiom: M(1,0)\\nM(p,t) -> M(p,t+dt)"))).step
     Fraction(7, 10)
     """
-    parameters: dict[Kind, int] = {}
+    parameters: dict[ModuleKind, int] = {}
     steps: set[Value] = set()
     for production in states.system.productions:
         for at, step in _grown(states, production):
             parameters.setdefault(kind_of(production.predecessor), at)
             steps.add(step)
-    return Ageing(states, parameters, steps.pop()) if len(steps) == 1 else Ageing(states, {}, None)
+    return AgeModel(states, parameters, steps.pop()) if len(steps) == 1 else AgeModel(states, {}, None)
 
 
 def _grown(states: States, production: Production) -> Iterator[tuple[int, Value]]:

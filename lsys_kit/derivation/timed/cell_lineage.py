@@ -9,15 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from lsys_kit.derivation.core.interpretation import is_cell, is_filament
-from lsys_kit.derivation.core.rules import Kind, Rule, kind_of
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.timed.ages import ageing_of
-from lsys_kit.notation.model.arithmetic import Value, tidy
+from lsys_kit.derivation.timed.ages import age_model
+from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.system import LSystem, Module, flat
 
 
 @dataclass(frozen=True)
-class Cell:
+class LineageCell:
     """One cell of a lineage, from its birth to its division.
 
     Attributes
@@ -45,7 +45,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Part:
+class CellPart:
     """What becomes of a module within a step.
 
     Attributes
@@ -60,46 +60,46 @@ class Part:
 
     module: Module
     at_birth: Module
-    parts: tuple[Part, ...] | None = None
+    parts: tuple[CellPart, ...] | None = None
     ago: Value | None = None
 
 
-class Parting:
+class CellDivisions:
     """What becomes of each state within a step, with what comes and goes in between."""
 
     def __init__(self, states: States) -> None:
-        self.states, self.ageing = states, ageing_of(states)
-        self._known: dict[int, Part] = {}
+        self.states, self.ageing = states, age_model(states)
+        self._known: dict[int, CellPart] = {}
 
-    def of(self, state: int) -> Part:
+    def of(self, state: int) -> CellPart:
         """What becomes of a settled state."""
         if state not in self._known:
             module, rule = self.states.modules[state], self.states.fate(state)
             self._known[state] = self._replaced(module, module, rule, 0) if rule else self._decomposed(module, module, 0)
         return self._known[state]
 
-    def _replaced(self, module: Module, at_birth: Module, rule: Rule, depth: int) -> Part:
+    def _replaced(self, module: Module, at_birth: Module, rule: Rule, depth: int) -> CellPart:
         """A module with the parts by which a rule replaces it, as they are now and as they were at first."""
         age, threshold = self.ageing.age(module), self.ageing.applies_from(rule, module)
         made = [Module(*part) for part in self.states.made(rule, module)]
         if age is None or threshold is None:
-            return Part(module, at_birth, tuple(self._decomposed(part, part, depth) for part in made))
+            return CellPart(module, at_birth, tuple(self._decomposed(part, part, depth) for part in made))
         first = [Module(*part) for part in self.states.made(rule, self.ageing.aged(module, threshold))]
-        return Part(module, at_birth, tuple(self._decomposed(part, was, depth) for part, was in zip(made, first, strict=True)),
-                     age - threshold)
+        parts = tuple(self._decomposed(part, was, depth) for part, was in zip(made, first, strict=True))
+        return CellPart(module, at_birth, parts, age - threshold)
 
-    def _decomposed(self, module: Module, at_birth: Module, depth: int) -> Part:
+    def _decomposed(self, module: Module, at_birth: Module, depth: int) -> CellPart:
         """A module with its parts, and theirs."""
         rule = None if depth == self.states.system.decomposition_depth else \
             self.states.matching(module, self.states.decomposition)
-        return Part(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
+        return CellPart(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
 
 
-class Growth:
+class CellGrowth:
     """A lineage that is put together step by step."""
 
     def __init__(self, states: States) -> None:
-        self.cells: list[Cell] = []
+        self.cells: list[LineageCell] = []
         self.places: list[int | None] = []  # for each module of the word whose cell it is
         self._kinds = cell_kinds(states.system)
 
@@ -109,7 +109,7 @@ class Growth:
 
     def born(self, mother: int | None, moment: Value, module: Module) -> int:
         """A new cell's number."""
-        self.cells.append(Cell(mother, moment, module))
+        self.cells.append(LineageCell(mother, moment, module))
         return len(self.cells) - 1
 
     def found(self, owner: int | None, step: int, module: Module) -> None:
@@ -119,7 +119,7 @@ class Growth:
             cell = self.cells[owner]
             self.cells[owner] = replace(cell, modules=(*cell.modules, (step, module)))
 
-    def follow(self, part: Part, owner: int | None, step: int, span: tuple[Value, Value]) -> None:
+    def follow(self, part: CellPart, owner: int | None, step: int, span: tuple[Value, Value]) -> None:
         """What becomes of a cell within a step that lasts from one time to another."""
         if part.parts is None:
             self.found(owner, step, part.module)
@@ -138,22 +138,22 @@ class Growth:
 
     def _ends(self, owner: int, ago: Value | None, span: tuple[Value, Value]) -> Value:
         """When a cell divides or dies: not before it is born, and not before the step begins, in whose word it still is."""
-        due = tidy(span[1] - (ago or 0))
+        due = normalised(span[1] - (ago or 0))
         moment = max(due, span[0], self.cells[owner].born)
         self.cells[owner] = replace(self.cells[owner], ended=moment, due=due if due < moment else None)
         return moment
 
-    def overdue(self, part: Part, end: Value) -> Value | None:
+    def overdue(self, part: CellPart, end: Value) -> Value | None:
         """When a cell should have divided that has not by a time, given what would become of it in a step from then on."""
         while part.parts is not None:
             cells = [each for each in part.parts if self.is_cell(each.module)]
             if len(cells) != 1:
-                return tidy(end - part.ago) if part.ago is not None else None
+                return normalised(end - part.ago) if part.ago is not None else None
             part = cells[0]
         return None
 
 
-def cell_kinds(system: LSystem) -> frozenset[Kind]:
+def cell_kinds(system: LSystem) -> frozenset[ModuleKind]:
     """The symbols and numbers of parameters of what is drawn as cells; none where the system is no filament."""
     if not is_filament(system):
         return frozenset()

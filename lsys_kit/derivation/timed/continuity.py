@@ -17,9 +17,16 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
-from lsys_kit.derivation.core.rules import real_from, unknown
+from lsys_kit.derivation.core.rules import real_from, unknown_constant
 from lsys_kit.derivation.timed.equations import roots
-from lsys_kit.derivation.timed.length_functions import functions_of, in_sympy, is_continuous, is_decided, texts_of, the_age
+from lsys_kit.derivation.timed.length_functions import (
+    in_sympy,
+    is_continuous,
+    is_decided,
+    length_functions,
+    the_age,
+    written_functions,
+)
 from lsys_kit.derivation.timed.timed import Timed, timed
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
@@ -29,7 +36,7 @@ from lsys_kit.notation.model.system import LSystem, Module, Production
 if TYPE_CHECKING:
     import sympy
 
-Fate: TypeAlias = tuple[Production, Module, list[Module]]
+CellFate: TypeAlias = tuple[Production, Module, list[Module]]
 """What becomes of a letter: a production, the mother, her daughters."""
 MOST_ORDER = 9
 """The highest derivative."""
@@ -230,8 +237,8 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     growing, given = _given(system, constants)
     fates = list(_fates(growing))
     lives = _lives(growing, fates)
-    texts = texts_of(lengths, lives)
-    functions = functions_of(growing, texts, given, lives)
+    texts = written_functions(lengths, lives)
+    functions = length_functions(growing, texts, given, lives)
     undecided = tuple(letter for letter, life in lives.items()
                       if not is_decided(letter, texts[letter], functions[letter], life, order))
     divisions = tuple(Division(production, k, _total([mother], functions, k), _total(daughters, functions, k))
@@ -256,16 +263,16 @@ def _plain(value: object) -> object:
 
 
 
-def _fates(growing: Timed) -> Iterator[Fate]:
+def _fates(growing: Timed) -> Iterator[CellFate]:
     """Each production, its mother at her terminal age, her daughters at their first ages."""
     for (symbol, _), (rule, *_) in growing.states.rules.items():
-        others = (unknown(str(name)) for name in rule.production.predecessor.arguments[1:])
+        others = (unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])
         mother = growing.at_end(Module(symbol, (0, *others)))
         if mother is not None:
             yield rule.production, mother, growing.daughters(mother)
 
 
-def _lives(growing: Timed, fates: Iterable[Fate]) -> dict[str, sympy.Set]:
+def _lives(growing: Timed, fates: Iterable[CellFate]) -> dict[str, sympy.Set]:
     """The life span of each letter, from its least age to its greatest; without end where no production ends it."""
     import sympy
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING
 
-from lsys_kit.derivation.core.rules import number_from, unknown
+from lsys_kit.derivation.core.rules import number_from, unknown_constant
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, span, suggestion
@@ -25,7 +25,7 @@ JUMPS = frozenset(("if", "floor", "ceil", "mod"))
 """Operators that are not continuous where their operands are."""
 
 
-def texts_of(lengths: Mapping[str, str], lives: Mapping[str, sympy.Set]) -> dict[str, str]:
+def written_functions(lengths: Mapping[str, str], lives: Mapping[str, sympy.Set]) -> dict[str, str]:
     """The growth function of each letter as it is written."""
     texts = {symbol: text for symbols, text in lengths.items() for symbol in symbols.split()}
     for symbol in (*texts, *lives):
@@ -37,7 +37,7 @@ def texts_of(lengths: Mapping[str, str], lives: Mapping[str, sympy.Set]) -> dict
     return texts
 
 
-def functions_of(growing: Timed, texts: Mapping[str, str], given: Mapping[str, object],
+def length_functions(growing: Timed, texts: Mapping[str, str], given: Mapping[str, object],
                lives: Mapping[str, sympy.Set]) -> dict[str, sympy.Expr]:
     """The growth function of each letter, with the values of all known names in it."""
     import sympy
@@ -52,7 +52,7 @@ def functions_of(growing: Timed, texts: Mapping[str, str], given: Mapping[str, o
         raise ModelNameError(f'Neither the system nor a growth function has the name "{name}"',
                              hint=suggestion(name, {*used, *constants}))
     values = {name: in_sympy(value) for name, value in zip(constants, growing.states.constants, strict=True)}
-    values |= {name: in_sympy(given[name], name) if name in given else unknown(name) for name in used}
+    values |= {name: in_sympy(given[name], name) if name in given else unknown_constant(name) for name in used}
     sizes = {name: _size(value) for name, value in values.items()}
     sizes[AGE] = max(_size(end) for life in lives.values() for end in (life.inf, life.sup))
     symbols = {sympy.Symbol(name): value for name, value in {**values, AGE: the_age()}.items()}

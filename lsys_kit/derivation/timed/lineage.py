@@ -16,10 +16,10 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive
-from lsys_kit.derivation.timed.cell_lineage import Cell, Growth, Part, Parting
+from lsys_kit.derivation.timed.cell_lineage import CellDivisions, CellGrowth, CellPart, LineageCell
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, number_text, tidy
+from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.system import LSystem, Module
 
 MOST_CELLS = 100_000
@@ -45,7 +45,7 @@ class Lineage:
     """
 
     last: Word
-    cells: tuple[Cell, ...]
+    cells: tuple[LineageCell, ...]
     words: tuple[tuple[int, ...], ...]
     times: tuple[Value, ...]
     stepwise: bool = True
@@ -138,7 +138,7 @@ def _of_words(derivation: Derivation) -> Lineage:
     if sum(derivation.lengths) > MOST_CELLS:
         raise ModelLimitError(f"The words of a lineage may have {MOST_CELLS:,} modules together", limit=MOST_CELLS,
                               needed=sum(derivation.lengths), hint="Take fewer steps.")
-    growth, fates = Growth(states), Parting(states)
+    growth, fates = CellGrowth(states), CellDivisions(states)
     length = fates.ageing.step or 1
     for module in derivation[0]:
         growth.found(growth.born(None, 0, module) if growth.is_cell(module) else None, 0, module)
@@ -147,29 +147,30 @@ def _of_words(derivation: Derivation) -> Lineage:
         before, growth.places = growth.places, []
         parts = map(fates.of, derivation[step - 1].numbers()) if states.settled else _flat_parts(derivation, step)
         for owner, part in zip(before, parts, strict=True):
-            growth.follow(part, owner, step, (tidy((step - 1) * length), tidy(step * length)))
+            growth.follow(part, owner, step, (normalised((step - 1) * length), normalised(step * length)))
         words.append(growth.places)
-    end = tidy(derivation.steps * length)
+    end = normalised(derivation.steps * length)
     if states.settled and fates.ageing.parameters:
         for owner, state in zip(growth.places, derivation[-1].numbers(), strict=True):
             due = growth.overdue(fates.of(state), end + length) if owner is not None else None
             if owner is not None and due is not None and due < end:
                 growth.cells[owner] = replace(growth.cells[owner], due=due)
     found = tuple(tuple(cell for cell in word if cell is not None) for word in words)
-    return Lineage(derivation[-1], tuple(growth.cells), found, tuple(tidy(step * length) for step in range(len(derivation))))
+    times = tuple(normalised(step * length) for step in range(len(derivation)))
+    return Lineage(derivation[-1], tuple(growth.cells), found, times)
 
 
-def _flat_parts(derivation: Derivation, step: int) -> list[Part]:
+def _flat_parts(derivation: Derivation, step: int) -> list[CellPart]:
     """What becomes of each module of the word before a step, where neighbours or chance have a say."""
-    made: list[list[Part]] = [[] for _ in derivation[step - 1]]
+    made: list[list[CellPart]] = [[] for _ in derivation[step - 1]]
     for parent, module in zip(derivation.origins(step).parents, derivation[step], strict=True):
-        made[parent].append(Part(module, module))
-    return [Part(module, module, tuple(parts)) for module, parts in zip(derivation[step - 1], made, strict=True)]
+        made[parent].append(CellPart(module, module))
+    return [CellPart(module, module, tuple(parts)) for module, parts in zip(derivation[step - 1], made, strict=True)]
 
 
 def _in_time(system: Timed, end: Value) -> Lineage:
     """The lineage of a timed system up to a time."""
-    word, growth = system.word(end), Growth(system.states)
+    word, growth = system.word(end), CellGrowth(system.states)
     if len(word) > MOST_CELLS:
         raise ModelLimitError(f"A lineage may have {MOST_CELLS:,} cells", limit=MOST_CELLS, needed=len(word),
                               hint="Take an earlier time.")

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.closure import check_settled
-from lsys_kit.derivation.core.rule_errors import fault_in
+from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import kind_of, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
@@ -111,7 +111,7 @@ class Timed:
         try:
             terminal = rules[0].equalities[0][1]((*module.arguments, *self.states.constants))
         except (ArithmeticError, ValueError) as fault:
-            raise fault_in(self.states.system, module, rules[0], fault) from None
+            raise rule_error(self.states.system, module, rules[0], fault) from None
         except TypeError:
             raise self._undecided(module, rules[0].production) from None
         return Module(module.symbol, (terminal, *module.arguments[1:]))

@@ -9,8 +9,17 @@ from types import MappingProxyType
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, reason, sound
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, function_of, gives, names_in
+from lsys_kit.notation.model.arithmetic import Value, finite, reason_of
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    expression_type,
+    function_of,
+    names_in,
+)
 from lsys_kit.notation.model.system import Constant, Item, MetaRule, Module, Production, Repeat
 
 
@@ -44,9 +53,9 @@ def value_of(expression: Expression, source: str, values: Mapping[str, Value] = 
     """
     order = {name: index for index, name in enumerate(values)}
     try:
-        return sound(function_of(expression, order)(tuple(values.values())))
+        return finite(function_of(expression, order)(tuple(values.values())))
     except (ArithmeticError, ValueError) as fault:
-        raise ModelValueError(f'"{expression}" has no value: {reason(fault)}', source, *span(expression)) from None
+        raise ModelValueError(f'"{expression}" has no value: {reason_of(fault)}', source, *span(expression)) from None
 
 
 def check_expression(expression: Expression, names: Collection[str], source: str, wanted: str = "number",
@@ -64,7 +73,7 @@ def check_expression(expression: Expression, names: Collection[str], source: str
                                   *span(expression), _RANDOM)
         for index, operand in enumerate(expression.operands):
             check_expression(operand, names, source, operator.wanted(index), chance)
-    if gives(expression) != wanted:
+    if expression_type(expression) != wanted:
         if wanted == "truth":
             raise ModelValueError(f'"{expression}" is a number, but something true or false is needed here', source,
                                   *span(expression), f'Compare it with something, as in "{expression} > 0".')
@@ -132,7 +141,7 @@ def check_probability(production: Production, names: Collection[str], source: st
     if section == "interpretation":
         raise ModelValueError("A rule of the interpretation has no probability", source, *span(probability),
                               "A word is always drawn alike; what is left to chance stands in the productions.")
-    if gives(probability) == "truth":
+    if expression_type(probability) == "truth":
         raise ModelValueError(f'A probability stands behind the successor, but "{probability}" is true or false', source,
                               *span(probability), 'A condition stands before the arrow, as in "A(t) : t < 5 -> B".')
     check_expression(probability, names, source)

@@ -18,13 +18,13 @@ def _kind(module: Module) -> _Kind:
     return module.symbol, len(module.arguments)
 
 
-def idle(system: LSystem) -> list[str]:
+def unused_productions(system: LSystem) -> list[str]:
     """A note for each production that is never applied, for want of its modules or because another is always applied first.
 
     >>> from lsys_kit.notation.read import read
-    >>> idle(read("axiom: M(1)\\nM(t,p) -> M(t+p)"))
+    >>> unused_productions(read("axiom: M(1)\\nM(t,p) -> M(t+p)"))
     ['The production M(t,p) can never match: no module M with 2 parameters occurs.']
-    >>> idle(read("axiom: A\\nA -> B\\nA -> C"))
+    >>> unused_productions(read("axiom: A\\nA -> B\\nA -> C"))
     ['Production 2, for A, is never applied: production 1 comes before it and matches every A.']
     """
     return [*_unmatched(system), *_overtaken(system.productions, system, "production"),

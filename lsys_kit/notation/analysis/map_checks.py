@@ -7,7 +7,7 @@ from itertools import groupby
 
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.checks import span
-from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, MapSystem, Marker, Part
+from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 
 LEAST_WALLS = 3
 """A cell with fewer straight walls has no inside."""
@@ -60,7 +60,7 @@ def _check_neutral(production: EdgeProduction, source: str) -> None:
         f'arrow has no beginning. Make both the same, or give the wall an arrow: "{production.predecessor}> -> ...".')
 
 
-def places(parts: tuple[Part, ...]) -> list[Edge | tuple[tuple[Edge, ...], ...]]:
+def places(parts: tuple[SuccessorPart, ...]) -> list[Edge | tuple[tuple[Edge, ...], ...]]:
     """The walls of a successor, and between them what is marked on the left and on the right.
 
     Two markers on different sides of one place may be written in any order.
@@ -76,16 +76,16 @@ def places(parts: tuple[Part, ...]) -> list[Edge | tuple[tuple[Edge, ...], ...]]
     return found
 
 
-def _around(parts: tuple[Part, ...]) -> tuple[int | None, int | None]:
+def _around(parts: tuple[SuccessorPart, ...]) -> tuple[int | None, int | None]:
     """Where a row of parts stood in its text."""
     return span(parts[0])[0], span(parts[-1])[1]
 
 
-def idle_parts(system: MapSystem) -> Iterator[str]:
+def unused_parts(system: MapSystem) -> Iterator[str]:
     """What can never take part: productions of walls that never occur, markers that never find another half.
 
     >>> from lsys_kit.notation.model.maps import EdgeProduction
-    >>> [*idle_parts(MapSystem((Edge("A"),) * 3, (EdgeProduction(Edge("C"), (Edge("A"),)),)))]
+    >>> [*unused_parts(MapSystem((Edge("A"),) * 3, (EdgeProduction(Edge("C"), (Edge("A"),)),)))]
     ['The production C -> A is never used: no wall C occurs.']
     """
     occurring = _occurring(system)

@@ -69,10 +69,10 @@ def is_symbolic(value: object) -> bool:
     return not isinstance(value, int | Fraction | float)
 
 
-def same(left: Value, right: Value) -> bool:
+def equal_values(left: Value, right: Value) -> bool:
     """Whether two values are equal; where an unknown constant decides that, the question has no answer yet.
 
-    >>> same(Fraction(4, 2), 2)
+    >>> equal_values(Fraction(4, 2), 2)
     True
 
     Raises
@@ -89,40 +89,40 @@ def same(left: Value, right: Value) -> bool:
     return bool(difference == 0)
 
 
-def settled_value(value: Any) -> Value:
+def expanded_value(value: Any) -> Value:
     """A value that may hold unknown constants, multiplied out; a number where they cancel.
 
     >>> import sympy
     >>> t = sympy.Symbol("t")
-    >>> settled_value(t + 2 * (t + 1)), settled_value(t - t + sympy.Rational(1, 2))
+    >>> expanded_value(t + 2 * (t + 1)), expanded_value(t - t + sympy.Rational(1, 2))
     (3*t + 2, Fraction(1, 2))
     """
     value = value.expand()
     if value.is_Rational:
-        return tidy(Fraction(int(value.p), int(value.q)))
+        return normalised(Fraction(int(value.p), int(value.q)))
     return float(value) if value.is_Float else value
 
 
-def brief(value: Value) -> str:
+def short_text(value: Value) -> str:
     """A value in a message: shortened, where it is long.
 
-    >>> brief(Fraction(1, 2)), brief(Fraction(1, 3**70))
+    >>> short_text(Fraction(1, 2)), short_text(Fraction(1, 3**70))
     ('0.5', '3.99...e-34')
     """
     text = number_text(value)
     return text if len(text) <= 20 else f"{float(value):.2e}".replace("e", "...e")
 
 
-def tidy(value: Value) -> Value:
+def normalised(value: Value) -> Value:
     """A rational number that is whole, as a whole number.
 
-    >>> tidy(Fraction(4, 2))
+    >>> normalised(Fraction(4, 2))
     2
     """
     return value.numerator if isinstance(value, Fraction) and value.denominator == 1 else value
 
 
-def exact(value: Value) -> Value:
+def bounded_exact(value: Value) -> Value:
     """What an operation gave, tidy; an exact result that is too long is refused."""
     if value.__class__ is int and -SMALL < value < SMALL:
         return value
@@ -130,10 +130,10 @@ def exact(value: Value) -> Value:
         return value
     if value.numerator.bit_length() + value.denominator.bit_length() > current().bits:
         raise OverflowError
-    return tidy(value)
+    return normalised(value)
 
 
-def sound(value: Value) -> Value:
+def finite(value: Value) -> Value:
     """The value, if it is one: neither past what a double holds nor "not a number"."""
     if is_symbolic(value) or math.isfinite(value):  # an OverflowError by itself, where a rational number is past that
         return value
@@ -144,7 +144,7 @@ def divide(left: Value, right: Value) -> Value:
     """The exact quotient of rational numbers; the quotient in doubles where one of them is a double."""
     if isinstance(left, float) or isinstance(right, float) or is_symbolic(left) or is_symbolic(right):
         return left / right
-    return exact(Fraction(left) / right)
+    return bounded_exact(Fraction(left) / right)
 
 
 def power(base: Value, exponent: Value) -> Value:
@@ -158,36 +158,36 @@ def power(base: Value, exponent: Value) -> Value:
     if isinstance(base, float) or not isinstance(exponent, int):
         result: float | complex = float(base) ** float(exponent)
         if isinstance(result, complex):
-            raise ValueError(f"({brief(base)})^({brief(exponent)}) is not a number")
+            raise ValueError(f"({short_text(base)})^({short_text(exponent)}) is not a number")
         return result
     if abs(exponent) > current().exponent:
         raise OverflowError
     if max(base.numerator.bit_length(), base.denominator.bit_length()) * abs(exponent) > 4 * current().bits:
         raise OverflowError
-    return exact(Fraction(base) ** exponent)
+    return bounded_exact(Fraction(base) ** exponent)
 
 
-def rounded(function: Callable[[Value], int]) -> Callable[[Value], Value]:
+def rounding(function: Callable[[Value], int]) -> Callable[[Value], Value]:
     """A function that rounds to whole numbers: a double stays a double."""
     return lambda x: float(function(x)) if isinstance(x, float) else function(x)
 
 
-def real(name: str, function: Callable[[Value], Value]) -> Callable[[Value], Value]:
+def partial_function(name: str, function: Callable[[Value], Value]) -> Callable[[Value], Value]:
     """A function that not every number has a value of; where it has none, the fault says so in a student's words."""
 
     def value(x: Value) -> Value:
         try:
             return function(x)
         except ValueError:
-            raise ValueError(f"{name}({brief(x)}) is not a number") from None
+            raise ValueError(f"{name}({short_text(x)}) is not a number") from None
 
     return value
 
 
-def reason(fault: Exception) -> str:
+def reason_of(fault: Exception) -> str:
     """Why a calculation failed, in words.
 
-    >>> reason(ZeroDivisionError())
+    >>> reason_of(ZeroDivisionError())
     'division by zero'
     """
     if isinstance(fault, ZeroDivisionError):

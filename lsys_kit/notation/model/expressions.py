@@ -21,7 +21,7 @@ from lsys_kit.notation.model.operators import Function as Function
 if TYPE_CHECKING:
     import sympy
 
-Place: TypeAlias = tuple[int, int] | None
+TextSpan: TypeAlias = tuple[int, int] | None
 """The offsets in the text between which something was read."""
 
 
@@ -35,7 +35,7 @@ class Number:
     """
 
     value: Value
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return literal_text(self.value)
@@ -46,7 +46,7 @@ class Name:
     """A parameter or a constant."""
 
     name: str
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return self.name
@@ -62,14 +62,14 @@ class Apply:
 
     operator: str
     operands: tuple[Expression, ...]
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
     depth: int = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "depth", 1 + max(getattr(operand, "depth", 0) for operand in self.operands))
 
     def __str__(self) -> str:
-        return written(self)
+        return styled_text(self)
 
 
 Expression: TypeAlias = Number | Name | Apply
@@ -91,21 +91,21 @@ class Style:
     brackets: tuple[str, str] = ("(", ")")
 
 
-PLAIN = Style()
+PLAIN_STYLE = Style()
 """The kit's own: that of C, with `^` for powers."""
 
 
-def written(expression: Expression, style: Style = PLAIN) -> str:
+def styled_text(expression: Expression, style: Style = PLAIN_STYLE) -> str:
     """The text of an expression in a notation's style.
 
-    >>> written(Apply("sqrt", (Apply("==", (Name("x"), Number(1))),)), Style({"sqrt": "Sqrt", "==": "="}, ("[", "]")))
+    >>> styled_text(Apply("sqrt", (Apply("==", (Name("x"), Number(1))),)), Style({"sqrt": "Sqrt", "==": "="}, ("[", "]")))
     'Sqrt[x = 1]'
     """
     if not isinstance(expression, Apply):
         return str(expression)
     operator, spelt = OPERATORS[expression.operator], style.spellings.get(expression.operator, expression.operator)
     if operator.precedence is None:
-        return spelt + style.brackets[0] + ", ".join(written(o, style) for o in expression.operands) + style.brackets[1]
+        return spelt + style.brackets[0] + ", ".join(styled_text(o, style) for o in expression.operands) + style.brackets[1]
     if len(expression.operands) == 1:
         tightly = 7 if expression.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
         return spelt[0] + _within(expression.operands[0], tightly, style)
@@ -117,7 +117,7 @@ def written(expression: Expression, style: Style = PLAIN) -> str:
 
 def _within(expression: Expression, precedence: int, style: Style) -> str:
     """The operand's text, in parentheses where it binds less tightly than its surroundings."""
-    own, text = None, written(expression, style)
+    own, text = None, styled_text(expression, style)
     if isinstance(expression, Apply):
         own = OPERATORS[expression.operator].precedence
     elif isinstance(expression, Number):
@@ -125,7 +125,7 @@ def _within(expression: Expression, precedence: int, style: Style) -> str:
     return f"({text})" if own is not None and own < precedence else text
 
 
-def gives(expression: Expression) -> str:
+def expression_type(expression: Expression) -> str:
     """What an expression is: a "number" or a "truth"."""
     return OPERATORS[expression.operator].gives if isinstance(expression, Apply) else "number"
 
@@ -153,17 +153,17 @@ def is_random(expression: Expression) -> bool:
                                               or any(map(is_random, expression.operands)))
 
 
-def questions_in(expression: Expression) -> Iterator[Apply]:
+def sensed_in(expression: Expression) -> Iterator[Apply]:
     """What an expression asks of the turtle.
 
-    >>> [str(question) for question in questions_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
+    >>> [str(question) for question in sensed_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
     ['sensed(2, 1)']
     """
     if isinstance(expression, Apply):
         if OPERATORS[expression.operator].looks:
             yield expression
         for operand in expression.operands:
-            yield from questions_in(operand)
+            yield from sensed_in(operand)
 
 
 def function_of(expression: Expression, order: Mapping[str, int], arithmetic: str = "exact") -> Function:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from lsys_kit.notation.model.expressions import Place
+from lsys_kit.notation.model.expressions import TextSpan
 
 TURNED = {"": "", ">": "<", "<": ">"}
 """The arrow of a wall, seen from its other end."""
@@ -37,7 +37,7 @@ class Edge:
 
     label: str
     arrow: str = ""
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return self.label + self.arrow
@@ -65,13 +65,13 @@ class Marker:
 
     side: str
     edge: Edge
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return f"[{self.side}{self.edge}]"
 
 
-Part: TypeAlias = Edge | Marker
+SuccessorPart: TypeAlias = Edge | Marker
 """What stands in a successor."""
 
 
@@ -84,8 +84,8 @@ class EdgeProduction:
     """
 
     predecessor: Edge
-    successor: tuple[Part, ...]
-    at: Place = field(default=None, compare=False, repr=False)
+    successor: tuple[SuccessorPart, ...]
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return f"{self.predecessor} -> {''.join(map(str, self.successor))}"
@@ -101,7 +101,7 @@ class EdgeProduction:
         return tuple(part for part in self.successor if isinstance(part, Marker))
 
     @property
-    def turned(self) -> tuple[Part, ...]:
+    def turned(self) -> tuple[SuccessorPart, ...]:
         """The successor, read from the other end."""
         return tuple(part.turned if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
                      for part in reversed(self.successor))

@@ -13,7 +13,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from lsys_kit.notation.model.arithmetic import Value, brief, divide, exact, power, real, rounded, same
+from lsys_kit.notation.model.arithmetic import (
+    Value,
+    bounded_exact,
+    divide,
+    equal_values,
+    partial_function,
+    power,
+    rounding,
+    short_text,
+)
 
 Function: TypeAlias = Callable[[tuple[Any, ...]], Any]
 """What an expression is run as: from the values of its names, in a fixed order, to its own value. Behind the values of the
@@ -107,7 +116,8 @@ def _sensed(number: Function, *operands: Function) -> Function:
     def asked(v: tuple[Any, ...]) -> Any:
         sees = getattr(v[-1], "sees", None) if v else None
         if sees is None:
-            raise ValueError(f"function {brief(number(v))} asks for what the turtle sees, and words alone do not tell that")
+            raise ValueError(f"function {short_text(number(v))} asks for what the turtle sees, and words alone do not "
+                             "tell that")
         return sees(number(v), *[operand(v) for operand in operands])
 
     return asked
@@ -146,31 +156,31 @@ _ARCTANGENTS: Mapping[Value, Value] = {-1: -45, 0: 0, 1: 45}
 
 def _function(name: str, function: Callable[[Value], Value]) -> Operator:
     """A function of one number that may have no value."""
-    return Operator(_strict(real(name, function)), None, arity=(1, 1))
+    return Operator(_strict(partial_function(name, function)), None, arity=(1, 1))
 
 
 OPERATORS: Mapping[str, Operator] = {
     "||": Operator(_or, 0, "truth", "truth"),
     "&&": Operator(_and, 1, "truth", "truth"),
     "!": Operator(_strict(lambda x: not x), 2, "truth", "truth", (1, 1)),
-    "==": Operator(_strict(same), 3, gives="truth"),
-    "!=": Operator(_strict(lambda x, y: not same(x, y)), 3, gives="truth"),
+    "==": Operator(_strict(equal_values), 3, gives="truth"),
+    "!=": Operator(_strict(lambda x, y: not equal_values(x, y)), 3, gives="truth"),
     "<": Operator(_strict(lambda x, y: x < y), 3, gives="truth"),
     "<=": Operator(_strict(lambda x, y: x <= y), 3, gives="truth"),
     ">": Operator(_strict(lambda x, y: x > y), 3, gives="truth"),
     ">=": Operator(_strict(lambda x, y: x >= y), 3, gives="truth"),
-    "+": Operator(_strict(lambda x, y: exact(x + y)), 4),
-    "-": Operator(_strict(lambda x, y: exact(x - y)), 4),
-    "*": Operator(_strict(lambda x, y: exact(x * y)), 5),
+    "+": Operator(_strict(lambda x, y: bounded_exact(x + y)), 4),
+    "-": Operator(_strict(lambda x, y: bounded_exact(x - y)), 4),
+    "*": Operator(_strict(lambda x, y: bounded_exact(x * y)), 5),
     "/": Operator(_strict(divide), 5),
     "-x": Operator(_strict(lambda x: -x), 6, arity=(1, 1)),
     "^": Operator(_strict(power), 7),
     "abs": Operator(_strict(abs), None, arity=(1, 1)),
-    "floor": _function("floor", rounded(math.floor)),
-    "ceil": _function("ceil", rounded(math.ceil)),
+    "floor": _function("floor", rounding(math.floor)),
+    "ceil": _function("ceil", rounding(math.ceil)),
     "min": Operator(_strict(min), None, arity=(2, 16)),
     "max": Operator(_strict(max), None, arity=(2, 16)),
-    "mod": Operator(_strict(lambda x, y: exact(x % y)), None),
+    "mod": Operator(_strict(lambda x, y: bounded_exact(x % y)), None),
     "if": Operator(_if, None, arity=(3, 3), asks=True),
     "sqrt": _function("sqrt", math.sqrt),
     "exp": _function("exp", math.exp),

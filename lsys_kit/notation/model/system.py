@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import Any, TypeAlias
 
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.expressions import Expression, Place
+from lsys_kit.notation.model.expressions import Expression, TextSpan
 
 Argument: TypeAlias = Expression | Value
 """What stands in a module's parentheses: an expression in a production, a value in a word."""
@@ -29,7 +29,7 @@ class Module:
 
     symbol: str
     arguments: tuple[Argument, ...] = ()
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         if not self.arguments:
@@ -83,7 +83,7 @@ class Repeat:
     count: Expression
     body: tuple[Module | Repeat, ...]
     index: str = ""
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
     depth: int = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -146,7 +146,7 @@ class Production:
     left: tuple[Module, ...] = ()
     right: tuple[Module, ...] = ()
     probability: Expression | None = None
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         left = f"{joined(map(str, self.left))} < " if self.left else ""
@@ -180,7 +180,7 @@ class MetaRule:
     predecessors: tuple[Module, ...]
     successor: tuple[Item, ...]
     condition: Expression | None = None
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         condition = f" : {self.condition}" if self.condition is not None else ""
@@ -199,7 +199,7 @@ class Constant:
     name: str
     value: Expression
     range: tuple[Expression, Expression, Expression] | None = None
-    at: Place = field(default=None, compare=False, repr=False)
+    at: TextSpan = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         span = f" in {self.range[0]} .. {self.range[1]} by {self.range[2]}" if self.range else ""

@@ -15,8 +15,8 @@ from lark import Token, Transformer, v_args
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import tidy
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, Place
+from lsys_kit.notation.model.arithmetic import normalised
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.system import Constant, MetaRule, Module, Production, Repeat
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
@@ -28,12 +28,12 @@ _LEFT = "\u20d6"
 class Misread(Exception):
     """A record that cannot be made, before the text it came from is known."""
 
-    def __init__(self, kind: type[Any], message: str, at: Place, hint: str | None = None) -> None:
+    def __init__(self, kind: type[Any], message: str, at: TextSpan, hint: str | None = None) -> None:
         self.kind, self.message, self.at, self.hint = kind, message, at, hint
         super().__init__(message)
 
 
-def _around(*parts: Any) -> Place:
+def _around(*parts: Any) -> TextSpan:
     """The offsets from the first to the last of some tokens or records."""
     first, last = parts[0], parts[-1]
     start: int = first.start_pos if isinstance(first, Token) else first.at[0]  # type: ignore[assignment]
@@ -61,7 +61,7 @@ def _number(token: Token) -> Number:
     exponent = re.search(r"[eE]([+-]?\d+)$", token)
     if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
         raise Misread(ModelSyntaxError, "This number is too long", _around(token), "Numbers go up to about 10^308.")
-    value = tidy(Fraction(str(token)))
+    value = normalised(Fraction(str(token)))
     if value > float_info.max:
         raise Misread(ModelSyntaxError, "This number is too large", _around(token), "Numbers go up to about 10^308.")
     return Number(value, _around(token))
@@ -106,7 +106,7 @@ class Expressions(Transformer[Any, Any]):
                           f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
         return self._applied(str(name), operands, _around(name, operands[-1]))
 
-    def _applied(self, operator: str, operands: tuple[Expression, ...], at: Place) -> Apply:
+    def _applied(self, operator: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
         applied = Apply(operator, operands, at)
         if applied.depth > current().depth:
             raise Misread(ModelSyntaxError, f"This expression is nested more than {current().depth} deep", at,

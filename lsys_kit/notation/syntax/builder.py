@@ -88,7 +88,7 @@ class Draft:
         self.settings[kind] = record
 
 
-def assembled(draft: Draft) -> LSystem:
+def build_system(draft: Draft) -> LSystem:
     """The system of a draft, checked."""
     source, names = draft.source, [constant.name for constant in draft.constants]
     check_constants(draft.constants, source)

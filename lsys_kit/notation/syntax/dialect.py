@@ -16,7 +16,7 @@ from lsys_kit.notation.model.system import LSystem, Module
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
-    from lsys_kit.notation.syntax.failure import Stumble
+    from lsys_kit.notation.syntax.failure import ParseFailure
 
 def whole(text: str, name: str | None) -> str:
     """A text that holds one system, which has no name."""
@@ -25,7 +25,7 @@ def whole(text: str, name: str | None) -> str:
     return text
 
 
-Question: TypeAlias = "Callable[[Stumble], ModelSyntaxError | None]"
+Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
 """Something to ask about the place where a parser stumbled; an answer is what the person is told."""
 
 
@@ -39,7 +39,7 @@ class Grammar:
         What the notation is called.
     records
         What its grammar names, as records.
-    questions
+    diagnostics
         What is asked about a slip, the most telling first.
     starts
         What can be parsed: a statement, and perhaps a word or an expression alone.
@@ -47,7 +47,7 @@ class Grammar:
 
     name: str
     records: Callable[[], Transformer[Any, Any]]
-    questions: Sequence[Question]
+    diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
 
     @property
@@ -57,7 +57,7 @@ class Grammar:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Notation(Grammar):
+class Dialect(Grammar):
     """One notation of L-systems, by the name that it has in `read` and `write`.
 
     Attributes

@@ -17,7 +17,7 @@ _WORDS = {
 
 
 @dataclass(frozen=True)
-class Stumble:
+class ParseFailure:
     """Where the parser could not go on, in the statement between two offsets.
 
     Attributes
@@ -55,12 +55,12 @@ class Stumble:
         return ModelSyntaxError(message, self.source, at, at + (length or max(1, len(self.found))), hint)
 
 
-def stumbled(slip: UnexpectedInput, source: str, start: int, end: int) -> Stumble:
-    """What a parser says of the statement between two offsets, as a stumble."""
+def parse_failure(slip: UnexpectedInput, source: str, start: int, end: int) -> ParseFailure:
+    """What a parser says of the statement between two offsets, as a failure."""
     at, found = _found(slip, source, start, end)
     parser = getattr(slip, "interactive_parser", None)
     accepted = frozenset(kind.split("__")[-1] for kind in parser.accepts()) if parser else frozenset()
-    return Stumble(without_comments(source), source, start, end, at, found, accepted)
+    return ParseFailure(without_comments(source), source, start, end, at, found, accepted)
 
 
 def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[int, str]:
@@ -77,7 +77,7 @@ def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[in
     return at, found
 
 
-def unclosed(text: str, pair: str = "()") -> int | None:
+def unclosed_bracket(text: str, pair: str = "()") -> int | None:
     """The offset of the last opening bracket of a pair that is not closed."""
     opened: list[int] = []
     for match in re.finditer(f"[{re.escape(pair)}]", text):
@@ -88,10 +88,10 @@ def unclosed(text: str, pair: str = "()") -> int | None:
     return opened[-1] if opened else None
 
 
-def outside(text: str) -> str:
+def blank_parentheses(text: str) -> str:
     """The text with parentheses, and what stands in them, blanked.
 
-    >>> outside("A(max(1, 2)) < B")
+    >>> blank_parentheses("A(max(1, 2)) < B")
     'A            < B'
     """
     depth, kept = 0, []
@@ -107,12 +107,12 @@ def quoted(found: str) -> str:
     return named(found) if len(found) == 1 else f'"{found}"' if len(found) <= 40 else f'"{found[:40]}..."'
 
 
-def printed(text: str) -> str:
+def excerpt(text: str) -> str:
     """The beginning of a text, as a hint quotes it."""
     return "".join(map(printable, text[:20]))
 
 
-def possible(accepted: frozenset[str]) -> str | None:
+def expected_hint(accepted: frozenset[str]) -> str | None:
     """A hint that says what could stand at the place, if that is not too much."""
     words = sorted({_WORDS[name] for name in accepted if name in _WORDS})
     if not words or len(words) > 4:

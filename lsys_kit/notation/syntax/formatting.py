@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem, Repeat
 
-ABOP = "abop"
+OWN_NOTATION = "abop"
 """The tradition of turtle commands that is meant where nothing is said."""
 
 
-def settings(system: LSystem, turtle: str = ABOP) -> Iterator[str]:
+def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
     """The lines that set something, given whose turtle commands the notation itself has."""
     if system.alphabet:
         yield "alphabet: " + " ".join(system.alphabet)
@@ -44,11 +44,11 @@ def sections(system: LSystem, rule: Callable[[object], str]) -> Iterator[str]:
             yield from map(rule, rules)
 
 
-def first_lacking(system: LSystem, *names: str) -> str | None:
+def first_missing(system: LSystem, *names: str) -> str | None:
     """The first of some features that a system has, in words.
 
     >>> from lsys_kit.notation.read import read
-    >>> first_lacking(read("axiom: A(1)\\nA(t) : t < 3 -> B"), "contexts", "conditions", "parameters")
+    >>> first_missing(read("axiom: A(1)\\nA(t) : t < 3 -> B"), "contexts", "conditions", "parameters")
     'conditions'
     """
     return next((name for name in names if FEATURES[name](system)), None)

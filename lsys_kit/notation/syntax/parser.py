@@ -12,7 +12,7 @@ from lark.exceptions import UnexpectedInput
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.syntax.actions import Misread
-from lsys_kit.notation.syntax.diagnostics import explained
+from lsys_kit.notation.syntax.diagnostics import diagnose
 from lsys_kit.notation.syntax.dialect import Grammar
 
 _SYNTAX = Path(__file__).parent
@@ -27,7 +27,7 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
     try:
         return _parser(notation).parse(TextSlice(text, start, end), start=rule)
     except UnexpectedInput as slip:
-        raise explained(slip, text, start, end, notation) from None
+        raise diagnose(slip, text, start, end, notation) from None
     except Misread as misread:
         raise misread.kind(misread.message, text, *(misread.at or (None, None)), misread.hint) from None
 

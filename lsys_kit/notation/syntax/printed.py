@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.syntax.failure import outside
+from lsys_kit.notation.syntax.failure import blank_parentheses
 from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
 
 # What labels and sets of productions look like, and what cannot stand behind a label.
@@ -46,7 +46,7 @@ def _labels(rest: str, used: bool) -> bool:
     """Whether a name with a colon behind it labels a production: then it stands for no module that has a condition."""
     arrow = ARROW.search(rest)
     head = rest[:arrow.start()] if arrow else ""
-    bare = outside(head)
+    bare = blank_parentheses(head)
     if ":" in bare or _TWO_NAMES.match(bare):
         return True
     if head.strip() in ("", "*") or _COMPARED.search(head) or re.search(r"\([^()]*[<>]", head):

@@ -18,24 +18,24 @@ _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
 
 
-def unglued(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
+def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
     """A word with its glued names parted as in a system.
 
     >>> from lsys_kit.notation.read import read
-    >>> [str(module) for module in unglued(read("axiom: ba").axiom, read("axiom: a\\na -> ab\\nb -> a"))]
+    >>> [str(module) for module in segment_word(read("axiom: ba").axiom, read("axiom: a\\na -> ab\\nb -> a"))]
     ['b', 'a']
     """
     word = tuple(word)
     return _parted(word, _glued(flat(word), *_symbols(system)))
 
 
-def apart(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
+def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
     """A system with its glued names parted, and what each of them is made of.
 
     The symbols of which one name is made may part another: names are parted until none is left.
 
     >>> from lsys_kit.notation.read import read
-    >>> apart(replace(read("axiom: F\\nF -> F J J"), axiom=(Module("JF"),)))[1]
+    >>> segment_system(replace(read("axiom: F\\nF -> F J J"), axiom=(Module("JF"),)))[1]
     {'JF': ['J', 'F']}
     """
     made: dict[str, list[str]] = {}
@@ -48,9 +48,9 @@ def apart(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
     return system, made
 
 
-def with_letters_apart(system: LSystem) -> LSystem:
-    """What `apart` makes of a system, with a note for each name that was parted."""
-    parted, made = apart(system)
+def segment_with_notes(system: LSystem) -> LSystem:
+    """What `segment_system` makes of a system, with a note for each name that was parted."""
+    parted, made = segment_system(system)
     notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
     return replace(parted, notes=(*system.notes, *notes)) if made else system
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lsys_kit.geometry.scene import CIRCLE, Scene
 from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import MARGIN, Row, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import MARGIN, FilamentRow, frame_of, groups, shape_colours
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,7 +49,7 @@ def _scale(ax: Axes, scene: Scene) -> float:
     return frame_of(scene.box, max(width, 4 * MARGIN), max(height, 4 * MARGIN)).scale
 
 
-def plot_rows(ax: Axes, rows: Sequence[Row], look: str, colour_of: Mapping[int, str]) -> None:
+def plot_rows(ax: Axes, rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str]) -> None:
     """Filaments below one another, centred."""
     from matplotlib.patches import Ellipse, FancyArrowPatch, FancyBboxPatch, Patch
 
@@ -72,7 +72,7 @@ def plot_rows(ax: Axes, rows: Sequence[Row], look: str, colour_of: Mapping[int, 
         _plot_walls(ax, row, y, colour_of)
 
 
-def _plot_walls(ax: Axes, row: Row, y: float, colour_of: Mapping[int, str]) -> None:
+def _plot_walls(ax: Axes, row: FilamentRow, y: float, colour_of: Mapping[int, str]) -> None:
     """The walls of a filament, with their ages."""
     walls = row.scene.walls
     for x, height, age, shade, state in zip((walls.places - row.scene.width / 2).tolist(), walls.heights.tolist(),

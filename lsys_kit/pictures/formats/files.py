@@ -8,11 +8,11 @@ from typing import TypeAlias
 
 from lsys_kit.errors import ModelFileError, quotable
 
-Forms: TypeAlias = Mapping[str, Callable[[], bytes]]
+Encoders: TypeAlias = Mapping[str, Callable[[], bytes]]
 """For each ending the bytes of such a file, made when they are needed."""
 
 
-def keep(path: Path, forms: Forms, hint: str = "") -> None:
+def save_as(path: Path, forms: Encoders, hint: str = "") -> None:
     """Write a file in the form that its name ends in; where one is there already, it is replaced.
 
     Parameters
@@ -35,7 +35,7 @@ def keep(path: Path, forms: Forms, hint: str = "") -> None:
     _write(path, forms[path.suffix.lower()]())
 
 
-def keep_beside(path: Path, content: bytes) -> None:
+def save_beside(path: Path, content: bytes) -> None:
     """Write a file that belongs to another one; a stranger's, whose first line is another, is not replaced.
 
     Raises

@@ -26,7 +26,7 @@ LINES = 65_536
 """So many lines of text are written at a time."""
 
 
-class Part(NamedTuple):
+class ColouredMesh(NamedTuple):
     """The triangles of one colour, with their own vertices."""
 
     colour: str
@@ -35,7 +35,7 @@ class Part(NamedTuple):
     triangles: Numbers
 
 
-def parts(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[Part]:
+def by_colour(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[ColouredMesh]:
     """A mesh by its colours, set upright for other programs.
 
     Parameters
@@ -50,7 +50,7 @@ def parts(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[Part]:
     for number in np.unique(first).tolist():
         ours, triangles = np.flatnonzero(colours == number), mesh.triangles[first == number]
         renumbered = np.searchsorted(ours, triangles).astype(np.uint32)
-        yield Part(names[number], _upright(mesh.vertices[ours]), _upright(mesh.normals[ours]), renumbered)
+        yield ColouredMesh(names[number], _upright(mesh.vertices[ours]), _upright(mesh.normals[ours]), renumbered)
 
 
 def _upright(points: Singles) -> Singles:
@@ -64,7 +64,7 @@ def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     tree: dict[str, Any] = {"asset": {"version": "2.0", "generator": "lsys-kit"}}
     lists: dict[str, list[Any]] = {"materials": [], "accessors": [], "bufferViews": []}
     primitives, data = [], bytearray()
-    for number, part in enumerate(parts(mesh, colour_of)):
+    for number, part in enumerate(by_colour(mesh, colour_of)):
         attributes = {"POSITION": _accessor(lists, data, part.vertices), "NORMAL": _accessor(lists, data, part.normals)}
         primitives.append({"attributes": attributes, "indices": _accessor(lists, data, part.triangles), "material": number})
         lists["materials"].append(_material(part.colour))
@@ -124,12 +124,12 @@ def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
     Parameters
     ----------
     mesh, colour_of
-        As for `parts`.
+        As for `by_colour`.
     library
         The name of the .mtl file, which stands beside it.
     """
     found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n"], 1
-    for part in parts(mesh, colour_of):
+    for part in by_colour(mesh, colour_of):
         corners = np.repeat(part.triangles.astype(np.int64) + first, 2, axis=1)
         found += [*_lines("v %.7g %.7g %.7g\n", part.vertices), *_lines("vn %.7g %.7g %.7g\n", part.normals),
                   f"usemtl {_called(part.colour)}\n", *_lines("f %d//%d %d//%d %d//%d\n", corners)]
@@ -146,7 +146,7 @@ def _lines(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
 def mtl(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     """The colours of a mesh as text of an .mtl file."""
     materials = (f"newmtl {_called(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
-                 for colour in dict.fromkeys(part.colour for part in parts(mesh, colour_of))
+                 for colour in dict.fromkeys(part.colour for part in by_colour(mesh, colour_of))
                  for red, green, blue in [channels(colour)])
     return "".join(["# Colours of a drawing of lsys-kit\n", *materials]).encode()
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import CIRCLE, Scene
-from lsys_kit.pictures.filaments import Cell, sheet_of, wall_colour, wall_width
+from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import MARGIN, WIDTH, Frame, Row, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import MARGIN, WIDTH, FilamentRow, ViewFrame, frame_of, groups, shape_colours
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -33,7 +33,7 @@ def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
     return _png(turtle_image(scene, colour_of, frame_of(scene.box)))
 
 
-def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: Frame) -> Image:
+def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> Image:
     """What a turtle has drawn, in a frame that holds all of it.
 
     Strokes of one colour and width are points on a fine grid, spread to their width all at once; so a million of them take
@@ -105,11 +105,11 @@ def spread(found: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
     return all_
 
 
-def rows_png(rows: Sequence[Row], look: str, colour_of: Mapping[int, str]) -> bytes:
+def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str]) -> bytes:
     """Filaments below one another, with a common scale, as a PNG picture."""
     from PIL import Image, ImageDraw
 
-    sheet = sheet_of(rows, written=False)
+    sheet = filament_layout(rows, written=False)
     image = Image.new("RGB", (WIDTH * FINE, sheet.height * FINE), PAPER)
     pen = ImageDraw.Draw(image)
     for place, row in enumerate(rows):
@@ -123,7 +123,7 @@ def rows_png(rows: Sequence[Row], look: str, colour_of: Mapping[int, str]) -> by
     return _png(image.resize((WIDTH, sheet.height), Image.Resampling.BOX))
 
 
-def _cell(pen: ImageDraw, cell: Cell, look: str, middle: float, colour: str) -> None:
+def _cell(pen: ImageDraw, cell: DrawnCell, look: str, middle: float, colour: str) -> None:
     x, length, width = cell.x * FINE, cell.length * FINE, cell.width * FINE
     box, fill = (x - length, middle - width, x + length, middle + width), tinted(colour, 0.28 + 0.6 * cell.shade)
     if look == "ellipses":

@@ -19,9 +19,9 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments import cells_svg, tenths, time_text
-from lsys_kit.pictures.formats.files import keep
-from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, tree_of, way_of
+from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
+from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.style.labels import svg_label, values_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
 from lsys_kit.pictures.svg import MARGIN, WIDTH, background, document
@@ -63,7 +63,7 @@ class LineagePicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        keep(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}
@@ -167,7 +167,7 @@ def _flags(tree: Tree) -> str:
     """A flag at the beginning of each line, to the side to which the cell points."""
     parts = []
     for number, cell in enumerate(tree.lineage.cells):
-        way = way_of(tree.lineage, cell.at_birth)
+        way = polarity_of(tree.lineage, cell.at_birth)
         top, end = tree.y(cell.born), tree.y(tree.lineage.times[-1] if cell.ended is None else cell.ended)
         if way and end - top > 16:
             x, y = tenths(tree.x[number]), tenths(top + 7)
@@ -179,7 +179,7 @@ def _last(tree: Tree, middle: float) -> str:
     """The last word below the tree: its cells as they are drawn, else their names where there is room."""
     lineage, system = tree.lineage, tree.lineage.states.system
     if tree.row:
-        return cells_svg(tree.row, system.cells, middle, tree.colours)
+        return filament_svg(tree.row, system.cells, middle, tree.colours)
     modules = [lineage.cells[cell].modules[-1][1] for cell in lineage.words[-1]]
     places = [tree.x[cell] for cell in lineage.words[-1]]
     longest = max((len(str(module)) for module in modules), default=0)

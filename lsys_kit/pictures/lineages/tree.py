@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from lsys_kit.derivation.core.interpretation import image, is_cell
+from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CELLS, Module
 from lsys_kit.pictures import filaments
-from lsys_kit.pictures.style.labels import place_parts, svg_label, twins
+from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label
 from lsys_kit.pictures.style.palette import SERIES, colours
 from lsys_kit.pictures.svg import MARGIN, WIDTH
 
@@ -30,7 +30,7 @@ DASHES = ("", "80 45", "1 45", "120 40 1 40")
 
 
 @dataclass(frozen=True)
-class Kind:
+class CellKind:
     """Cells that were alike at birth.
 
     Attributes
@@ -76,8 +76,8 @@ class Tree:
 
     lineage: Lineage
     x: Mapping[int, float]
-    row: Sequence[filaments.Cell]
-    kinds: Sequence[Kind]
+    row: Sequence[filaments.DrawnCell]
+    kinds: Sequence[CellKind]
     kind_of: Sequence[int]
     colours: Mapping[int, str]
     right: float
@@ -95,7 +95,7 @@ def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     return Tree(lineage, x, row, kinds, kind_of, colour_of, WIDTH - MARGIN - right)
 
 
-def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.Cell]]:
+def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
     """For each cell how far to the right its line stands, and the filament below."""
     ends = list(_ends(lineage))
     row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
@@ -122,7 +122,7 @@ def _ends(lineage: Lineage) -> Iterator[int]:
             yield cell
 
 
-def _filament(lineage: Lineage, right: int) -> list[filaments.Cell]:
+def _filament(lineage: Lineage, right: int) -> list[filaments.DrawnCell]:
     """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
     scene = filament(lineage.last)
     if len(scene.cells) != len(lineage.words[-1]):
@@ -130,13 +130,13 @@ def _filament(lineage: Lineage, right: int) -> list[filaments.Cell]:
     scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
     left = (right + AXIS - scene.width * scale) / 2
     cells = scene.cells
-    return [filaments.Cell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
+    return [filaments.DrawnCell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
             for number, (x, _), (length, width), way, shade in zip(
                 lineage.words[-1], cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(),
                 cells.shades.tolist(), strict=True)]
 
 
-def _kinds(lineage: Lineage) -> tuple[list[Kind], list[int], dict[int, str]]:
+def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
     """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
 
     Cells are of one kind that look alike at birth; where too many do not, those of one symbol. Where each kind has a symbol of
@@ -157,27 +157,27 @@ def _kinds(lineage: Lineage) -> tuple[list[Kind], list[int], dict[int, str]]:
                             for cell in lineage.words[-1]}
 
 
-def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> Kind:
+def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> CellKind:
     system, symbol = lineage.states.system, modules[0].symbol
     letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
     name = f"{letter}_{subscript}" if subscript else letter
-    return Kind(svg_label(name, system, values), len(name + values), palette.get(symbol, SERIES[number % len(SERIES)]),
+    return CellKind(svg_label(name, system, values), len(name + values), palette.get(symbol, SERIES[number % len(SERIES)]),
                 DASHES[number % len(DASHES)])
 
 
 def _base(lineage: Lineage, module: Module) -> str:
     """A module's symbol without its polarity."""
-    return twins(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
+    return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
 
 
 def _look(lineage: Lineage, module: Module) -> object:
     """What a module looks like without its polarity; itself, where it is not drawn as a cell."""
-    return tuple(made.arguments for made in image(lineage.states, module) if is_cell(made)) or module.arguments
+    return tuple(made.arguments for made in interpretation_of(lineage.states, module) if is_cell(made)) or module.arguments
 
 
-def way_of(lineage: Lineage, module: Module) -> int:
+def polarity_of(lineage: Lineage, module: Module) -> int:
     """Where a cell points: -1 to the left, 1 to the right, 0 nowhere."""
-    drawn = [made for made in image(lineage.states, module) if is_cell(made)]
+    drawn = [made for made in interpretation_of(lineage.states, module) if is_cell(made)]
     if drawn:
         return CELLS[drawn[0].symbol]
-    return {"l": -1, "r": 1}.get(twins(lineage.states.system).get(module.symbol, ("", ""))[1], 0)
+    return {"l": -1, "r": 1}.get(polar_symbols(lineage.states.system).get(module.symbol, ("", ""))[1], 0)

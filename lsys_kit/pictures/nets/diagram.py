@@ -16,7 +16,7 @@ from lsys_kit.derivation.petri.net import Place, Stages
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.commands import COMMANDS
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.nets.captions import notes_of, readable, short, shortened, terms_of, width_of
+from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, short, terms_of, width_of
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, laid_out
 from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
 from lsys_kit.pictures.style.labels import escaped, place_parts, place_text, svg_label
@@ -125,7 +125,7 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
     names = tuple(place_text(net.places[place], net.system) for place in order)
     notes = notes_of(net, positions)
     besides = tuple(f"besides: {readable(text)}" for text in net.besides)
-    terms = {number: shortened(text) for number, transition in enumerate(net.transitions) if (text := terms_of(transition))}
+    terms = {number: abbreviated(text) for number, transition in enumerate(net.transitions) if (text := terms_of(transition))}
     layout = laid_out(net, plan, Texts({place: width_of(name, LABEL_SIZE) for place, name in zip(order, names, strict=True)},
                                        {number: width_of(text, SMALL) for number, text in terms.items()},
                                        {arc: width_of(text, SMALL) for arc, text in notes.items()}))
@@ -199,7 +199,7 @@ def _bar_svg(net: Stages, layout: Layout, number: int, terms: str) -> str:
         x, y = bar.terms
         text = (f'<text class="terms" x="{x:.1f}" y="{y:.1f}" font-size="{SMALL}">'
                 f'<title>{escaped(terms_of(net.transitions[number]))}</title>{escaped(terms)}</text>')
-    return (f'<g class="transition"><path class="feed" d="{rounded(bar.line)}" {_STROKE}/><rect x="{bar.x - 1.8:.1f}" '
+    return (f'<g class="transition"><path class="feed" d="{rounded_path(bar.line)}" {_STROKE}/><rect x="{bar.x - 1.8:.1f}" '
             f'y="{bar.y - bar.half:.1f}" width="3.6" height="{2 * bar.half:.1f}" rx="0.8"/>{text}</g>')
 
 
@@ -208,17 +208,17 @@ _STROKE = f'fill="none" stroke="{INK}" stroke-width="1.3"'
 
 def _arc_svg(number: int, corners: Sequence[Point]) -> str:
     """An arc on a white band, which opens the lines that it crosses, with its arrowhead."""
-    path, band = rounded(corners), rounded([*corners[:-1], _towards(corners[-1], corners[-2], 10)])
+    path, band = rounded_path(corners), rounded_path([*corners[:-1], _towards(corners[-1], corners[-2], 10)])
     (x, y), down = corners[-1], corners[-1][0] == corners[-2][0]
     (a, b), (c, d) = ((-3.4, -8.5), (3.4, -8.5)) if down else ((-8.5, -3.4), (-8.5, 3.4))
     return (f'<path d="{band}" fill="none" stroke="{PAPER}" stroke-width="5"/><path class="arc" data-arc="{number}" d="{path}" '
             f'{_STROKE}/><path d="M{x:.1f} {y:.1f}L{x + a:.1f} {y + b:.1f}L{x + c:.1f} {y + d:.1f}Z"/>')
 
 
-def rounded(corners: Sequence[Point]) -> str:
+def rounded_path(corners: Sequence[Point]) -> str:
     """A line through corners as an SVG path, the corners rounded.
 
-    >>> rounded([(0, 0), (20, 0), (20, 20)])
+    >>> rounded_path([(0, 0), (20, 0), (20, 20)])
     'M0.0 0.0L10.0 0.0Q20.0 0.0 20.0 10.0L20.0 20.0'
     """
     path = ["M{:.1f} {:.1f}".format(*corners[0])]

@@ -23,7 +23,7 @@ BEFORE_BAR, BEFORE_BARS = 17.0, 30.0
 """From a circle to its bar, or to its several bars."""
 STACKED = 38.0
 """Between the bars of one place."""
-ARROW = 17.0
+ARROW_LENGTH = 17.0
 """The room for the end of an arrow."""
 ROUND = 10.0
 """The radius of a line's corners."""
@@ -119,7 +119,7 @@ def _column(plan: Plan, place: int) -> int:
 
 def _grid(net: Stages, plan: Plan, texts: Texts) -> _Grid:
     columns = [[row[c] for row in plan.rows if c < len(row)] for c in range(max(map(len, plan.rows), default=0))]
-    west = [max(RADIUS + ARROW, *(texts.labels[place] / 2 + 6 for place in column)) for column in columns]
+    west = [max(RADIUS + ARROW_LENGTH, *(texts.labels[place] / 2 + 6 for place in column)) for column in columns]
     bars = [max(_before_bar(plan, place, texts.labels[place]) for place in column) for column in columns]
     slots = [max(_turning(plan, place, bar, texts) for place in column) for bar, column in zip(bars, columns, strict=True)]
     east = [start + _taken(plan, c, texts) for c, start in enumerate(slots)]

@@ -13,7 +13,7 @@ from math import ceil
 
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.pictures.nets.lanes import Stretch, levels, ordered
-from lsys_kit.pictures.style.labels import twins
+from lsys_kit.pictures.style.labels import polar_symbols
 
 LONGEST_ROW = 8
 _GAP = 1000.0
@@ -96,7 +96,7 @@ def rows_of(net: Stages, shown: Collection[int]) -> tuple[tuple[int, ...], ...]:
     >>> rows_of(stages(read("axiom: L\\nS -> L\\nL -> A\\nA -> LS")), {0, 1, 2})
     ((2, 0, 1),)
     """
-    pairs = twins(net.system)
+    pairs = polar_symbols(net.system)
     bases = {place: pairs.get(net.places[place].symbol, (net.places[place].symbol, ""))[0] for place in sorted(shown)}
     groups: dict[str, list[int]] = {}
     for place, base in bases.items():

@@ -28,11 +28,11 @@ def escaped(text: str) -> str:
 
 
 @lru_cache(maxsize=64)
-def twins(system: LSystem) -> Mapping[str, tuple[str, str]]:
+def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
     """The symbols that come in two polarities, each with the letter and the polarity, "l" or "r".
 
     >>> from lsys_kit.notation.read import read
-    >>> twins(read("axiom: ar\\nar -> al b\\nal -> b ar"))
+    >>> polar_symbols(read("axiom: ar\\nar -> al b\\nal -> b ar"))
     {'ar': ('a', 'r'), 'al': ('a', 'l')}
     """
     names = set(symbols(system))
@@ -40,15 +40,15 @@ def twins(system: LSystem) -> Mapping[str, tuple[str, str]]:
             if len(name) > 1 and name[-1] in "lr" and name[:-1] + {"l": "r", "r": "l"}[name[-1]] in names}
 
 
-def parts(symbol: str, system: LSystem) -> tuple[str, str]:
+def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
     """A symbol's letter and its subscript, which may be empty.
 
     >>> from lsys_kit.notation.read import read
-    >>> parts("u12", read("axiom: u12"))
+    >>> label_parts("u12", read("axiom: u12"))
     ('u', '12')
     """
-    if symbol in twins(system):
-        return twins(system)[symbol]
+    if symbol in polar_symbols(system):
+        return polar_symbols(system)[symbol]
     match = re.fullmatch(r"([A-Za-z]+)_?(\d+)|([A-Za-z]+)_(\w+)", symbol)
     if not match:
         return symbol, ""
@@ -69,7 +69,7 @@ def svg_label(symbol: str, system: LSystem, values: str = "") -> str:
     >>> svg_label("a_r", read("axiom: a_r"), "(2)")
     '<tspan font-style="italic">a</tspan><tspan dy="3" font-size="70%">r</tspan><tspan dy="-3">(2)</tspan>'
     """
-    return letter_svg(*parts(symbol, system), values)
+    return letter_svg(*label_parts(symbol, system), values)
 
 
 def letter_svg(letter: str, subscript: str, values: str = "") -> str:
@@ -89,7 +89,7 @@ def html_label(module: Module, system: LSystem) -> str:
     >>> html_label(Module("a_r", (2,)), read("axiom: a_r(2)"))
     '<i>a</i><sub style="line-height:0">r</sub>(2)'
     """
-    letter, subscript = parts(module.symbol, system)
+    letter, subscript = label_parts(module.symbol, system)
     text = f"<i>{escaped(letter)}</i>" if letter[:1].isalpha() else escaped(letter)
     return text + (f'<sub style="line-height:0">{escaped(subscript)}</sub>' if subscript else "") + escaped(values_text(module))
 
@@ -104,7 +104,7 @@ def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
     >>> place_parts(stages(system).places[0], system)
     ('M', '', '(5)')
     """
-    letter, subscript = parts(place.symbol, system)
+    letter, subscript = label_parts(place.symbol, system)
     if not place.modules:
         return letter, subscript, ""
     columns = zip(*(module.arguments for module in place.modules), strict=True)

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 from lsys_kit.geometry.surfaces import surfaces_of
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.pictures.style.labels import twins
+from lsys_kit.pictures.style.labels import polar_symbols
 
 GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#D55E00", "#56B4E9"
 SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
@@ -39,7 +39,7 @@ def colours(system: LSystem) -> Mapping[str, str]:
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
     {'ar': '#009E73', 'al': '#009E73', 'br': '#E69F00', 'bl': '#E69F00'}
     """
-    pairs = twins(system)
+    pairs = polar_symbols(system)
     found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
     free = [colour for colour in SERIES if colour not in found.values()]
     bases: dict[str, str] = {}

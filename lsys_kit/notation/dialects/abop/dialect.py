@@ -11,13 +11,13 @@ from lark.visitors import merge_transformers
 
 from lsys_kit.notation.model.system import LSystem, flat, joined
 from lsys_kit.notation.syntax.actions import Expressions, Statements
-from lsys_kit.notation.syntax.builder import Draft, assembled
-from lsys_kit.notation.syntax.diagnostics import QUESTIONS, without_colon
-from lsys_kit.notation.syntax.dialect import Notation
-from lsys_kit.notation.syntax.formatting import first_lacking, sections, settings
-from lsys_kit.notation.syntax.predecessor_diagnostics import forgotten_colon
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
+from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
+from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.printed import IN_A_SET, printed_statements
-from lsys_kit.notation.syntax.segmentation import apart, with_letters_apart
+from lsys_kit.notation.syntax.segmentation import segment_system, segment_with_notes
 from lsys_kit.notation.syntax.statements import without_comments
 
 _SYMBOL = re.compile(r"[A-Za-z_]\w*|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
@@ -31,7 +31,7 @@ def _settle(draft: Draft) -> None:
     plain = without_comments(draft.source)
     for kind, record, at in draft.more:
         if kind == "axiom" and not IN_A_SET.search(plain):
-            raise without_colon(draft.source, at[0], draft.source[at[0]:at[0] + 5], draft.source[at[0] + 5:at[1]])
+            raise missing_keyword_colon(draft.source, at[0], draft.source[at[0]:at[0] + 5], draft.source[at[0] + 5:at[1]])
         draft.add(kind, record, at)
     length = next((constant for constant in draft.constants if constant.name == "d"), None)
     if length and re.search(r"(δ|\\delta)\s*=", plain) and len(re.findall(r"\bd\b", plain)) == 1:
@@ -50,12 +50,12 @@ def _made(draft: Draft) -> set[str]:
 def _finish(draft: Draft) -> LSystem:
     """The system with letters that were written together parted, and a note that says so."""
     _settle(draft)
-    forgotten_colon(draft.sections["productions"], _made(draft), draft.source)
-    return with_letters_apart(assembled(draft))
+    missing_colon(draft.sections["productions"], _made(draft), draft.source)
+    return segment_with_notes(build_system(draft))
 
 
 def _write(system: LSystem) -> str:
-    while mistaken := apart(system)[1]:
+    while mistaken := segment_system(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
     look = [] if system.cells == LSystem.cells else [f"cells: {system.cells}"]
     return "\n".join([*map(str, system.constants), *settings(system), *look, f"axiom: {joined(map(str, system.axiom))}",
@@ -66,9 +66,9 @@ def _lacking(system: LSystem) -> str | None:
     """What the notation cannot write: round branches, and symbols such as digits or a comma."""
     strange = (module.symbol for module in system.modules if not _SYMBOL.fullmatch(module.symbol))
     found = next(strange, None)
-    return first_lacking(system, "round brackets as branches") or (None if found is None else f'symbol "{found}"')
+    return first_missing(system, "round brackets as branches") or (None if found is None else f'symbol "{found}"')
 
 
-ABOP = Notation(
-    name="abop", statements=printed_statements, records=_records, finish=_finish, questions=QUESTIONS, module=str,
+ABOP = Dialect(
+    name="abop", statements=printed_statements, records=_records, finish=_finish, diagnostics=DIAGNOSTICS, module=str,
     joined=joined, write=_write, lacking=_lacking, likely=lambda text: 1)

@@ -12,7 +12,7 @@ from lark import Token, v_args
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
-from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, called, shortened, wanted
+from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
 from lsys_kit.notation.dialects.cpfg.wording import in_cpfg
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.system import END, Constant, Module
@@ -20,7 +20,7 @@ from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
 
 _SPELLINGS = {"<>": "!=", "%": "mod"}
 """Operators that the kit spells otherwise."""
-SYMBOL = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
+SYMBOL_PATTERN = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
 """A symbol: a character, or "@" or "?" with a letter."""
 _SECTIONS = {"production": "productions", "homomorphism": "interpretation"}
 """Sections that the kit calls otherwise."""
@@ -73,12 +73,12 @@ class _Expressions(Expressions):
 
     def call(self, name: Token, *operands: Expression) -> Expression:
         at = name.start_pos or 0, _around(operands[-1])[1]
-        made = called(str(name), operands, at)
+        made = resolve_call(str(name), operands, at)
         return self._applied(made.operator, made.operands, at)
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: Any) -> Apply:
         try:
-            return shortened(super()._applied(operator, wanted(operator, operands), at))
+            return simplified(super()._applied(operator, wanted(operator, operands), at))
         except Misread as misread:
             misread.hint = misread.hint and in_cpfg(misread.hint)
             raise
@@ -96,7 +96,7 @@ class Records(_Expressions, Statements):
         found: list[Module] = []
         at = token.start_pos or 0
         for piece in re.split(r"([\[\]])", token):
-            found += (Module(piece, at=(at, at + 1)),) if piece in ("[", "]") else map(_plain, SYMBOL.findall(piece))
+            found += (Module(piece, at=(at, at + 1)),) if piece in ("[", "]") else map(_plain, SYMBOL_PATTERN.findall(piece))
             at += len(piece)
         return tuple(found)
 

@@ -12,9 +12,9 @@ from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name
 from lsys_kit.notation.model.system import Module, Production
 
-Values: TypeAlias = Mapping[str, Expression]
+Bindings: TypeAlias = Mapping[str, Expression]
 """What names stand for at some place of a rule."""
-LONGEST = 1_000
+MOST_OPERATORS = 1_000
 """So many operators may an expression have, with all that is put into it."""
 
 
@@ -44,12 +44,12 @@ Block: TypeAlias = tuple[Assignment | Choice, ...]
 """Statements, in the order written."""
 
 
-def put_in(production: Production, before: Block, after: Block, constants: Collection[str], source: str) -> Production:
+def substitute(production: Production, before: Block, after: Block, constants: Collection[str], source: str) -> Production:
     """A rule with what its blocks compute: one before its condition, one behind it.
 
     >>> x, doubled = Name("x"), Apply("+", (Name("t"), Name("t")))
     >>> rule = Production(Module("M", (Name("t"),)), (Module("I", (x,)),))
-    >>> print(put_in(rule, (), (Assignment(x, doubled),), (), ""))
+    >>> print(substitute(rule, (), (Assignment(x, doubled),), (), ""))
     M(t) -> I(t + t)
     """
     if not before and not after:
@@ -67,7 +67,7 @@ def put_in(production: Production, before: Block, after: Block, constants: Colle
     return done
 
 
-def _module(rule: _Rule, module: Module, values: Values) -> Module:
+def _module(rule: _Rule, module: Module, values: Bindings) -> Module:
     return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))  # type: ignore[arg-type]
 
 
@@ -79,7 +79,7 @@ class _Rule:
     constants: frozenset[str]
     source: str
 
-    def computed(self, block: Block, values: Values) -> Values:
+    def computed(self, block: Block, values: Bindings) -> Bindings:
         """What names stand for behind a block."""
         for statement in block:
             if isinstance(statement, Choice):
@@ -91,7 +91,7 @@ class _Rule:
                 values = {**values, statement.name.name: self.replaced(statement.value, values)}
         return values
 
-    def _chosen(self, choice: Choice, values: Values) -> Values:
+    def _chosen(self, choice: Choice, values: Bindings) -> Bindings:
         """What names stand for behind a choice."""
         condition = self.replaced(choice.condition, values)
         then, otherwise = self.computed(choice.then, values), self.computed(choice.otherwise, values)
@@ -99,14 +99,14 @@ class _Rule:
         return {**values, **{name: Apply("if", (condition, self._value(name, then, choice, "false"),
                                                 self._value(name, otherwise, choice, "true"))) for name in changed}}
 
-    def _value(self, name: str, values: Values, choice: Choice, truth: str) -> Expression:
+    def _value(self, name: str, values: Bindings, choice: Choice, truth: str) -> Expression:
         """What a name stands for in one of the two cases."""
         if name in values or name in self.parameters:
             return values.get(name, Name(name))
         raise ModelNameError(f'"{name}" has a value only where this condition is {truth}', self.source, *span(choice.condition),
                              f'Give it one in the other case, too: "else {{{name} = 0;}}".')
 
-    def replaced(self, expression: Expression, values: Values) -> Expression:
+    def replaced(self, expression: Expression, values: Bindings) -> Expression:
         """An expression with what its names stand for."""
         result = _replaced(expression, values)
         if getattr(result, "depth", 0) > current().depth or _long(result):
@@ -115,7 +115,7 @@ class _Rule:
         return result
 
 
-def _replaced(expression: Expression, values: Values) -> Expression:
+def _replaced(expression: Expression, values: Bindings) -> Expression:
     if isinstance(expression, Name):
         return values.get(expression.name, expression)
     if not isinstance(expression, Apply):
@@ -134,7 +134,7 @@ def _operators(expression: Expression) -> Iterator[Apply]:
 
 
 def _long(expression: Expression) -> bool:
-    return any(number == LONGEST for number, _ in enumerate(_operators(expression)))
+    return any(number == MOST_OPERATORS for number, _ in enumerate(_operators(expression)))
 
 
 def _assignments(block: Block) -> Iterator[Assignment]:

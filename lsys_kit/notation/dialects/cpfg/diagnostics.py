@@ -8,15 +8,15 @@ from difflib import get_close_matches
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.cpfg.wording import reworded
-from lsys_kit.notation.syntax.diagnostics import QUESTIONS
-from lsys_kit.notation.syntax.dialect import Question
-from lsys_kit.notation.syntax.failure import Stumble, printed, quoted, unclosed
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS as SHARED_DIAGNOSTICS
+from lsys_kit.notation.syntax.dialect import Diagnostic
+from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.statements import ARROW
 
 _CONSTANTS = 'Constants are declared with "#define", as in "#define n 3".'
 _OWN_BLOCK = "Compute what a rule needs in its own block, with assignments and if."
 
-FEATURES: Sequence[tuple[str, str, str]] = (
+MISSING_FEATURES: Sequence[tuple[str, str, str]] = (
     (r"(start|end)[ \t]*(each)?[ \t]*:", "statements that run before or after the steps", _CONSTANTS),
     (r"define[ \t]*:", "arrays", _CONSTANTS),
     (r"#[ \t]*include\b", "included files", "Put the text of the file in place of this line."),
@@ -28,7 +28,7 @@ FEATURES: Sequence[tuple[str, str, str]] = (
 _BEHIND_A_NAME = {"(": "statements that call a function", "[": "arrays", "{": "loops"}
 """What stands in a block, to judge by what follows a name."""
 
-KEYWORDS: Mapping[str, str] = {
+CPFG_KEYWORDS: Mapping[str, str] = {
     "Axiom": "A", "Lsystem": "1", "derivation length": "9", "maximum depth": "2", "seed": "3", "ignore": "+-", "consider": "AB",
     "angle": "30", "heading": "90", "length": "1", "decomposition": "", "homomorphism": "", "endlsystem": ""}
 """The keywords, each with something that may stand behind its colon."""
@@ -38,98 +38,99 @@ _ALSO = {"steps": "derivation length", "derivation": "derivation length", "depth
 _MACRO = re.compile(r"#[ \t]*define\b[ \t]*(\w+)?[ \t]*")
 
 
-def _feature(stumble: Stumble) -> ModelSyntaxError | None:
+def _feature(failure: ParseFailure) -> ModelSyntaxError | None:
     """Something that cpfg has and the kit has not."""
-    statement = stumble.text[stumble.start:stumble.end]
-    for pattern, what, instead in FEATURES:
+    statement = failure.text[failure.start:failure.end]
+    for pattern, what, instead in MISSING_FEATURES:
         if found := re.match(pattern, statement, re.IGNORECASE):
-            return stumble.error(f"The kit has no {what}", instead, stumble.start, found.end())
+            return failure.error(f"The kit has no {what}", instead, failure.start, found.end())
     arrow = statement.find("-o>")
     if arrow >= 0:
-        return stumble.error("The kit has no rules for objects", 'A production reads "A --> B".', stumble.start + arrow, 3)
+        return failure.error("The kit has no rules for objects", 'A production reads "A --> B".', failure.start + arrow, 3)
     return None
 
 
-def _in_a_block(stumble: Stumble) -> ModelSyntaxError | None:
+def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
     """A statement that is no assignment and no choice, or an element of an array."""
-    name, what = re.search(r"\w+$", stumble.before), _BEHIND_A_NAME.get(stumble.found[:1])
-    behind = stumble.accepted == {"EQUAL"} or (what == "arrays" and "TIMES" in stumble.accepted)
+    name, what = re.search(r"\w+$", failure.before), _BEHIND_A_NAME.get(failure.found[:1])
+    behind = failure.accepted == {"EQUAL"} or (what == "arrays" and "TIMES" in failure.accepted)
     if name is None or what is None or not behind:
         return None
     if name[0] in ("while", "do"):
         what = "loops"
-    return stumble.error(f"The kit has no {what}", _OWN_BLOCK, stumble.start + name.start(), len(name[0]))
+    return failure.error(f"The kit has no {what}", _OWN_BLOCK, failure.start + name.start(), len(name[0]))
 
 
-def _end_of_block(stumble: Stumble) -> ModelSyntaxError | None:
+def _end_of_block(failure: ParseFailure) -> ModelSyntaxError | None:
     """An assignment without its ";", or a block without its "}"."""
-    opened = unclosed(stumble.before, "{}")
-    if opened is None or "SYMBOL" in stumble.accepted:
+    opened = unclosed_bracket(failure.before, "{}")
+    if opened is None or "SYMBOL" in failure.accepted:
         return None
-    if "SEMICOLON" in stumble.accepted and re.match(r"\}|[A-Za-z_]", stumble.found):
-        return stumble.error('A ";" is missing here', 'Every assignment ends with one, as in "{x = t + 1;}".')
-    if not stumble.found or ARROW.match(stumble.found):
-        return stumble.error('This "{" is never closed', 'Every block ends with "}", as in "{x = t + 1;}".',
-                             stumble.start + opened, 1)
+    if "SEMICOLON" in failure.accepted and re.match(r"\}|[A-Za-z_]", failure.found):
+        return failure.error('A ";" is missing here', 'Every assignment ends with one, as in "{x = t + 1;}".')
+    if not failure.found or ARROW.match(failure.found):
+        return failure.error('This "{" is never closed', 'Every block ends with "}", as in "{x = t + 1;}".',
+                             failure.start + opened, 1)
     return None
 
 
-def _macro(stumble: Stumble) -> ModelSyntaxError | None:
+def _macro(failure: ParseFailure) -> ModelSyntaxError | None:
     """A constant without a name or a value, or with a value that is no number."""
-    statement = stumble.text[stumble.start:stumble.end]
+    statement = failure.text[failure.start:failure.end]
     defined = _MACRO.match(statement)
     if not defined:
         return None
-    value, at = statement[defined.end():], stumble.start + defined.end()
+    value, at = statement[defined.end():], failure.start + defined.end()
     if not defined[1]:
-        return stumble.error("A name is missing here", _CONSTANTS, at)
+        return failure.error("A name is missing here", _CONSTANTS, at)
     if not value:
-        return stumble.error(f'The macro "{defined[1]}" stands for nothing', f'Give it a number: "#define {defined[1]} 1".',
-                             stumble.start)
+        return failure.error(f'The macro "{defined[1]}" stands for nothing', f'Give it a number: "#define {defined[1]} 1".',
+                             failure.start)
     if value[0] == "=":
-        return stumble.error('This "=" is not needed', f'Type "#define {defined[1]} {printed(value[1:].strip())}".', at, 1)
+        return failure.error('This "=" is not needed', f'Type "#define {defined[1]} {excerpt(value[1:].strip())}".', at, 1)
     if re.match(r"-?[\d.(]|[A-Za-z_]\w*[ \t]*[(*/+%^-]", value):
-        found = next(filter(None, (question(stumble) for question in QUESTIONS[1:])), None)
-        return found or stumble.error(f"I did not expect {quoted(stumble.found)} here" if stumble.found else
+        found = next(filter(None, (question(failure) for question in SHARED_DIAGNOSTICS[1:])), None)
+        return found or failure.error(f"I did not expect {quoted(failure.found)} here" if failure.found else
                                       "The line ends too early", _CONSTANTS)
-    return stumble.error(f'The macro "{defined[1]}" stands for no number',
-                         f'Write {printed(value)} itself wherever "{defined[1]}" stands.', at, len(value))
+    return failure.error(f'The macro "{defined[1]}" stands for no number',
+                         f'Write {excerpt(value)} itself wherever "{defined[1]}" stands.', at, len(value))
 
 
-def _keyword(stumble: Stumble) -> ModelSyntaxError | None:
+def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
     """A keyword that is misspelt, or stands without its colon or what belongs behind it."""
-    statement = stumble.text[stumble.start:stumble.end]
+    statement = failure.text[failure.start:failure.end]
     word = re.match(r"([A-Za-z]{3,}(?:[ \t]+[A-Za-z]{3,})?)[ \t]*(:?)[ \t]*", statement)
     if not word or ARROW.search(statement):
         return None
-    name, rest = " ".join(word[1].lower().split()), printed(statement[word.end():].strip())
+    name, rest = " ".join(word[1].lower().split()), excerpt(statement[word.end():].strip())
     meant = _ALSO.get(name) or _like(name)
     if meant is None:
         return None
-    at, length, known, example = stumble.start, len(word[1]), name == meant.lower(), KEYWORDS[meant]
+    at, length, known, example = failure.start, len(word[1]), name == meant.lower(), CPFG_KEYWORDS[meant]
     if known and word[2]:
         reads = f'It reads "{meant}: {example}".'
-        return None if rest else stumble.error(f'Nothing stands behind "{word[1]}:"', reads, at, length)
+        return None if rest else failure.error(f'Nothing stands behind "{word[1]}:"', reads, at, length)
     if word[2] or not (rest or known):
-        return stumble.error(f'I do not know "{word[1]}{word[2]}"', f'Did you mean "{meant}{word[2]}"?', at, length)
-    return stumble.error(f'A ":" is missing behind "{word[1]}"', f'Type "{meant}: {rest or example}".', at, length)
+        return failure.error(f'I do not know "{word[1]}{word[2]}"', f'Did you mean "{meant}{word[2]}"?', at, length)
+    return failure.error(f'A ":" is missing behind "{word[1]}"', f'Type "{meant}: {rest or example}".', at, length)
 
 
 def _like(name: str) -> str | None:
     """The keyword that a name resembles."""
-    close = get_close_matches(name, [keyword.lower() for keyword in KEYWORDS], 1, 0.75)
-    return next((keyword for keyword in KEYWORDS if keyword.lower() in close), None)
+    close = get_close_matches(name, [keyword.lower() for keyword in CPFG_KEYWORDS], 1, 0.75)
+    return next((keyword for keyword in CPFG_KEYWORDS if keyword.lower() in close), None)
 
 
-def _worded(question: Question) -> Question:
+def _worded(question: Diagnostic) -> Diagnostic:
     """A question of the kit's own notation, whose answer is given in cpfg's words."""
 
-    def asked(stumble: Stumble) -> ModelSyntaxError | None:
-        answer = question(stumble)
+    def asked(failure: ParseFailure) -> ModelSyntaxError | None:
+        answer = question(failure)
         return None if answer is None else reworded(answer)
 
     return asked
 
 
-ASKED: Sequence[Question] = (_feature, _in_a_block, _end_of_block, _macro, _keyword, *map(_worded, QUESTIONS))
+DIAGNOSTICS: Sequence[Diagnostic] = (_feature, _in_a_block, _end_of_block, _macro, _keyword,
+                                     *map(_worded, SHARED_DIAGNOSTICS))
 """What is asked about a slip in a cpfg text, the most telling first."""

@@ -11,16 +11,16 @@ from lark import Transformer
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
 from lsys_kit.notation.dialects.cpfg.actions import Records
-from lsys_kit.notation.dialects.cpfg.blocks import put_in
-from lsys_kit.notation.dialects.cpfg.diagnostics import ASKED
+from lsys_kit.notation.dialects.cpfg.blocks import substitute
+from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.cpfg.statements import statements
 from lsys_kit.notation.dialects.cpfg.wording import reworded
-from lsys_kit.notation.dialects.cpfg.writer import joined, lacking, module_text, written
+from lsys_kit.notation.dialects.cpfg.writer import joined, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.syntax.builder import Draft, assembled
-from lsys_kit.notation.syntax.dialect import Notation
-from lsys_kit.notation.syntax.failure import outside
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.failure import blank_parentheses
 from lsys_kit.notation.syntax.statements import ARROW, without_comments
 
 _MARKS = re.compile(
@@ -41,7 +41,7 @@ def _finish(draft: Draft) -> LSystem:
         _check_macros(draft)
         _put_together(draft)
         draft.notes += _notes(draft)
-        return assembled(draft)
+        return build_system(draft)
     except LSystemError as error:
         raise reworded(error) from None
 
@@ -55,7 +55,7 @@ def _put_together(draft: Draft) -> None:
             draft.add(kind, record, at)
         elif kind == "rule":
             production, before, after = record
-            draft.add("production", put_in(production, before, after, constants, draft.source), at)
+            draft.add("production", substitute(production, before, after, constants, draft.source), at)
         elif kind == "count":
             keyword, expression = record
             _count(draft, section, keyword, expression, at)
@@ -118,7 +118,7 @@ def _infix(expression: Expression) -> bool:
 
 def _enclosed(value: str) -> bool:
     """Whether one pair of parentheses stands around a text."""
-    return value.startswith("(") and not outside(value).strip()
+    return value.startswith("(") and not blank_parentheses(value).strip()
 
 
 def _likely(text: str) -> int:
@@ -126,11 +126,11 @@ def _likely(text: str) -> int:
     marks = len(_MARKS.findall(text))
     if not marks and _AXIOM.search(text):
         heads = [line[:arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"]
-        single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", outside(head).split(":")[0]))
+        single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", blank_parentheses(head).split(":")[0]))
         return 2 * (bool(heads) and single)
     return 10 * marks
 
 
-CPFG = Notation(
-    name="cpfg", statements=statements, records=_records, finish=_finish, questions=ASKED, module=module_text, joined=joined,
-    write=written, lacking=lacking, likely=_likely)
+CPFG = Dialect(
+    name="cpfg", statements=statements, records=_records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined=joined, write=system_text, lacking=missing_feature, likely=_likely)

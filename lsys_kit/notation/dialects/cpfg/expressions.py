@@ -16,11 +16,11 @@ from lsys_kit.notation.model.expressions import (
     Expression,
     Name,
     Number,
-    Place,
     Style,
-    gives,
+    TextSpan,
+    expression_type,
     is_random,
-    written,
+    styled_text,
 )
 from lsys_kit.notation.syntax.actions import Misread
 
@@ -31,19 +31,19 @@ RENAMED: Mapping[str, str] = {"fabs": "abs", "nran": "normal", "biran": "binomia
 ZERO, ONE = Number(0), Number(1)
 
 
-def _uniform(x: Expression, at: Place) -> Apply:
+def _uniform(x: Expression, at: TextSpan) -> Apply:
     return Apply("uniform", (ZERO, x), at)
 
 
-def _truncated(x: Expression, at: Place) -> Apply:
+def _truncated(x: Expression, at: TextSpan) -> Apply:
     return Apply("if", (Apply("<", (x, ZERO)), Apply("ceil", (x,)), Apply("floor", (x,))), at)
 
 
-def _sign(x: Expression, at: Place) -> Apply:
+def _sign(x: Expression, at: TextSpan) -> Apply:
     return Apply("if", (Apply("<", (x, ZERO)), Number(-1), Apply("if", (Apply(">", (x, ZERO)), ONE, ZERO))), at)
 
 
-BUILT: Mapping[str, Callable[[Expression, Place], Apply]] = {"ran": _uniform, "trunc": _truncated, "sign": _sign}
+BUILT: Mapping[str, Callable[[Expression, TextSpan], Apply]] = {"ran": _uniform, "trunc": _truncated, "sign": _sign}
 """Functions of one value that the kit has in other words."""
 ALSO: Mapping[str, str] = {"abs": "abs", "pow": "^"}
 """Functions that C has and people type."""
@@ -60,7 +60,7 @@ def as_truth(expression: Expression) -> Expression:
     >>> print(as_truth(Name("t")))
     t != 0
     """
-    return expression if gives(expression) == "truth" else Apply("!=", (expression, ZERO), expression.at)
+    return expression if expression_type(expression) == "truth" else Apply("!=", (expression, ZERO), expression.at)
 
 
 def as_number(expression: Expression) -> Expression:
@@ -69,7 +69,7 @@ def as_number(expression: Expression) -> Expression:
     >>> print(as_number(Apply("<", (Name("t"), Number(5)))))
     if(t < 5, 1, 0)
     """
-    return expression if gives(expression) == "number" else Apply("if", (expression, ONE, ZERO), expression.at)
+    return expression if expression_type(expression) == "number" else Apply("if", (expression, ONE, ZERO), expression.at)
 
 
 def wanted(operator: str, operands: tuple[Expression, ...]) -> tuple[Expression, ...]:
@@ -79,10 +79,10 @@ def wanted(operator: str, operands: tuple[Expression, ...]) -> tuple[Expression,
                  for index, operand in enumerate(operands))
 
 
-def called(name: str, operands: tuple[Expression, ...], at: Place) -> Apply:
+def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
     """What a function of cpfg gives.
 
-    >>> print(called("ran", (Number(5),), None))
+    >>> print(resolve_call("ran", (Number(5),), None))
     uniform(0, 5)
     """
     place = at or (0, 0)
@@ -115,13 +115,13 @@ _STYLE = Style({kit: cpfg for cpfg, kit in RENAMED.items()})
 _KNOWN = frozenset((*SAME, *RENAMED.values(), *_LESS.values(), "if", "mod", "uniform"))
 
 
-def text_of(expression: Expression) -> str:
+def expression_text(expression: Expression) -> str:
     """An expression as cpfg reads it.
 
-    >>> text_of(Apply("if", (Apply("<", (Name("t"), Apply("abs", (Name("x"),)))), Number(1), Name("t"))))
+    >>> expression_text(Apply("if", (Apply("<", (Name("t"), Apply("abs", (Name("x"),)))), Number(1), Name("t"))))
     '(t < fabs(x) ? 1 : t)'
     """
-    return written(_spelt(expression), _STYLE)
+    return styled_text(_spelt(expression), _STYLE)
 
 
 def _spelt(expression: Expression) -> Expression:
@@ -129,7 +129,7 @@ def _spelt(expression: Expression) -> Expression:
     if not isinstance(expression, Apply):
         return expression
     operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
-    texts = [written(operand, _STYLE) for operand in operands]
+    texts = [styled_text(operand, _STYLE) for operand in operands]
     if operator == "if":
         return Name("({} ? {} : {})".format(*texts))
     if operator in ("min", "max"):
@@ -145,7 +145,7 @@ def _spelt(expression: Expression) -> Expression:
 
 def _apart(expression: Expression) -> str:
     """The text of an operand, in parentheses where it is made with an operator or has a sign."""
-    text = written(expression, _STYLE)
+    text = styled_text(expression, _STYLE)
     plain = isinstance(expression, Name) or (isinstance(expression, Number) and text[0] != "-" and "/" not in text)
     function = isinstance(expression, Apply) and OPERATORS[expression.operator].precedence is None
     return text if plain or function else f"({text})"
@@ -154,13 +154,13 @@ def _apart(expression: Expression) -> str:
 def _between(uniform: Apply) -> str:
     """How far the ends of a random number lie apart."""
     low, high = uniform.operands
-    return text_of(Apply("-", (high, low)))
+    return expression_text(Apply("-", (high, low)))
 
 
-def shortened(applied: Apply) -> Apply:
+def simplified(applied: Apply) -> Apply:
     """What cpfg says with other operators and the kit with one: the lesser of two numbers, a number between two others.
 
-    >>> print(shortened(Apply("+", (Number(2), Apply("uniform", (ZERO, Apply("-", (Number(5), Number(2)))))))))
+    >>> print(simplified(Apply("+", (Number(2), Apply("uniform", (ZERO, Apply("-", (Number(5), Number(2)))))))))
     uniform(2, 5)
     """
     first, *others = applied.operands
@@ -173,10 +173,10 @@ def shortened(applied: Apply) -> Apply:
     return applied
 
 
-def lacking(expression: Expression) -> str | None:
+def missing_function(expression: Expression) -> str | None:
     """What cpfg lacks to write an expression, in words.
 
-    >>> lacking(Apply("poisson", (Name("t"),)))
+    >>> missing_function(Apply("poisson", (Name("t"),)))
     'function "poisson"'
     """
     if not isinstance(expression, Apply):
@@ -187,6 +187,6 @@ def lacking(expression: Expression) -> str | None:
         return f'function "{expression.operator}" of more than two numbers, or of random numbers'
     if expression.operator == "uniform" and is_random(expression.operands[0]):
         return "random numbers from a random number on"
-    if shortened(expression) != expression:
-        return f'other words for "{shortened(expression).operator}"'
-    return next(filter(None, map(lacking, expression.operands)), None)
+    if simplified(expression) != expression:
+        return f'other words for "{simplified(expression).operator}"'
+    return next(filter(None, map(missing_function, expression.operands)), None)

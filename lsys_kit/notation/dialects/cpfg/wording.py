@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from lsys_kit.errors import LSystemError
 
-Slip = TypeVar("Slip", bound=LSystemError)
+ErrorT = TypeVar("ErrorT", bound=LSystemError)
 
 _WORDS: Sequence[tuple[str, str]] = (
     (r"(?<!-)->", "-->"), (r'"ε" or "\*"', '"*"'), (r'"dt = 0\.5"', '"#define dt 0.5"'), (r'"c = \.\.\."', '"#define c ..."'),
@@ -29,7 +29,7 @@ def in_cpfg(said: str) -> str:
     return said
 
 
-def reworded(error: Slip) -> Slip:
+def reworded(error: ErrorT) -> ErrorT:
     """An error in cpfg's words."""
     error.message = in_cpfg(error.message)
     return error.with_hint(in_cpfg(error.hint)) if error.hint else error

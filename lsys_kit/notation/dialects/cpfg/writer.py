@@ -6,13 +6,12 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import chain
 
-from lsys_kit.notation.dialects.cpfg.actions import SYMBOL
-from lsys_kit.notation.dialects.cpfg.expressions import lacking as lacking_in
-from lsys_kit.notation.dialects.cpfg.expressions import text_of
+from lsys_kit.notation.dialects.cpfg.actions import SYMBOL_PATTERN
+from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, flat
-from lsys_kit.notation.syntax.formatting import first_lacking
+from lsys_kit.notation.syntax.formatting import first_missing
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
 
@@ -25,7 +24,7 @@ def module_text(module: Module) -> str:
     """
     if not module.arguments:
         return module.symbol
-    texts = (text_of(a) if isinstance(a, Expression) else number_text(a) for a in module.arguments)
+    texts = (expression_text(a) if isinstance(a, Expression) else number_text(a) for a in module.arguments)
     return f"{module.symbol}({','.join(texts)})"
 
 
@@ -38,7 +37,7 @@ def joined(texts: Iterable[str]) -> str:
     return re.sub(r"@T(?=\0[a-z])", "@T ", "\0".join(texts)).replace("\0", "")
 
 
-def written(system: LSystem) -> str:
+def system_text(system: LSystem) -> str:
     """The text of a system that lacks nothing in cpfg."""
     return "\n".join(_lines(system))
 
@@ -73,7 +72,7 @@ def _section(keyword: str, rules: Iterable[Production], depth: int | None) -> It
 
 def _macro(constant: Constant) -> str:
     """A constant, in parentheses where its parts could bind to what stands beside its name."""
-    value = text_of(constant.value)
+    value = expression_text(constant.value)
     apart = isinstance(constant.value, Apply) and OPERATORS[constant.value.operator].precedence is not None
     span = " /* {} .. {} by {} */".format(*constant.range) if constant.range else ""
     return f"#define {constant.name} {f'({value})' if apart else value}{span}"
@@ -82,8 +81,8 @@ def _macro(constant: Constant) -> str:
 def _rule(rule: Production) -> str:
     left = f"{joined(map(module_text, rule.left))} < " if rule.left else ""
     right = f" > {joined(_pattern(rule.right))}" if rule.right else ""
-    condition = f" : {text_of(rule.condition)}" if rule.condition is not None else ""
-    probability = f" : {text_of(rule.probability)}" if rule.probability is not None else ""
+    condition = f" : {expression_text(rule.condition)}" if rule.condition is not None else ""
+    probability = f" : {expression_text(rule.probability)}" if rule.probability is not None else ""
     successor = joined(map(module_text, flat(rule.successor))) or "*"
     return f"{re.sub('^//', '/ /', left)}{module_text(rule.predecessor)}{right}{condition} --> {successor}{probability}"
 
@@ -99,13 +98,13 @@ def _pattern(modules: Iterable[Module]) -> Iterator[str]:
         before = module.symbol
 
 
-def lacking(system: LSystem) -> str | None:
+def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
         whose = {"grogra": "GROGRA", "plant-string": "plant strings", "fractint": "Fractint"}
         return f"turtle commands of {whose[system.turtle]}"
-    found = chain((first_lacking(system, "round brackets as branches", "repetition", "meta-rules"),),
-                  map(_lacking_symbol, _symbols(system)), map(lacking_in, _expressions(system)),
+    found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules"),),
+                  map(_lacking_symbol, _symbols(system)), map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))
     return next(filter(None, found), None)
 
@@ -121,7 +120,7 @@ def _symbols(system: LSystem) -> Iterator[str]:
 
 
 def _lacking_symbol(symbol: str) -> str | None:
-    if SYMBOL.fullmatch(symbol) and symbol != "−":
+    if SYMBOL_PATTERN.fullmatch(symbol) and symbol != "−":
         return None
     return "symbols of several letters" if len(symbol) > 1 else f'symbol "{symbol}"'
 

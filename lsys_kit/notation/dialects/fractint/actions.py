@@ -9,7 +9,7 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.model.arithmetic import tidy
+from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import Module, Production
 from lsys_kit.notation.syntax.actions import Misread
@@ -43,7 +43,7 @@ class Records(Transformer[Any, Any]):
         if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
             raise Misread(ModelSyntaxError, f"A full turn has no {whole[:10]} parts here", _at(count),
                           f'"Angle n" makes + and - turn by 360/n degrees, with n from {LEAST} to {MOST}.')
-        return "more", ("angle", Number(tidy(Fraction(360, int(whole))), _at(count)))
+        return "more", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
     def axiom(self, _: Token, word: tuple[Module, ...]) -> tuple[str, Any]:
         return "more", ("axiom", word)
@@ -73,4 +73,4 @@ def _number(token: Token, digits: str) -> Number:
     if not re.fullmatch(r"\d+\.?\d*|\.\d+", digits) or len(digits) > LONGEST:
         raise Misread(ModelSyntaxError, "This is no number that a command can take", _at(token),
                       'A command takes digits with at most one point, as in "@.5" or "\\30".')
-    return Number(tidy(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))
+    return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))

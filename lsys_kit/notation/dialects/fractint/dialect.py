@@ -13,13 +13,13 @@ from itertools import chain, islice
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.fractint.actions import Records
-from lsys_kit.notation.dialects.fractint.diagnostics import QUESTIONS
+from lsys_kit.notation.dialects.fractint.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.fractint.systems import braced, chosen, lines, meant, uncommented
 from lsys_kit.notation.dialects.fractint.writer import NAME, lacking, module_text, run_on, system_text
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Production, flat
-from lsys_kit.notation.syntax.builder import Draft, assembled
-from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.dialect import Dialect
 
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
@@ -40,7 +40,7 @@ def _finish(draft: Draft) -> LSystem:
     _check(draft, {*said})
     draft.settings |= {"angle": said["angle"][0], "heading": Number(0)}
     draft.sections["productions"] = _joined(draft)
-    return assembled(draft)
+    return build_system(draft)
 
 
 def _check(draft: Draft, said: set[str]) -> None:
@@ -80,6 +80,6 @@ def _likely(text: str) -> int:
     return 0 if any(map(_OTHER.match, said)) else 10 * sum(map(bool, map(_SAID.match, said)))
 
 
-FRACTINT = Notation(
-    name=NAME, statements=lines, records=Records, finish=_finish, questions=QUESTIONS, module=module_text, joined="".join,
+FRACTINT = Dialect(
+    name=NAME, statements=lines, records=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text, joined="".join,
     write=system_text, lacking=lacking, likely=_likely, turtle=NAME, entry=chosen, starts=("statement", "word"))

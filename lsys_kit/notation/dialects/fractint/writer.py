@@ -12,7 +12,7 @@ from lsys_kit.notation.dialects.fractint.systems import entries
 from lsys_kit.notation.model.arithmetic import literal_text
 from lsys_kit.notation.model.expressions import Expression, Number
 from lsys_kit.notation.model.system import LSystem, Module, Production, flat
-from lsys_kit.notation.syntax.formatting import first_lacking
+from lsys_kit.notation.syntax.formatting import first_missing
 
 NAME, NAMELESS = "fractint", "LSystem"
 WIDTH = 150
@@ -83,7 +83,7 @@ def _rules(production: Production) -> Iterator[str]:
 
 def lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
-    return (first_lacking(system, "conditions", "contexts", "probabilities", "repetition", "constants", "decomposition rules",
+    return (first_missing(system, "conditions", "contexts", "probabilities", "repetition", "constants", "decomposition rules",
                           "meta-rules", "interpretation rules", "ignored symbols")
             or _strange_setting(system) or _strange_rule(system) or _strange_word(system))
 

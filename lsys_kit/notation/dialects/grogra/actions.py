@@ -128,6 +128,6 @@ def _production(parts: tuple[Any, ...]) -> Production:
     return Production(predecessor, successor, **named)
 
 
-def records() -> Transformer[Any, Any]:
+def transformer() -> Transformer[Any, Any]:
     """What makes the records."""
     return merge_transformers(_Statements(), expressions=_Expressions())  # type: ignore[no-untyped-call,no-any-return]

@@ -14,14 +14,14 @@ _TRIED = 1_000
 """So many combinations of values are tried."""
 
 
-def apart(one: Expression | None, other: Expression | None) -> bool:
+def exclusive(one: Expression | None, other: Expression | None) -> bool:
     """Whether it is certain that two conditions never hold at once; no condition always holds.
 
     What compares names with numbers alone changes its truth only at those numbers: these, and what lies between and beyond
     them, are tried.
 
     >>> young, old = (Apply(sign, (Name("t"), Number(5))) for sign in ("<", ">="))
-    >>> apart(young, old), apart(young, young), apart(young, None)
+    >>> exclusive(young, old), exclusive(young, young), exclusive(young, None)
     (True, False, False)
     """
     if one is None or other is None or not (_is_plain(one) and _is_plain(other)):

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import count
 
-from lsys_kit.notation.dialects.grogra.variables import Variable, draw, names_of
+from lsys_kit.notation.dialects.grogra.variables import Variable, names_of, random_call
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, names_in
 from lsys_kit.notation.model.system import Item, LSystem, Production, Repeat, expressions_of
 
@@ -44,11 +44,11 @@ class Declared:
             yield Variable(name, "index", (Number(level),) if level else ())
 
 
-def declared(system: LSystem) -> Declared:
+def declarations(system: LSystem) -> Declared:
     """The variables that a system needs.
 
     >>> from lsys_kit.notation.read import read
-    >>> needed = declared(read("axiom: a\\na -> RH(uniform(0, 360)) repeat(3, i) <b(i)> RU(uniform(0, 360))"))
+    >>> needed = declarations(read("axiom: a\\na -> RH(uniform(0, 360)) repeat(3, i) <b(i)> RU(uniform(0, 360))"))
     >>> [(variable.name, variable.kind) for variable in needed.variables]
     [('x0', 'uniform'), ('i', 'index')]
     """
@@ -103,7 +103,7 @@ def _repeats(system: LSystem) -> Iterator[tuple[Repeat, int]]:
 
 
 def as_variable(drawn: Expression) -> Variable:
-    """What a draw is declared as, without a name; its inverse is `draw`.
+    """What a draw is declared as, without a name; its inverse is `random_call`.
 
     >>> as_variable(Apply("normal", (Number(0), Number(3)))).values
     (Number(value=0), Number(value=9))
@@ -118,14 +118,14 @@ def as_variable(drawn: Expression) -> Variable:
     return Variable("", "normal", (mean, variance))
 
 
-def undeclared(system: LSystem) -> str | None:
+def inexpressible(system: LSystem) -> str | None:
     """What of a system's chance, repetitions and questions cannot be said with variables, in words."""
-    needed, constants = declared(system), {constant.name for constant in system.constants}
+    needed, constants = declarations(system), {constant.name for constant in system.constants}
     for drawn in needed.draws:
         values = as_variable(drawn).values
         if any(names_in(value) - constants or any(_asked(value)) for value in values):
             return "random numbers that depend on parameters"
-        if draw(as_variable(drawn)) != drawn:
+        if random_call(as_variable(drawn)) != drawn:
             return f"random number like {drawn}"
     if any(number < 0 for number, _ in needed.functions):
         return "sensitive functions whose number is calculated"
@@ -137,28 +137,29 @@ def undeclared(system: LSystem) -> str | None:
     return None
 
 
-def named(expression: Expression, names: Declared) -> Expression:
+def with_variables(expression: Expression, names: Declared) -> Expression:
     """An expression in which variables stand for what is drawn or asked."""
     if not isinstance(expression, Apply):
         return expression
     if expression in names.draws:
         return Name(names.draws[expression])
-    operands = tuple(named(operand, names) for operand in expression.operands)
+    operands = tuple(with_variables(operand, names) for operand in expression.operands)
     if expression.operator == "sensed":
         values = f"({', '.join(map(str, operands[1:]))})" if operands[1:] else ""
         return Name(f"{names.functions[_function(expression)]}{values}")
     return Apply(expression.operator, operands)
 
 
-def named_rule(rule: Production, names: Declared) -> Production:
+def rule_with_variables(rule: Production, names: Declared) -> Production:
     """A rule in which variables stand for what is drawn or asked."""
-    condition, probability = (part if part is None else named(part, names) for part in (rule.condition, rule.probability))
+    condition, probability = (part if part is None else with_variables(part, names)
+                              for part in (rule.condition, rule.probability))
     return replace(rule, condition=condition, probability=probability, successor=tuple(_named_items(rule.successor, names)))
 
 
 def _named_items(items: Iterable[Item], names: Declared) -> Iterator[Item]:
     for item in items:
         if isinstance(item, Repeat):
-            yield Repeat(named(item.count, names), tuple(_named_items(item.body, names)), item.index, item.at)
+            yield Repeat(with_variables(item.count, names), tuple(_named_items(item.body, names)), item.index, item.at)
         else:
-            yield replace(item, arguments=tuple(named(a, names) for a in item.arguments))  # type: ignore[arg-type]
+            yield replace(item, arguments=tuple(with_variables(a, names) for a in item.arguments))  # type: ignore[arg-type]

@@ -12,15 +12,15 @@ from dataclasses import replace
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import SETTINGS, span
-from lsys_kit.notation.dialects.grogra.actions import RELATIONS, records, statements
-from lsys_kit.notation.dialects.grogra.diagnostics import QUESTIONS
-from lsys_kit.notation.dialects.grogra.probabilities import completed
-from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, meant, meant_items, meant_rule
-from lsys_kit.notation.dialects.grogra.writer import START, joined, lacking, module_text, system_text
-from lsys_kit.notation.model.expressions import Expression, Name, Number, gives, names_in
+from lsys_kit.notation.dialects.grogra.actions import RELATIONS, statements, transformer
+from lsys_kit.notation.dialects.grogra.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
+from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
+from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
+from lsys_kit.notation.model.expressions import Expression, Name, Number, expression_type, names_in
 from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat
-from lsys_kit.notation.syntax.builder import Draft, assembled
-from lsys_kit.notation.syntax.dialect import Notation
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.statements import without_comments
 
@@ -47,8 +47,8 @@ def _finish(draft: Draft) -> LSystem:
     variables = [replace(record, at=record.at or at) for kind, record, at in draft.more if kind == "variable"]
     _begin(draft, notes)
     _replace_variables(draft, variables)
-    system, read_as = with_ones(assembled(draft))
-    productions, said = completed(system)
+    system, read_as = with_ones(build_system(draft))
+    productions, said = complete_probabilities(system)
     notes = [*_spelt(draft.source), *notes, *read_as, *said]
     return replace(system, productions=productions, notes=tuple(dict.fromkeys(notes)))
 
@@ -105,7 +105,7 @@ def _check_constants(draft: Draft) -> None:
             raise ModelNameError(f'"{constant.name}" is no constant', draft.source, *span(constant),
                                  f'Type "\\{constant.name.lower()} {constant.value},".')
         for expression in (constant.value, *(constant.range or ())):
-            meant(expression, Scope(draft.source, frozenset(known), {}))
+            resolve(expression, Scope(draft.source, frozenset(known), {}))
         known.add(constant.name)
 
 
@@ -114,11 +114,11 @@ def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
     constants = [constant.name for constant in draft.constants]
     check_variables(variables, constants, draft.source)
     scope = Scope(draft.source, frozenset(constants), {variable.name: variable for variable in variables})
-    draft.axiom = meant_items(draft.axiom or (), scope)  # type: ignore[assignment]
+    draft.axiom = resolve_items(draft.axiom or (), scope)  # type: ignore[assignment]
     for section, rules in draft.sections.items():
-        draft.sections[section] = [meant_rule(rule, scope, section == "productions") for rule in rules]
+        draft.sections[section] = [resolve_rule(rule, scope, section == "productions") for rule in rules]
     for rule in draft.sections["productions"]:
-        if rule.probability is not None and gives(rule.probability) == "truth":
+        if rule.probability is not None and expression_type(rule.probability) == "truth":
             raise ModelValueError(f'A probability stands behind "?", but "{rule.probability}" is true or false', draft.source,
                                   *span(rule.probability), 'A condition stands in front: "(t < 6) k(t) # k(t+1)".')
 
@@ -166,7 +166,7 @@ def _one(symbol: str) -> str:
 
 def _lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
-    if found := lacking(system):
+    if found := missing_feature(system):
         return found
     for symbol, count in dict.fromkeys((module.symbol, len(module.arguments)) for module in system.modules):
         if not _reads_back(Module(symbol, (Name("t"),) * count)):
@@ -183,6 +183,6 @@ def _reads_back(module: Module) -> bool:
         return False
 
 
-GROGRA = Notation(
-    name="grogra", statements=statements, records=records, finish=_finish, questions=QUESTIONS, module=module_text,
-    joined=joined, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra")
+GROGRA = Dialect(
+    name="grogra", statements=statements, records=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra")

@@ -16,7 +16,7 @@ from fractions import Fraction
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import value_of
-from lsys_kit.notation.dialects.grogra.conditions import apart
+from lsys_kit.notation.dialects.grogra.conditions import exclusive
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
 from lsys_kit.notation.model.system import Item, LSystem, Module, Production, Repeat
@@ -26,11 +26,11 @@ _COMPARED = 100
 """So many conditions are compared with each other; of more, any two may hold together."""
 
 
-def completed(system: LSystem) -> tuple[tuple[Production, ...], tuple[str, ...]]:
+def complete_probabilities(system: LSystem) -> tuple[tuple[Production, ...], tuple[str, ...]]:
     """The productions with the chance that nothing happens, and notes that say so.
 
     >>> from lsys_kit.notation.read import read
-    >>> for rule in completed(read("axiom: a\\na -> b : 0.3\\na -> c : 0.5"))[0]:
+    >>> for rule in complete_probabilities(read("axiom: a\\na -> b : 0.3\\na -> c : 0.5"))[0]:
     ...     print(rule)
     a -> b : 0.3
     a -> c : 0.5
@@ -143,7 +143,7 @@ class _Shares:
     def beside(self, condition: _Condition) -> list[_Condition]:
         """The conditions that may hold together with another."""
         return [other for other in self.parts
-                if other in (None, condition) or len(self.parts) > _COMPARED or not apart(other, condition)]
+                if other in (None, condition) or len(self.parts) > _COMPARED or not exclusive(other, condition)]
 
     def taken(self, condition: _Condition) -> Fraction:
         """What is taken at most where a condition holds."""

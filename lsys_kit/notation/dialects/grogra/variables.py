@@ -14,20 +14,20 @@ from math import isqrt
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import tidy
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, Place, names_in
+from lsys_kit.notation.model.arithmetic import normalised
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in
 from lsys_kit.notation.model.system import Item, Production, Repeat, expressions_of
 
-KINDS: Mapping[str, tuple[int, int, str]] = {
+VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
     "uniform": (2, 2, "0 360"), "normal": (2, 2, "0 15"), "binomial": (2, 2, "10 0.5"), "poisson": (1, 1, "3"),
     "distribution": (1, 16, "0.2 0.3 0.5"), "table": (1, 16, "0.2 0.3 0.5"), "index": (0, 1, "0"), "function": (2, 2, "2 1"),
 }
 """For each kind of variable the least and the greatest number of its values, and an example of them."""
-ELSEWHERE = frozenset((
+QUERY_FUNCTIONS = frozenset((
     "negbinomial", "generation", "length", "diameter", "color", "order", "xcoordinate", "ycoordinate", "zcoordinate",
     "register", "local"))
 """What variables of GROGRA may also stand for: most of it the turtle knows, and words do not."""
-_POSSIBLE = f"Kinds of variables are: {', '.join(KINDS)}."
+_POSSIBLE = f"Kinds of variables are: {', '.join(VARIABLE_KINDS)}."
 _UNKNOWN = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as "\\const k 3," '
             'or "\\var x uniform 0 360,".')
 
@@ -39,7 +39,7 @@ class Variable:
     name: str
     kind: str
     values: tuple[Expression, ...]
-    at: Place = field(default=None, compare=False)
+    at: TextSpan = field(default=None, compare=False)
 
     @property
     def numbers(self) -> tuple[int, ...]:
@@ -88,16 +88,17 @@ def check_variables(variables: Sequence[Variable], constants: Iterable[str], sou
         _check_kind(variable, source)
         known = Scope(source, frozenset(constants), {v.name: v for v in variables})
         for value in variable.values:
-            meant(value, known)
+            resolve(value, known)
 
 
 def _check_kind(variable: Variable, source: str) -> None:
     kind, at = variable.kind, _place(variable.at)
-    if kind in ELSEWHERE:
+    if kind in QUERY_FUNCTIONS:
         raise ModelNameError(f'A variable of the kind "{kind}" is not possible here', source, *at, _POSSIBLE)
-    if kind not in KINDS:
-        raise ModelNameError(f'There is no kind of variable called "{kind}"', source, *at, suggestion(kind, KINDS) or _POSSIBLE)
-    least, most, example = KINDS[kind]
+    if kind not in VARIABLE_KINDS:
+        raise ModelNameError(f'There is no kind of variable called "{kind}"', source, *at,
+                             suggestion(kind, VARIABLE_KINDS) or _POSSIBLE)
+    least, most, example = VARIABLE_KINDS[kind]
     said = f'Type "\\var {variable.name} {kind} {example},".'
     if not least <= len(variable.values) <= most:
         wanted = f"{least}" if least == most else f"up to {most}" if least == 0 else f"{least} or more"
@@ -107,11 +108,11 @@ def _check_kind(variable: Variable, source: str) -> None:
         raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers from 0 on', source, *at, said)
 
 
-def _place(at: Place) -> tuple[int | None, int | None]:
+def _place(at: TextSpan) -> tuple[int | None, int | None]:
     return at or (None, None)
 
 
-def meant(expression: Expression, scope: Scope) -> Expression:
+def resolve(expression: Expression, scope: Scope) -> Expression:
     """An expression with the variables replaced by what they stand for."""
     if isinstance(expression, Name):
         return _meant_name(expression, scope)
@@ -119,8 +120,8 @@ def meant(expression: Expression, scope: Scope) -> Expression:
         return expression
     first, *rest = expression.operands
     if expression.operator == "sensed" and isinstance(first, Name):
-        return _asked(expression, first, [meant(operand, scope) for operand in rest], scope)
-    return Apply(expression.operator, tuple(meant(operand, scope) for operand in expression.operands), expression.at)
+        return _asked(expression, first, [resolve(operand, scope) for operand in rest], scope)
+    return Apply(expression.operator, tuple(resolve(operand, scope) for operand in expression.operands), expression.at)
 
 
 def _meant_name(name: Name, scope: Scope) -> Expression:
@@ -145,20 +146,20 @@ def _meant_name(name: Name, scope: Scope) -> Expression:
     if not scope.chance:
         raise ModelValueError(f'"{name}" is another number at every use, which cannot be here', scope.source, *_place(name.at),
                               f'Random variables stand behind the "#" of a rule, as in "a # F({name})".')
-    return replace(draw(variable), at=name.at)
+    return replace(random_call(variable), at=name.at)
 
 
-def draw(variable: Variable) -> Apply:
+def random_call(variable: Variable) -> Apply:
     """The draw of a random variable; a normal one is declared with its variance.
 
-    >>> print(draw(Variable("x", "normal", (Number(0), Number(9)))), draw(Variable("x", "normal", (Number(0), Number(15)))))
-    normal(0, 3) normal(0, sqrt(15))
+    >>> print(random_call(Variable("x", "normal", (Number(0), Number(15)))))
+    normal(0, sqrt(15))
     """
     if variable.kind != "normal":
         return Apply("table" if variable.kind == "distribution" else variable.kind, variable.values)
     mean, variance = variable.values
     root = _root(variance.value) if isinstance(variance, Number) and isinstance(variance.value, int | Fraction) else None
-    return Apply("normal", (mean, Apply("sqrt", (variance,)) if root is None else Number(tidy(root))))
+    return Apply("normal", (mean, Apply("sqrt", (variance,)) if root is None else Number(normalised(root))))
 
 
 def _root(value: int | Fraction) -> Fraction | None:
@@ -185,16 +186,16 @@ def _asked(expression: Apply, name: Name, values: list[Expression], scope: Scope
     return Apply("sensed", (Number(number), *values), expression.at)
 
 
-def meant_rule(rule: Production, scope: Scope, chance: bool) -> Production:
+def resolve_rule(rule: Production, scope: Scope, chance: bool) -> Production:
     """A rule with the variables replaced; its parameters come before variables of the same name."""
     named = {a.name for module in rule.parameters for a in module.arguments if isinstance(a, Name)}
     scope = replace(scope, known=scope.known | named)
-    condition, probability = (part if part is None else meant(part, scope) for part in (rule.condition, rule.probability))
+    condition, probability = (part if part is None else resolve(part, scope) for part in (rule.condition, rule.probability))
     return replace(rule, condition=condition, probability=probability,
-                   successor=meant_items(rule.successor, replace(scope, chance=chance)))
+                   successor=resolve_items(rule.successor, replace(scope, chance=chance)))
 
 
-def meant_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[Item, ...]:
+def resolve_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[Item, ...]:
     """A word with the variables replaced, so many repetitions deep."""
     found: list[Item] = []
     for item in items:
@@ -204,9 +205,9 @@ def meant_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[It
                         if v.kind == "index" and v.level == depth and v.name in used - scope.known]
             index = counters[0] if counters else ""
             inner = replace(scope, counting={**scope.counting, **dict.fromkeys(counters, index)})
-            found.append(Repeat(meant(item.count, scope), meant_items(item.body, inner, depth + 1), index, item.at))
+            found.append(Repeat(resolve(item.count, scope), resolve_items(item.body, inner, depth + 1), index, item.at))
         elif item.arguments:
-            found.append(replace(item, arguments=tuple(meant(a, scope) for a in item.arguments)))  # type: ignore[arg-type]
+            found.append(replace(item, arguments=tuple(resolve(a, scope) for a in item.arguments)))  # type: ignore[arg-type]
         else:
             found.append(item)
     return tuple(found)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from lsys_kit.notation.dialects.grogra.declarations import declared, named_rule, undeclared
-from lsys_kit.notation.dialects.grogra.probabilities import completed
+from lsys_kit.notation.dialects.grogra.declarations import declarations, inexpressible, rule_with_variables
+from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
 from lsys_kit.notation.dialects.grogra.variables import Variable
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, written
+from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, styled_text
 from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, Repeat
-from lsys_kit.notation.syntax.formatting import first_lacking
+from lsys_kit.notation.syntax.formatting import first_missing
 
 _STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
@@ -26,16 +26,16 @@ def module_text(module: Module) -> str:
     >>> print(module_text(Module("RU", (45,))), module_text(Module("L*", (0.6,))), module_text(Module("a", (1, 2))))
     RU45 L*0.6 a(1, 2)
     """
-    texts = [written(a, _STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
+    texts = [styled_text(a, _STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
     if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN.fullmatch(texts[0]):
         return module.symbol + texts[0]
     return f"{module.symbol}({', '.join(texts)})" if texts else module.symbol
 
 
-def joined(texts: Iterable[str]) -> str:
+def joined_word(texts: Iterable[str]) -> str:
     """The texts of modules as one word: blanks between them, none inside brackets.
 
-    >>> joined(["F", "[", "RU45", "b", "]", "a"])
+    >>> joined_word(["F", "[", "RU45", "b", "]", "a"])
     'F [RU45 b] a'
     """
     parts: list[str] = []
@@ -48,20 +48,20 @@ def joined(texts: Iterable[str]) -> str:
 
 def successor_text(items: Iterable[Module | Repeat]) -> str:
     """The text of a successor, with what is repeated as `&(n) < ... >`."""
-    return joined(f"&{_count(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat) else module_text(item)
-                  for item in items)
+    return joined_word(f"&{_count(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
+                       else module_text(item) for item in items)
 
 
 def _count(count: Expression) -> str:
-    text = written(count, _STYLE)
+    text = styled_text(count, _STYLE)
     return text if text.isdigit() else f"({text})"
 
 
 def rule_text(rule: Production, arrow: str = "#") -> str:
     """The text of a rule: the condition in front, the probability behind."""
-    condition = "" if rule.condition is None else f"({written(rule.condition, _STYLE)})"
-    left, right = joined(map(module_text, rule.left)), joined(map(module_text, rule.right))
-    probability = "" if rule.probability is None else f"?{written(rule.probability, _STYLE)}"
+    condition = "" if rule.condition is None else f"({styled_text(rule.condition, _STYLE)})"
+    left, right = joined_word(map(module_text, rule.left)), joined_word(map(module_text, rule.right))
+    probability = "" if rule.probability is None else f"?{styled_text(rule.probability, _STYLE)}"
     parts = (condition, f"{left} <" if left else "", module_text(rule.predecessor), f"> {right}" if right else "", arrow,
              successor_text(rule.successor), probability)
     return " ".join(filter(None, parts))
@@ -69,11 +69,11 @@ def rule_text(rule: Production, arrow: str = "#") -> str:
 
 def system_text(system: LSystem) -> str:
     """The text of a system that lacks nothing in GROGRA's notation."""
-    names = declared(system)
+    names = declarations(system)
     return ",\n".join([
         *_settings(system), *map(_constant, system.constants), *map(_variable, names.variables), *_axiom(system),
-        *(rule_text(named_rule(rule, names)) for rule in system.productions),
-        *(rule_text(named_rule(rule, names), "##") for rule in system.interpretation)])
+        *(rule_text(rule_with_variables(rule, names)) for rule in system.productions),
+        *(rule_text(rule_with_variables(rule, names), "##") for rule in system.interpretation)])
 
 
 def _settings(system: LSystem) -> Iterator[str]:
@@ -94,26 +94,26 @@ def _constant(constant: Constant) -> str:
 
 def _alone(value: Expression) -> str:
     """A value as it stands in a line of its own: in parentheses, if it is calculated."""
-    text = written(value, _STYLE)
+    text = styled_text(value, _STYLE)
     return text if isinstance(value, Name) or re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text) else f"({text})"
 
 
 def _axiom(system: LSystem) -> Iterator[str]:
     if system.axiom != START or system.steps is not None or all(r.predecessor != START[0] for r in system.productions):
         steps = "" if system.steps is None else f" {min(1, system.steps)}-{system.steps}"
-        yield f"\\axiom {joined(map(module_text, system.axiom))}{steps}"
+        yield f"\\axiom {joined_word(map(module_text, system.axiom))}{steps}"
 
 
 def _variable(variable: Variable) -> str:
     return " ".join(("\\var", variable.name, variable.kind, *map(_alone, variable.values)))
 
 
-def lacking(system: LSystem) -> str | None:
+def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and GROGRA's notation lacks, in words."""
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
-    return (first_lacking(system, "round brackets as branches", "decomposition rules", "meta-rules", "ignored symbols")
+    return (first_missing(system, "round brackets as branches", "decomposition rules", "meta-rules", "ignored symbols")
             or (None if system.decomposition_depth is None else "depth of decomposition")
             or ("branch ends in contexts" if ends else None)
             or (None if system.axiom else "empty axiom")
-            or undeclared(system)
-            or (None if completed(system)[0] == system.productions else "probabilities that do not add up to 1"))
+            or inexpressible(system)
+            or (None if complete_probabilities(system)[0] == system.productions else "probabilities that do not add up to 1"))

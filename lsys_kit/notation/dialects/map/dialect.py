@@ -14,9 +14,9 @@ from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
-from lsys_kit.notation.analysis.map_checks import check_map, idle_parts
-from lsys_kit.notation.dialects.map.diagnostics import QUESTIONS
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, Part
+from lsys_kit.notation.analysis.map_checks import check_map, unused_parts
+from lsys_kit.notation.dialects.map.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 from lsys_kit.notation.syntax.actions import Misread
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
@@ -75,7 +75,7 @@ def read_map(text: str) -> MapSystem:
                                'Give its walls, one after another, clockwise, as in "map: ABAB".')
     system = MapSystem(said["first"], tuple(productions), said.get("steps"), text)
     check_map(system)
-    return MapSystem(system.axiom, system.productions, system.steps, text, tuple(idle_parts(system)))
+    return MapSystem(system.axiom, system.productions, system.steps, text, tuple(unused_parts(system)))
 
 
 _TWICE = {"first": ("A second first cell stands here", "A map begins with one cell."),
@@ -98,7 +98,7 @@ class _Records(Transformer[Any, Any]):
     def marker(self, side: Token, edge: Edge) -> Marker:
         return Marker(side.replace("−", "-"), edge, (side.start_pos or 0, edge.at[1] if edge.at else 0))
 
-    def production(self, predecessor: Edge, _: Token, *successor: Part) -> tuple[str, EdgeProduction]:
+    def production(self, predecessor: Edge, _: Token, *successor: SuccessorPart) -> tuple[str, EdgeProduction]:
         return "production", EdgeProduction(predecessor, successor, predecessor.at)
 
     def first(self, _: Token, *edges: Edge) -> tuple[str, tuple[Edge, ...]]:
@@ -110,4 +110,4 @@ class _Records(Transformer[Any, Any]):
         return "steps", int(number)
 
 
-MAP = Grammar(name="map", records=_Records, questions=QUESTIONS, starts=("statement",))
+MAP = Grammar(name="map", records=_Records, diagnostics=DIAGNOSTICS, starts=("statement",))

@@ -14,18 +14,18 @@ from lark.visitors import merge_transformers
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
-from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, meant
+from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
 from lsys_kit.notation.model.system import Constant, Module, Production
 from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
 
-Word: TypeAlias = tuple[Module, ...]
-SYMBOL = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
+WordDefinition: TypeAlias = tuple[Module, ...]
+SYMBOL_PATTERN = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
 """What may stand between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
 
 
 @dataclass(frozen=True)
-class Asked:
+class RequiredArgument:
     """What stands in the brackets of a module that a rule asks for: the name of a parameter, or a value; and its condition."""
 
     value: Expression
@@ -34,11 +34,11 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Pattern:
+class PatternDefinition:
     """A module that a rule asks for, with the condition behind it."""
 
     symbol: Token
-    asked: tuple[Asked, ...]
+    asked: tuple[RequiredArgument, ...]
     condition: Expression | None = None
 
     @property
@@ -48,28 +48,28 @@ class Pattern:
 
 
 @dataclass(frozen=True)
-class Rule:
+class RuleDefinition:
     """A production, with what its patterns ask for, and where it stood."""
 
     production: Production
-    asked: tuple[Asked, ...]
+    asked: tuple[RequiredArgument, ...]
     at: tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Rules:
+class RuleList:
     """The members of LRULES: rules, or names of rules; and whether a comma stands behind the last."""
 
-    members: tuple[Rule | Token, ...] = ()
+    members: tuple[RuleDefinition | Token, ...] = ()
     comma: bool = False
 
 
 @dataclass(frozen=True)
-class System:
+class SystemDefinition:
     """An LSystem: its axiom and its rules, or the names of them; None where the text's only ones are meant."""
 
-    axiom: Word | Token | None = None
-    rules: Rules | Token | None = None
+    axiom: WordDefinition | Token | None = None
+    rules: RuleList | Token | None = None
     printed: bool = False
 
 
@@ -77,7 +77,7 @@ class System:
 class Run:
     """A system that is run, or its name, and for how many steps."""
 
-    system: System | Token
+    system: SystemDefinition | Token
     steps: Expression
 
 
@@ -107,7 +107,7 @@ def condition_of(conditions: Iterable[Expression]) -> Expression | None:
 class _Statements(MathematicaExpressions):
     """What the definitions name."""
 
-    def word(self, *modules: Module) -> Word:
+    def word(self, *modules: Module) -> WordDefinition:
         return modules
 
     def module(self, symbol: Token, *arguments: Expression) -> Module:
@@ -119,69 +119,69 @@ class _Statements(MathematicaExpressions):
         if token.type == "NAME":
             return _plain(token, "A symbol")
         text = re.sub(r"\\(.)", r"\1", token[1:-1])
-        if not SYMBOL.fullmatch(text):
+        if not SYMBOL_PATTERN.fullmatch(text):
             raise Misread(ModelSyntaxError, "One symbol stands between quotation marks", _around(token),
                           'Part symbols by commas, as in \'F, "+", F\'.')
         return token.update(value=text)
 
-    def pattern(self, symbol: Token, *asked: Asked) -> Pattern:
-        return Pattern(symbol, asked)
+    def pattern(self, symbol: Token, *asked: RequiredArgument) -> PatternDefinition:
+        return PatternDefinition(symbol, asked)
 
-    def parameter(self, blank: Token, *condition: Expression) -> Asked:
+    def parameter(self, blank: Token, *condition: Expression) -> RequiredArgument:
         name = blank[:-1]
         if name.endswith("_"):
             raise Misread(ModelSyntaxError, f'"{blank}" stands for a row of values', _around(blank),
                           f'A parameter stands for one: type "{name.rstrip("_")}_".')
         _check_name(_plain(blank.update(value=name), "A parameter"))
-        return Asked(Name(name, _around(blank)), True, *condition)
+        return RequiredArgument(Name(name, _around(blank)), True, *condition)
 
-    def asked(self, value: Expression, *condition: Expression) -> Asked:
+    def asked(self, value: Expression, *condition: Expression) -> RequiredArgument:
         if condition:
             raise Misread(ModelSyntaxError, 'A parameter is named with "_" behind it', value.at,
                           f'Type "{value}_ /; ...".' if isinstance(value, Name) else None)
-        return Asked(value)
+        return RequiredArgument(value)
 
-    def conditioned(self, pattern: Pattern, condition: Expression) -> Pattern:
+    def conditioned(self, pattern: PatternDefinition, condition: Expression) -> PatternDefinition:
         return replace(pattern, condition=condition)
 
-    def side(self, _: Token, *patterns: Pattern) -> tuple[Pattern, ...]:
+    def side(self, _: Token, *patterns: PatternDefinition) -> tuple[PatternDefinition, ...]:
         return patterns
 
-    def succ(self, _: Token, *word: Word) -> Word:
+    def succ(self, _: Token, *word: WordDefinition) -> WordDefinition:
         return word[0] if word else ()
 
-    def lrule(self, keyword: Token, left: tuple[Pattern, ...], pred: tuple[Pattern, ...], right: tuple[Pattern, ...],
-              succ: Word, closing: Token) -> Rule:
+    def lrule(self, keyword: Token, left: tuple[PatternDefinition, ...], pred: tuple[PatternDefinition, ...],
+              right: tuple[PatternDefinition, ...], succ: WordDefinition, closing: Token) -> RuleDefinition:
         return _rule(left, pred[0], right, succ, (keyword.start_pos or 0, closing.end_pos or 0))
 
-    def before(self, *patterns: Pattern) -> tuple[str, tuple[Pattern, ...]]:
+    def before(self, *patterns: PatternDefinition) -> tuple[str, tuple[PatternDefinition, ...]]:
         return "left", patterns
 
-    def behind(self, *patterns: Pattern) -> tuple[str, tuple[Pattern, ...]]:
+    def behind(self, *patterns: PatternDefinition) -> tuple[str, tuple[PatternDefinition, ...]]:
         return "right", patterns
 
-    def successor(self, *word: Word) -> Word:
+    def successor(self, *word: WordDefinition) -> WordDefinition:
         return word[0] if word else ()
 
     def printed_rule(self, *parts: Any) -> tuple[str, Any]:
-        sides: dict[str, tuple[Pattern, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
-        pattern = next(part for part in parts if isinstance(part, Pattern))
+        sides: dict[str, tuple[PatternDefinition, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
+        pattern = next(part for part in parts if isinstance(part, PatternDefinition))
         at = pattern.symbol.start_pos or 0, parts[-2].end_pos or 0
         return "more", ("printed_rule", _rule(sides.get("left", ()), pattern, sides.get("right", ()), parts[-1], at))
 
     def last_comma(self) -> None:
         return None
 
-    def lrules(self, _: Token, *members: Rule | Token | None) -> Rules:
-        return Rules(tuple(member for member in members if member is not None), None in members)
+    def lrules(self, _: Token, *members: RuleDefinition | Token | None) -> RuleList:
+        return RuleList(tuple(member for member in members if member is not None), None in members)
 
-    def axiom(self, _: Token, word: Word) -> Any:
+    def axiom(self, _: Token, word: WordDefinition) -> Any:
         return word
 
-    def lsystem(self, _: Token, axiom: Word | Token, rules: Rules | Token) -> System:
-        return System(axiom, rules)
+    def lsystem(self, _: Token, axiom: WordDefinition | Token, rules: RuleList | Token) -> SystemDefinition:
+        return SystemDefinition(axiom, rules)
 
-    def run(self, _: Token, system: System | Token, steps: Expression) -> Run:
+    def run(self, _: Token, system: SystemDefinition | Token, steps: Expression) -> Run:
         return Run(system, steps)
 
     def definition(self, *parts: Any) -> tuple[str, Any]:
@@ -191,7 +191,7 @@ class _Statements(MathematicaExpressions):
     def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
         name = call.split("[")[0].rstrip()
         raise Misread(ModelNameError, f'I do not know "{name}[...]"', (call.start_pos or 0, (call.start_pos or 0) + len(name)),
-                      INSTEAD.get(name) or meant(name) or "What prints or draws can be left out.")
+                      INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.")
 
     def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
         _check_name(_plain(name, "A constant"))
@@ -217,7 +217,7 @@ class _Statements(MathematicaExpressions):
     def alone(self, name: Token) -> tuple[str, Any]:
         return "more", ("alone", name)
 
-    def printed_axiom(self, _: Token, word: Word) -> tuple[str, Any]:
+    def printed_axiom(self, _: Token, word: WordDefinition) -> tuple[str, Any]:
         return "more", ("printed_axiom", word)
 
     def other(self, *parts: Token) -> tuple[str, Any]:
@@ -236,8 +236,8 @@ def _plain(name: Token, what: str) -> Token:
     return name
 
 
-def _rule(left: tuple[Pattern, ...], pattern: Pattern, right: tuple[Pattern, ...], successor: Word,
-          at: tuple[int, int]) -> Rule:
+def _rule(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, right: tuple[PatternDefinition, ...],
+          successor: WordDefinition, at: tuple[int, int]) -> RuleDefinition:
     """The rule of some patterns and a successor."""
     every = (*left, pattern, *right)
     condition = condition_of(condition for one in every for condition in one.conditions)
@@ -246,16 +246,16 @@ def _rule(left: tuple[Pattern, ...], pattern: Pattern, right: tuple[Pattern, ...
     numbers = count(1)
     modules = tuple(_module(one, numbers) for one in every)
     production = Production(modules[len(left)], successor, condition, modules[:len(left)], modules[len(left) + 1:])
-    return Rule(production, tuple(asked for one in every for asked in one.asked), at)
+    return RuleDefinition(production, tuple(asked for one in every for asked in one.asked), at)
 
 
-def _module(pattern: Pattern, numbers: Iterator[int]) -> Module:
+def _module(pattern: PatternDefinition, numbers: Iterator[int]) -> Module:
     """The module of a pattern; a parameter that is only "_" is named by the next number."""
     arguments = tuple(Name(f"_{next(numbers)}", asked.value.at) if asked.value == Name("") else asked.value
                       for asked in pattern.asked)
     return Module(str(pattern.symbol), arguments, _around(pattern.symbol, *arguments))
 
 
-def records() -> Transformer[Any, Any]:
+def transformer() -> Transformer[Any, Any]:
     """What makes records of all that the grammar names."""
     return merge_transformers(_Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]

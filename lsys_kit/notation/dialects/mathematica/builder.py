@@ -8,14 +8,14 @@ from graphlib import CycleError, TopologicalSorter
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import check_constants, check_expression, span, suggestion, value_of
-from lsys_kit.notation.dialects.mathematica.actions import Rule
-from lsys_kit.notation.dialects.mathematica.definitions import Definitions, axiom_of, chosen, rules_of
-from lsys_kit.notation.dialects.mathematica.expressions import text_of
+from lsys_kit.notation.dialects.mathematica.actions import RuleDefinition
+from lsys_kit.notation.dialects.mathematica.definitions import Definitions, axiom_in, main_system, rules_in
+from lsys_kit.notation.dialects.mathematica.expressions import expression_text
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
 from lsys_kit.notation.model.system import Constant, LSystem, Module
-from lsys_kit.notation.syntax.builder import Draft, assembled
-from lsys_kit.notation.syntax.segmentation import with_letters_apart
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.segmentation import segment_with_notes
 
 _AXIOM = 'Give the first word, as in "axiom = AXIOM[A];".'
 _BRANCH = 'Brackets around values are those of a module; a branch is typed \'F, "[", "+", F, "]"\'.'
@@ -45,17 +45,17 @@ def _filled(draft: Draft, definitions: Definitions) -> LSystem:
     draft.constants = _in_order(definitions.constants.values(), draft.source)
     names = definitions.constants.keys()
     _check_constants(draft.constants, draft.source)
-    system = chosen(definitions)
-    draft.axiom = axiom_of(definitions, system)
+    system = main_system(definitions)
+    draft.axiom = axiom_in(definitions, system)
     if draft.axiom is None:
         raise ModelSyntaxError("There is no axiom", draft.source, len(draft.source), None, _AXIOM)
-    for rule in rules_of(definitions, system):
+    for rule in rules_in(definitions, system):
         _check_names(rule, names, draft.source)
         draft.add("production", rule.production, rule.at)
     _set(draft, definitions)
     draft.notes += _notes(draft, definitions)
-    whole = assembled(draft)
-    return with_letters_apart(whole) if system.printed else whole
+    whole = build_system(draft)
+    return segment_with_notes(whole) if system.printed else whole
 
 
 def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:
@@ -94,7 +94,7 @@ def _check_constants(constants: Iterable[Constant], source: str) -> None:
     check_constants(constants, source)
 
 
-def _check_names(rule: Rule, constants: Collection[str], source: str) -> None:
+def _check_names(rule: RuleDefinition, constants: Collection[str], source: str) -> None:
     """A parameter has a name of its own, and every value that is asked for is known."""
     for asked in rule.asked:
         value = asked.value
@@ -150,7 +150,7 @@ def _in_own_words(error: LSystemError, draft: Draft) -> LSystemError:
     name = re.match('I do not know the name "(.*)"', error.message)
     if name and name[1] in {module.symbol for module in _modules(draft)}:
         hint = _BRANCH
-    kit = {f'"{expression}': f'"{text_of(expression)}' for expression in _expressions(draft)}
+    kit = {f'"{expression}': f'"{expression_text(expression)}' for expression in _expressions(draft)}
     for text in sorted(kit, key=len, reverse=True):
         error.message = error.message.replace(text, kit[text])
         hint = hint and hint.replace(text, kit[text])

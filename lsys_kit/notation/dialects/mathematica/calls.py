@@ -8,7 +8,14 @@ from lark import Token, v_args
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.dialects.mathematica.expressions import ANGLES, DISTRIBUTIONS, FUNCTIONS, INSTEAD, INVERSES, meant
+from lsys_kit.notation.dialects.mathematica.expressions import (
+    ANGLES,
+    DISTRIBUTIONS,
+    FUNCTIONS,
+    INSTEAD,
+    INVERSES,
+    spelling_hint,
+)
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Number
 from lsys_kit.notation.syntax.actions import Expressions, Misread, _around
 
@@ -23,7 +30,8 @@ class MathematicaExpressions(Expressions):
     def call(self, name: Token, *operands: Expression) -> Expression:
         if name not in FUNCTIONS:
             raise Misread(ModelNameError, f'I do not know the function "{name}"', _around(name),
-                          INSTEAD.get(name) or meant(name) or f"Functions are: {', '.join(sorted((*FUNCTIONS, *ANGLES)))}.")
+                          INSTEAD.get(name) or spelling_hint(name)
+                          or f"Functions are: {', '.join(sorted((*FUNCTIONS, *ANGLES)))}.")
         return self._of(name, FUNCTIONS[name], operands)
 
     def _of(self, name: Token, operator: str, operands: tuple[Expression, ...]) -> Expression:

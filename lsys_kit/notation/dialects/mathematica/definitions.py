@@ -14,7 +14,7 @@ from lark import Token
 
 from lsys_kit.errors import ModelNameError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.dialects.mathematica.actions import Rule, Rules, Run, System, Word
+from lsys_kit.notation.dialects.mathematica.actions import RuleDefinition, RuleList, Run, SystemDefinition, WordDefinition
 from lsys_kit.notation.model.system import Constant
 
 Thing = TypeVar("Thing")
@@ -46,10 +46,10 @@ class Definitions:
     """
 
     source: str
-    axioms: dict[str, Word] = field(default_factory=dict)
-    rules: dict[str, Rules] = field(default_factory=dict)
-    single: dict[str, Rule] = field(default_factory=dict)
-    systems: dict[str, System] = field(default_factory=dict)
+    axioms: dict[str, WordDefinition] = field(default_factory=dict)
+    rules: dict[str, RuleList] = field(default_factory=dict)
+    single: dict[str, RuleDefinition] = field(default_factory=dict)
+    systems: dict[str, SystemDefinition] = field(default_factory=dict)
     constants: dict[str, Constant] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
     run: Run | None = None
@@ -71,20 +71,20 @@ class Definitions:
             self.alone.append(record)
             self.title, self.printed = str(record), None
         elif kind == "printed_axiom":
-            self.printed = self._keep(self.systems, self.title, System(record, printed=True))
+            self.printed = self._keep(self.systems, self.title, SystemDefinition(record, printed=True))
         elif kind == "printed_rule":
             self._print(replace(record, at=at))
         else:
             self._define(*record)
 
-    def _define(self, name: str, thing: Word | Rules | Rule | System | Run) -> None:
+    def _define(self, name: str, thing: WordDefinition | RuleList | RuleDefinition | SystemDefinition | Run) -> None:
         if isinstance(thing, Run):
             self.run = thing
-        elif isinstance(thing, System):
+        elif isinstance(thing, SystemDefinition):
             self._keep(self.systems, name, thing)
-        elif isinstance(thing, Rules):
+        elif isinstance(thing, RuleList):
             self._keep(self.rules, name, thing)
-        elif isinstance(thing, Rule):
+        elif isinstance(thing, RuleDefinition):
             self._keep(self.single, name, thing)
         else:
             self._keep(self.axioms, name, thing)
@@ -97,17 +97,17 @@ class Definitions:
         table[key] = thing
         return key
 
-    def _print(self, rule: Rule) -> None:
+    def _print(self, rule: RuleDefinition) -> None:
         """A printed rule belongs to the axiom printed above it, if there is one."""
         if self.printed is None:
             self._keep(self.single, "", rule)
             return
         system = self.systems[self.printed]
-        before = system.rules.members if isinstance(system.rules, Rules) else ()
-        self.systems[self.printed] = replace(system, rules=Rules((*before, rule)))
+        before = system.rules.members if isinstance(system.rules, RuleList) else ()
+        self.systems[self.printed] = replace(system, rules=RuleList((*before, rule)))
 
 
-def chosen(definitions: Definitions) -> System:
+def main_system(definitions: Definitions) -> SystemDefinition:
     """The system that a text is about: the last that is run, else the last that is defined, else what stands by itself."""
     found, run = definitions, definitions.run
     only = len(found.systems) < 2 and all(name.isdigit() for name in found.systems)
@@ -116,25 +116,25 @@ def chosen(definitions: Definitions) -> System:
             found.notes[f'"{run.system}" is not defined: what the text defines is run.'] = None
         if run is None and len(found.systems) > 1:
             found.notes["Several systems are defined and none is run: the last is read."] = None
-        return next(reversed(found.systems.values()), System())
+        return next(reversed(found.systems.values()), SystemDefinition())
     if len(found.systems) > 1:
         found.notes["Several systems are defined: the last that is run is read."] = None
-    return run.system if isinstance(run.system, System) else _called(found, found.systems, run.system, "system")
+    return run.system if isinstance(run.system, SystemDefinition) else _called(found, found.systems, run.system, "system")
 
 
-def axiom_of(definitions: Definitions, system: System) -> Word | None:
+def axiom_in(definitions: Definitions, system: SystemDefinition) -> WordDefinition | None:
     """The axiom of a system, or the last of the text; None where there is none."""
     if isinstance(system.axiom, Token):
         return _called(definitions, definitions.axioms, system.axiom, "axiom")
     return system.axiom or next(reversed(definitions.axioms.values()), None)
 
 
-def rules_of(definitions: Definitions, system: System) -> Iterator[Rule]:
+def rules_in(definitions: Definitions, system: SystemDefinition) -> Iterator[RuleDefinition]:
     """The rules of a system, or the last LRULES of the text, or the rules that stand by themselves."""
     alone = [rule for name, rule in definitions.single.items() if name.isdigit()]
     rules = system.rules or next(reversed(definitions.rules.values()), None)
     if rules is None:
-        rules, alone = Rules(tuple(definitions.single.values())), []
+        rules, alone = RuleList(tuple(definitions.single.values())), []
     if alone:
         definitions.notes["A rule that stands outside of LRULES is not used."] = None
     if isinstance(rules, Token):
@@ -142,7 +142,7 @@ def rules_of(definitions: Definitions, system: System) -> Iterator[Rule]:
     if rules.comma:
         definitions.notes["The comma behind the last LRule is passed over."] = None
     for member in rules.members:
-        yield member if isinstance(member, Rule) else _called(definitions, definitions.single, member, "rule")
+        yield member if isinstance(member, RuleDefinition) else _called(definitions, definitions.single, member, "rule")
 
 
 def _called(definitions: Definitions, table: Mapping[str, Thing], name: Token, kind: str) -> Thing:

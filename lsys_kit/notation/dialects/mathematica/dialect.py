@@ -6,17 +6,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from lsys_kit.notation.dialects.mathematica.actions import SYMBOL, records
+from lsys_kit.notation.dialects.mathematica.actions import SYMBOL_PATTERN, transformer
 from lsys_kit.notation.dialects.mathematica.builder import finish
-from lsys_kit.notation.dialects.mathematica.diagnostics import QUESTIONS
+from lsys_kit.notation.dialects.mathematica.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
 from lsys_kit.notation.dialects.mathematica.statements import statements
-from lsys_kit.notation.dialects.mathematica.writer import module_text, written_system
+from lsys_kit.notation.dialects.mathematica.writer import module_text, system_text
 from lsys_kit.notation.model.expressions import Apply, Name
 from lsys_kit.notation.model.operators import OPERATORS
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.syntax.dialect import Notation
-from lsys_kit.notation.syntax.formatting import first_lacking
+from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.formatting import first_missing
 
 _MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
                     re.IGNORECASE | re.MULTILINE)
@@ -26,7 +26,7 @@ _SET = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skip
 
 
 def _lacking(system: LSystem) -> str | None:
-    return first_lacking(system, "probabilities", "repetition", "decomposition rules", "interpretation rules", "meta-rules") \
+    return first_missing(system, "probabilities", "repetition", "decomposition rules", "interpretation rules", "meta-rules") \
         or next(_own_lacks(system), None)
 
 
@@ -38,7 +38,7 @@ def _own_lacks(system: LSystem) -> Iterator[str]:
         yield "considered symbols"
     if system.depth != 1 or system.decomposition_depth is not None:
         yield "depth"
-    yield from (f'symbol "{module.symbol}"' for module in system.modules if not SYMBOL.fullmatch(module.symbol))
+    yield from (f'symbol "{module.symbol}"' for module in system.modules if not SYMBOL_PATTERN.fullmatch(module.symbol))
     names, functions = _used(system)
     taken = {constant.name for constant in system.constants if constant.name.lower() in _SET} | {"Degree"}
     yield from (f'other meaning of the name "{name}"' for name in sorted(names & taken))
@@ -62,6 +62,6 @@ def _used(system: LSystem) -> tuple[set[str], set[str]]:
     return names, functions
 
 
-MATHEMATICA = Notation(
-    name="mathematica", statements=statements, records=records, finish=finish, questions=QUESTIONS, module=module_text,
-    joined=" ".join, write=written_system, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)))
+MATHEMATICA = Dialect(
+    name="mathematica", statements=statements, records=transformer, finish=finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from difflib import get_close_matches
 
-from lsys_kit.notation.model.expressions import Apply, Expression, Name, Style, written
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Style, styled_text
 
 FUNCTIONS: Mapping[str, str] = {
     "Abs": "abs", "Floor": "floor", "Ceiling": "ceil", "Min": "min", "Max": "max", "Mod": "mod", "If": "if", "Sqrt": "sqrt",
@@ -33,10 +33,10 @@ KNOWN = frozenset((*FUNCTIONS.values(), *_BY_FUNCTION, "uniform", "table"))
 """The functions of the kit that Mathematica has too."""
 
 
-def meant(name: str) -> str | None:
+def spelling_hint(name: str) -> str | None:
     """A hint that names the function, or the part of an L-system, that was probably meant.
 
-    >>> meant("AXOIM")
+    >>> spelling_hint("AXOIM")
     'Did you mean "AXIOM"?'
     """
     known = {known.upper(): known for known in (*HEADS, *FUNCTIONS, *ANGLES)}
@@ -44,13 +44,13 @@ def meant(name: str) -> str | None:
     return f'Did you mean "{known[close[0]]}"?' if close else None
 
 
-def text_of(expression: Expression) -> str:
+def expression_text(expression: Expression) -> str:
     """An expression in Mathematica's spelling.
 
-    >>> text_of(Apply("sqrt", (Apply("sin", (Apply("+", (Name("t"), Name("x"))),)),)))
+    >>> expression_text(Apply("sqrt", (Apply("sin", (Apply("+", (Name("t"), Name("x"))),)),)))
     'Sqrt[Sin[(t + x) * Degree]]'
     """
-    return written(_spelt(expression), _STYLE)
+    return styled_text(_spelt(expression), _STYLE)
 
 
 def _spelt(expression: Expression) -> Expression:
@@ -58,9 +58,9 @@ def _spelt(expression: Expression) -> Expression:
     if not isinstance(expression, Apply):
         return expression
     operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
-    texts = ", ".join(written(operand, _STYLE) for operand in operands)
+    texts = ", ".join(styled_text(operand, _STYLE) for operand in operands)
     if operator in ANGLES.values():
-        return Name(f"{_BY_FUNCTION[operator]}[{written(Apply('*', (operands[0], _DEGREE)), _STYLE)}]")
+        return Name(f"{_BY_FUNCTION[operator]}[{styled_text(Apply('*', (operands[0], _DEGREE)), _STYLE)}]")
     if operator in INVERSES.values():
         return Name(f"({_BY_FUNCTION[operator]}[{texts}]/{_DEGREE})")
     if operator in DISTRIBUTIONS.values():

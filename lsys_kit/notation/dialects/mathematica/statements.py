@@ -35,7 +35,7 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     >>> [text[start:end] for start, end in statements(text)]
     ['w = 11; (* 2 .. 15 by 1 *)', 'axiom = AXIOM[\\n  a[1], b]']
     """
-    bare = without_comments(text)
+    bare = without_nested_comments(text)
     start = 0
     for end in _ends(bare):
         stretch = bare[start:end].strip()
@@ -66,10 +66,10 @@ def _goes_on(bare: str, begun: int, start: int, end: int) -> bool:
     return start > begun and bool(_GOES_ON.search(bare, max(begun, start - 3), start) or _IS_GONE_ON.match(bare, end))
 
 
-def without_comments(text: str) -> str:
+def without_nested_comments(text: str) -> str:
     """The text with its comments blanked, every other character in its place.
 
-    >>> without_comments('w = 11; (* a (* wide *) layer *) "(*"')
+    >>> without_nested_comments('w = 11; (* a (* wide *) layer *) "(*"')
     'w = 11;                          "(*"'
     """
 

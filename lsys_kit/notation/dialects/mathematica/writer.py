@@ -6,11 +6,11 @@ import re
 from collections.abc import Collection, Iterable, Iterator
 
 from lsys_kit.notation.dialects.mathematica.actions import condition_of
-from lsys_kit.notation.dialects.mathematica.expressions import text_of
+from lsys_kit.notation.dialects.mathematica.expressions import expression_text
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
 from lsys_kit.notation.model.system import Argument, Constant, LSystem, Module, Production, flat
-from lsys_kit.notation.syntax.formatting import ABOP
+from lsys_kit.notation.syntax.formatting import OWN_NOTATION
 
 _NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
 """A symbol that needs no quotation marks."""
@@ -39,10 +39,10 @@ def _with_arguments(module: Module, texts: Iterable[str]) -> str:
 
 
 def _value(argument: Argument) -> str:
-    return text_of(argument) if isinstance(argument, Expression) else number_text(argument)
+    return expression_text(argument) if isinstance(argument, Expression) else number_text(argument)
 
 
-def written_system(system: LSystem) -> str:
+def system_text(system: LSystem) -> str:
     """The text of a system that lacks nothing in this notation."""
     taken = {constant.name for constant in system.constants}
     lrules, lsystem, growth = (_free(name, taken) for name in ("lrules", "lsystem", "growth"))
@@ -61,15 +61,15 @@ def _free(name: str, taken: Collection[str]) -> str:
 
 
 def _constant(constant: Constant) -> str:
-    text = f"{constant.name} = {text_of(constant.value)};"
+    text = f"{constant.name} = {expression_text(constant.value)};"
     if constant.range is None:
         return text
-    low, high, step = map(text_of, constant.range)
+    low, high, step = map(expression_text, constant.range)
     return f"{text} (* {low} .. {high} by {step} *)"
 
 
 def _settings(system: LSystem) -> Iterator[str]:
-    if system.turtle != ABOP:
+    if system.turtle != OWN_NOTATION:
         yield f'turtle = "{system.turtle}";'
     for name, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90), ("length", system.length, None),
                                ("seed", system.seed, None)):
@@ -103,8 +103,8 @@ def _pattern(module: Module, constants: Collection[str], condition: Expression |
     if condition is None:
         return _with_arguments(module, texts)
     if len(parameters) == len(texts) == 1 and names_in(condition) <= {*parameters, *constants}:
-        return _with_arguments(module, [f"{texts[0]} /; {text_of(condition)}"])
-    return f"{_with_arguments(module, texts)} /; {text_of(condition)}"
+        return _with_arguments(module, [f"{texts[0]} /; {expression_text(condition)}"])
+    return f"{_with_arguments(module, texts)} /; {expression_text(condition)}"
 
 
 def _parameters(module: Module, constants: Collection[str]) -> list[str]:

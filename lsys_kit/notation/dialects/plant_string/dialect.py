@@ -8,11 +8,11 @@ from collections.abc import Iterable, Iterator
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.model.system import LSystem, Module, flat
 from lsys_kit.notation.syntax.actions import Statements
-from lsys_kit.notation.syntax.builder import Draft, assembled
-from lsys_kit.notation.syntax.diagnostics import QUESTIONS, without_colon
-from lsys_kit.notation.syntax.dialect import Notation
-from lsys_kit.notation.syntax.failure import Stumble, outside
-from lsys_kit.notation.syntax.formatting import first_lacking, settings
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
+from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.failure import ParseFailure, blank_parentheses
+from lsys_kit.notation.syntax.formatting import first_missing, settings
 from lsys_kit.notation.syntax.predecessor_diagnostics import PRODUCTION
 from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
 
@@ -34,17 +34,17 @@ _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern
 """How lines begin that other notations hardly have, and how much each says."""
 
 
-def _of_others(stumble: Stumble) -> ModelSyntaxError | None:
+def _of_others(failure: ParseFailure) -> ModelSyntaxError | None:
     """What only other notations have, or a line of a lesson without its colon."""
-    line = stumble.text[stumble.start:stumble.end]
+    line = failure.text[failure.start:failure.end]
     keyword, heading = _KEYWORD.match(line), _HEADING.match(line)
     if keyword:
-        return stumble.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
-                             "and turtle.", stumble.start, len(keyword[1]))
+        return failure.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
+                             "and turtle.", failure.start, len(keyword[1]))
     if heading:
-        return without_colon(stumble.source, stumble.start, heading[1], line[heading.end():])
-    if stumble.found == ":" and ARROW.search(stumble.before):
-        return stumble.error("A plant string has no probabilities", PRODUCTION)
+        return missing_keyword_colon(failure.source, failure.start, heading[1], line[heading.end():])
+    if failure.found == ":" and ARROW.search(failure.before):
+        return failure.error("A plant string has no probabilities", PRODUCTION)
     return None
 
 
@@ -53,7 +53,7 @@ def _finish(draft: Draft) -> LSystem:
     if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.more):
         draft.axiom = (Module("I"),)
         draft.notes.append("No axiom is given: it is I.")
-    return assembled(draft)
+    return build_system(draft)
 
 
 def _lines(system: LSystem) -> Iterator[str]:
@@ -64,7 +64,7 @@ def _lines(system: LSystem) -> Iterator[str]:
 
 
 def _lacking(system: LSystem) -> str | None:
-    return first_lacking(
+    return first_missing(
         system, "parameters", "symbols of several letters", "conditions", "contexts", "probabilities", "repetition",
         "constants", "decomposition rules", "meta-rules", "interpretation rules", "starting direction", "ignored symbols")
 
@@ -87,11 +87,11 @@ def _branches(words: Iterable[str]) -> int:
     texts = [*words]
     if not any(re.search(r"\([A-Za-z\[(]", text) for text in texts):
         return 0
-    every, shown = (set(filter(str.isalpha, "".join(some))) for some in (texts, map(outside, texts)))
+    every, shown = (set(filter(str.isalpha, "".join(some))) for some in (texts, map(blank_parentheses, texts)))
     return 2 if every == shown else int("".join(every - shown).isupper())
 
 
-PLANT_STRING = Notation(
-    name=NAME, statements=statements, records=Statements, finish=_finish, questions=(_of_others, *QUESTIONS), module=str,
+PLANT_STRING = Dialect(
+    name=NAME, statements=statements, records=Statements, finish=_finish, diagnostics=(_of_others, *DIAGNOSTICS), module=str,
     joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
     starts=("statement", "word"))
