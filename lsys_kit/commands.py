@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
+from lsys_kit.files import create_file
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -190,8 +191,7 @@ def _file(name: str) -> str:
 def _keep(text: str, name: str) -> None:
     """Write a text into a new file."""
     try:
-        with Path(name).open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        create_file(Path(name), text.encode())
     except FileExistsError:
         raise ModelFileError(f'"{quotable(str(Path(name)))}" is there already',
                              hint="Nothing is ever overwritten: take another name.") from None

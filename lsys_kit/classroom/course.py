@@ -13,14 +13,13 @@ import hashlib
 import json
 import os
 import re
-import secrets
-import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
 from lsys_kit.errors import ModelFileError
+from lsys_kit.files import replace_file
 
 COURSE_PARTS = ("notebooks", "exercises")
 """The folders of the course."""
@@ -96,7 +95,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
             _made_folder(folder / part)
         manifest = _manifest(folder)
         copied = tuple(_copied(folder, name, path.read_bytes(), manifest) for name, path in files.items())
-        _replace(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
+        replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
     except OSError as fault:
         raise ModelFileError(f"The course cannot be copied to {folder}: {fault.strerror or fault}",
                              hint="Choose another folder: lsys-kit lab FOLDER.") from None
@@ -142,12 +141,12 @@ def _copied(folder: Path, name: str, content: bytes, manifest: dict[str, str]) -
     path, version, seen = folder / name, _hash(content), manifest.get(name)
     manifest[name] = version
     if not os.path.lexists(path):
-        _replace(path, content)
+        replace_file(path, content)
         return Copied(name, "new")
     if _same(path, version):
         return Copied(name, "same")
     if seen and _same(path, seen):
-        _replace(path, content)
+        replace_file(path, content)
         return Copied(name, "renewed")
     if seen == version:
         return Copied(name, "kept")
@@ -162,7 +161,7 @@ def _put_beside(folder: Path, name: str, content: bytes, manifest: dict[str, str
         if os.path.lexists(path) and not any(_same(path, known) for known in (_hash(content), manifest.get(beside)) if known):
             continue
         manifest[beside] = _hash(content)
-        _replace(path, content)
+        replace_file(path, content)
         return beside
     raise AssertionError("the names beside a file never end")
 
@@ -181,13 +180,3 @@ def _hash(content: bytes) -> str:
 def _same(path: Path, version: str) -> bool:
     """Whether a file, not a link, has just that content."""
     return path.is_file() and not path.is_symlink() and _hash(path.read_bytes()) == version
-
-
-def _replace(path: Path, content: bytes) -> None:
-    """Write a file at one stroke: it is the old or the new one, never half of it; a link is replaced, not followed."""
-    draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    with draft.open("xb") as file:
-        file.write(content)
-    if path.is_file() and not path.is_symlink():
-        shutil.copymode(path, draft)
-    os.replace(draft, path)

@@ -17,6 +17,7 @@ from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.files import marked_gif, marked_png
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.system import LSystem
@@ -72,7 +73,8 @@ class Film:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        save_as(Path(path), {".gif": lambda: self.gif, ".apng": lambda: self.apng, ".png": lambda: self.apng})
+        save_as(Path(path), {".gif": lambda: marked_gif(self.gif), ".apng": lambda: marked_png(self.apng),
+                             ".png": lambda: marked_png(self.apng)})
 
     def _film(self, form: str) -> bytes:
         buffer, step = io.BytesIO(), round(1000 * self.seconds)

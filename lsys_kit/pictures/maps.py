@@ -19,6 +19,7 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
@@ -44,6 +45,8 @@ REST = tinted(QUIET, 0.13)
 """The colour of cells of all further kinds."""
 RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "damping": (0.1, 10)}
 """Between which values the forces can be computed."""
+ROUNDING = 1e-6
+"""By how much of a pixel lengths may be wrong that ought to be whole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +103,7 @@ class MapPicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": self.text}
@@ -173,9 +176,10 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
     """For each map where it stands: in lines, each in the middle, with a common scale."""
     scale = _scale(some)
     lines = [*_lines(some, scale)]
-    widths = [sum(scene.width * scale + GAP for scene in line) - GAP for line in lines]
+    widths = [math.fsum(scene.width * scale + GAP for scene in line) - GAP for line in lines]
     heights = [max(scene.height for scene in line) * scale for line in lines]
-    size = math.ceil(max(widths)) + 2 * MARGIN, math.ceil(sum(heights) + len(lines) * CAPTION) + 2 * MARGIN
+    lowest = math.fsum(heights) + len(lines) * CAPTION
+    size = math.ceil(max(widths) - ROUNDING) + 2 * MARGIN, math.ceil(lowest - ROUNDING) + 2 * MARGIN
     panels: list[Panel] = []
     top = 0.0
     for line, width, height in zip(lines, widths, heights, strict=True):
@@ -192,7 +196,7 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
 
 def _scale(some: Sequence[Scene]) -> float:
     """Pixels for a unit: so many that all maps stand in one line, if they are large enough there."""
-    in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / sum(scene.width for scene in some)
+    in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / math.fsum(scene.width for scene in some)
     return min(min(LARGE, in_line) if in_line >= SMALL else MIDDLE, *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
                *(HIGHEST / scene.height for scene in some))
 

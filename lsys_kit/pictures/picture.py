@@ -14,13 +14,14 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.budget import current
 from lsys_kit.derivation.petri.pnml import pnml
 from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.files import MARK, marked_png, marked_xml, save_file
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
 from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
-from lsys_kit.pictures.formats.files import save_as, save_beside
+from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.svg import WIDTH, FilamentRow, background, described, document, frame_of, turtle_svg
@@ -112,11 +113,11 @@ class Picture:
         path = Path(path)
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
         if path.suffix.lower() == ".obj":
-            save_beside(library, mtl(self.mesh, self.colour_of))
-        save_as(path, {".svg": lambda: f"{self.svg}\n".encode(), ".png": lambda: self.png, ".pdf": lambda: _pdf(self),
-                    ".glb": lambda: glb(self.mesh, self.colour_of),
-                    ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
-             "Films end in .gif or .apng, and are made by animate(...).")
+            save_file(library, mtl(self.mesh, self.colour_of))
+        save_as(path, {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png), ".pdf": lambda: _pdf(self),
+                       ".glb": lambda: glb(self.mesh, self.colour_of),
+                       ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
+                "Films end in .gif or .apng, and are made by animate(...).")
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}
@@ -156,8 +157,8 @@ class NetPicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode(),
-                          ".pnml": lambda: f"{pnml(self.net, self.tokens)}\n".encode()})
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg),
+                             ".pnml": lambda: marked_xml(pnml(self.net, self.tokens))})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}
@@ -184,6 +185,7 @@ def _pdf(picture: Picture) -> bytes:
     buffer = io.BytesIO()
     sheet = plotted(picture, new_axes()).get_figure(root=True)
     assert sheet is not None
+    facts = {"CreationDate": None, "Title": picture.text, "Creator": MARK.decode()}
     with rc_context({"pdf.fonttype": 42}):  # letters that other programs can change and search
-        sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata={"CreationDate": None, "Title": picture.text})
+        sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata=facts)
     return buffer.getvalue()

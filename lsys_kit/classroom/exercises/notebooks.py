@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 from lsys_kit.classroom.exercises.answers import Exercise
 from lsys_kit.classroom.exercises.check import Lesson, check, lessons
 from lsys_kit.classroom.exercises.verdict import Verdict
+from lsys_kit.files import replace_file
 
 NotebookCell: TypeAlias = dict[str, Any]
 
@@ -48,7 +49,7 @@ def write_notebooks(folder: str | Path) -> list[Path]:
     paths = []
     for lesson in lessons():
         paths.append(Path(folder) / f"{lesson.name}.ipynb")
-        paths[-1].write_text(exercise_notebook(lesson), encoding="utf-8", newline="\n")
+        replace_file(paths[-1], exercise_notebook(lesson).encode())
     return paths
 
 

@@ -147,10 +147,20 @@ def shares(weights: Sequence[Value]) -> list[Value]:
 
 
 def _total(weights: Sequence[Value]) -> Value:
-    total = sum(weights)
+    total = _sum(weights)
     if min(weights) < 0 or not total > 0:
         raise ValueError("probabilities are not negative, and one of them is greater than 0")
     return total
+
+
+def _sum(weights: Sequence[Value]) -> Value:
+    """The exact sum, or the double nearest to it: `sum` rounds doubles otherwise from Python 3.12 on."""
+    if not any(isinstance(weight, float) for weight in weights):
+        return sum(weights)
+    try:
+        return math.fsum(weights)
+    except OverflowError:
+        raise ValueError("together the probabilities are too large") from None
 
 
 def _check_probability(probability: float) -> None:

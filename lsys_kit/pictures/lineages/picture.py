@@ -18,6 +18,7 @@ from typing import Any
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.files import marked_xml
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.files import save_as
@@ -63,7 +64,7 @@ class LineagePicture:
         ModelFileError
             The name ends in something else, or the file cannot be written.
         """
-        save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}

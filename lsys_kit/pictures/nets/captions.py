@@ -72,8 +72,8 @@ def readable(condition: str) -> str:
 
 def width_of(text: str, size: float) -> float:
     """About how wide a text is, rather more than less: no font is asked, so that it is the same everywhere."""
-    return size * sum(0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else 0.8 if letter.isupper() else 0.64
-                      for letter in text)
+    return size * math.fsum(0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else
+                            0.8 if letter.isupper() else 0.64 for letter in text)
 
 
 def abbreviated(text: str) -> str:

@@ -1,0 +1,123 @@
+"""Files that are written whole or not at all, and never over something that the kit did not make.
+
+A file is first written under a name of its own beside the place where it belongs, and takes its name at one stroke. So a disk
+that is full, or an interrupt, leaves the old file as it was, and nothing half written behind. A link is replaced, never
+followed.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+import struct
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from lsys_kit.errors import ModelFileError, quotable
+
+MARK = b"lsys-kit"
+"""What shows that a file was made by the kit; it is near the beginning or the end of each."""
+SEARCHED = 4_096
+"""So many bytes at either end of a file may hold the mark."""
+
+
+def replace_file(path: Path, content: bytes) -> None:
+    """Write a file, in place of one that may be there.
+
+    Raises
+    ------
+    OSError
+        It cannot be written; what was there is as it was.
+    """
+    with _draft(path, content) as draft:
+        if path.is_file() and not path.is_symlink():
+            shutil.copymode(path, draft)
+        os.replace(draft, path)
+
+
+def create_file(path: Path, content: bytes) -> None:
+    """Write a new file.
+
+    Raises
+    ------
+    FileExistsError
+        Something with this name is there already.
+    OSError
+        It cannot be written.
+    """
+    with _draft(path, content) as draft:
+        try:
+            os.link(draft, path)  # unlike a renaming, this never replaces anything
+        except FileExistsError:
+            raise
+        except OSError:  # a file system without hard links
+            if os.path.lexists(path):
+                raise FileExistsError(path) from None
+            os.rename(draft, path)
+
+
+def save_file(path: Path, content: bytes) -> None:
+    """Write a file, in place of one that the kit itself has made, perhaps; anything else is not replaced.
+
+    Raises
+    ------
+    ModelFileError
+        Something that the kit did not make is there already, or the file cannot be written.
+    """
+    name = quotable(str(path))
+    try:
+        if os.path.lexists(path) and not made_by_the_kit(path):
+            raise ModelFileError(f'"{name}" is there already, and was not made by the kit',
+                                 hint="It would be lost: choose another name, or delete it first.")
+        replace_file(path, content)
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(f'"{name}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
+
+
+def made_by_the_kit(path: Path) -> bool:
+    """Whether a file, not a link, carries the kit's mark."""
+    if path.is_symlink() or not path.is_file():
+        return False
+    with path.open("rb") as file:
+        beginning = file.read(SEARCHED)
+        file.seek(max(0, path.stat().st_size - SEARCHED))
+        return MARK in beginning or MARK in file.read(SEARCHED)
+
+
+def marked_xml(text: str) -> bytes:
+    """An SVG picture or a PNML net as a file of the kit: with a processing instruction at its end (XML 1.0, 2.6).
+
+    >>> marked_xml("<svg/>")
+    b'<svg/>\\n<?lsys-kit?>\\n'
+    """
+    return text.encode() + b"\n<?" + MARK + b"?>\n"
+
+
+def marked_png(image: bytes) -> bytes:
+    """A PNG picture, animated or not, as a file of the kit: with a text chunk behind its header (PNG specification, 11.3.4)."""
+    chunk = b"tEXtSoftware\0" + MARK
+    text = struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
+    return image[:33] + text + image[33:]
+
+
+def marked_gif(image: bytes) -> bytes:
+    """A GIF picture as a file of the kit: with a comment behind its colours (GIF 89a, section 24)."""
+    colours = 3 * 2 ** ((image[10] & 7) + 1) if image[10] & 128 else 0
+    comment = b"!\xfe" + bytes([len(MARK)]) + MARK + b"\0"
+    return image[:13 + colours] + comment + image[13 + colours:]
+
+
+@contextmanager
+def _draft(path: Path, content: bytes) -> Iterator[Path]:
+    """A file with the content under a name of its own, which is gone at the end, whatever happens."""
+    draft = path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}")
+    try:
+        with draft.open("xb") as file:
+            file.write(content)
+        yield draft
+    finally:
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)
