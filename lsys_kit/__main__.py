@@ -102,6 +102,7 @@ def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
                         help="give a constant another value, as in dt=14/10")
     parser.add_argument("--notation", metavar="NAME",
                         help="the notation of the file, or in which the words of a system of the catalogue are printed")
+    parser.add_argument("--name", metavar="NAME", help="which system, where the file holds several with names")
     parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
                         help="float computes in doubles, as other programs do")
     parser.add_argument("--seed", type=_seed, metavar="S",
@@ -113,6 +114,7 @@ def _add_conversion(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("system", metavar="FILE", help="a model, - for standard input, or an id such as P4")
     parser.add_argument("--to", required=True, metavar="NOTATION", help="the notation in which it is printed")
     parser.add_argument("--from", dest="notation", metavar="NOTATION", help="its own notation, if that is not to be found out")
+    parser.add_argument("--name", metavar="NAME", help="which system, where the file holds several with names")
     parser.add_argument("-o", "--output", metavar="FILE", help="write into this file; one that is there is never overwritten")
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, quotable
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def convert(options: argparse.Namespace) -> None:
     """Print a system in another notation, or write it into a new file; what its reader had to tell goes to the error stream."""
     from lsys_kit.notation.write import write
 
-    system = _found(options.system, options.notation)
+    system = _found(options.system, options.notation, options.name)
     text = write(system, options.to)
     if options.output is not None:
         _keep(f"{text}\n", options.output)
@@ -149,25 +149,27 @@ def _system(options: argparse.Namespace) -> LSystem:
     from lsys_kit.derivation.core.rules import constants_of, number_from
     from lsys_kit.notation.model.expressions import Number
 
-    system, values = _found(options.system, options.notation), dict(options.settings)
+    system, values = _found(options.system, options.notation, options.name), dict(options.settings)
     constants_of(system, values)
     return replace(system, constants=tuple(
         replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
         for constant in system.constants))
 
 
-def _found(name: str, notation: str | None) -> LSystem:
-    """The system of the catalogue that has this name, else the one in the file."""
+def _found(name: str, notation: str | None, of: str | None) -> LSystem:
+    """The system of the catalogue that has this id, else the one in the file, if it holds several the one `of` that name."""
     from lsys_kit.classroom.catalogue import system
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
 
     if name == "-":
-        return read(_text(sys.stdin.buffer, "the standard input"), notation)
+        return read(_text(sys.stdin.buffer, "the standard input"), notation, of)
     try:
         found = system(name)
     except ModelNameError:
-        return read(_file(name), notation)
+        return read(_file(name), notation, of)
+    if of is not None:
+        raise ModelValueError(f"{name} is one system of the catalogue", hint="Leave out --name.")
     if notation is not None:
         write(found, notation)  # says what the notation lacks
         return replace(found, notation=notation)

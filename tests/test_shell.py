@@ -182,6 +182,15 @@ def test_a_plant_string_is_read_in_its_notation(shell, model):
     assert shell("derive", text, "-n", "1", "--notation", "plant-string").out == "I\nI[A]I(I)\n"
 
 
+def test_one_of_several_systems_in_a_file_is_taken_by_its_name(shell, model):
+    file = model("One {\n Angle 4\n Axiom F\n F=F+F\n}\nTwo {\n Angle 4\n Axiom G\n}", "two.l")
+    assert shell("derive", file, "-n", "1", "--name", "one").out == "F\nF+F\n"
+    assert "Axiom G" in shell("convert", file, "--to", "fractint", "--name", "Two").out
+    assert shell("derive", file, "-n", "1").err.startswith("lsys-kit: There are 2 systems in this text (line 6, column 1).")
+    assert shell("derive", "K5", "-n", "1", "--name", "One").err == \
+        "lsys-kit: K5 is one system of the catalogue. Leave out --name.\n"
+
+
 def test_words_of_the_catalogue_are_printed_in_another_notation_if_it_can_hold_them(shell):
     assert shell("derive", "K5", "-n", "1").out == shell("derive", "K5", "-n", "1", "--notation", "plant-string").out
     refused(shell("derive", "P4", "-n", "1", "--notation", "plant-string"), "has no parameters")

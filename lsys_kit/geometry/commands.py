@@ -1,9 +1,10 @@
 """What each symbol tells the turtle, in the traditions of the seeds, side by side.
 
 ABOP's are those of The Algorithmic Beauty of Plants, appendix C, and of cpfg, which follows it; GROGRA's those of seed 003;
-plant strings are those of seed 004. The traditions agree on most symbols and differ on some: in GROGRA `/` is no roll, and a
-turn to the left is a turn to the right in the picture, because there the turtle shows its other side; in plant strings round
-brackets are branches. A symbol that is in no column tells the turtle nothing.
+plant strings are those of seed 004; Fractint's those of its documentation. The traditions agree on most symbols and differ on
+some: in GROGRA `/` is no roll, and a turn to the left is a turn to the right in the picture, because there the turtle shows its
+other side; in plant strings round brackets are branches; Fractint's turtle has two directions, one that `+` and `-` turn by the
+angle, and one that `/` and its mirror image turn by degrees. A symbol that is in no column tells the turtle nothing.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.amounts import half_turn, times
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 
@@ -32,8 +35,9 @@ class Command:
     factor, addend
         The amount where there is no argument.
     argument
-        What an argument x is: the amount itself ("all", with the sign of the factor), how much more than the quantity
-        ("more"), how many times the quantity ("times"); where it is "", arguments are passed over.
+        What an argument x is: the amount itself ("all", with the sign of the factor), how much more or less than the quantity
+        ("more", "less"), how many times the quantity ("times"), or the number whose inverse or root that is; where it is "",
+        arguments are passed over.
     bare
         The action where there is no argument, if that is another one.
     surface
@@ -43,7 +47,7 @@ class Command:
     action: str
     factor: float = 1.0
     addend: float = 0.0
-    argument: Literal["all", "more", "times", ""] = "all"
+    argument: Literal["all", "more", "less", "times", "inverse", "root", "inverse root", ""] = "all"
     bare: str = ""
     surface: str = ""
 
@@ -57,6 +61,12 @@ class Row(NamedTuple):
     words: str
     command: Command | None = None
     then: Command | None = None
+    fractint: str = ""
+
+    @property
+    def symbols(self) -> tuple[str, ...]:
+        """The symbols, tradition by tradition."""
+        return self.abop, self.grogra, self.plant_string, self.fractint
 
     @property
     def commands(self) -> tuple[Command, ...]:
@@ -65,17 +75,18 @@ class Row(NamedTuple):
 
 
 _LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 0.0, 180, "")
-_DOWN, _OPEN = Command("droop", 0.0, math.inf, ""), Command("open", argument="")
+_DOWN = Command("droop", 0.0, math.inf, "")
+_OPEN, _CLOSE = Command("open", argument=""), Command("close", argument="")
 _LEAF, _FLOWER = Command("surface", 1 / 2, surface="leaf"), Command("surface", 1 / 4, surface="rosette")
 
 COMMAND_TABLE: tuple[Row, ...] = (
     #   ABOP    GROGRA  plants in words; x is the argument                               what to do
-    Row("F",    "F",    "I",   "a stroke forward, as long as the step or x",           Command("draw")),
+    Row("F",    "F",    "I",   "a stroke forward, as long as the step or x",           Command("draw"), fractint="F"),
     Row("",     "",     "A",   "a stroke of two thirds of the step",                   Command("draw", 2 / 3)),
     Row("",     "",     "B",   "a stroke of a third of the step",                      Command("draw", 1 / 3)),
     Row("",     "F+",   "",    "a stroke that is longer than the step by x",           Command("draw", argument="more")),
     Row("",     "F*",   "",    "a stroke of x times the step",                         Command("draw", argument="times")),
-    Row("f",    "f",    "",    "forward like `F`, without a stroke",                   Command("move")),
+    Row("f",    "f",    "",    "forward like `F`, without a stroke",                   Command("move"), fractint="G"),
     Row("G",    "",     "",    "a stroke like `F` that makes no corner in `{ }`",      Command("draw past")),
     Row("g",    "",     "",    "forward, without a stroke and without a corner",       Command("move past")),
     Row("@M",   "",     "",    "to the point (x, y, z): z towards the viewer",         Command("jump")),
@@ -117,10 +128,10 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("",     "Vl+",  "",    "the same, greater by x",                               Command("next sag", argument="more")),
     Row("",     "Vl*",  "",    "the same, x times as great",                           Command("next sag", argument="times")),
 
-    Row("[",    "[",    "",    "a branch begins: the turtle remembers how it is",      _OPEN),
+    Row("[",    "[",    "",    "a branch begins: the turtle remembers how it is",      _OPEN, fractint="["),
     Row("",     "",     "[",   "a branch begins, to the left",                         _OPEN, _LEFT),
     Row("",     "",     "(",   "a branch begins, to the right",                        _OPEN, _RIGHT),
-    Row("]",    "]",    "] )", "the branch ends: the turtle is as it was",             Command("close", argument="")),
+    Row("]",    "]",    "] )", "the branch ends: the turtle is as it was",             _CLOSE, fractint="]"),
 
     Row("{",    "",     "",    "a polygon begins: `F` and `f` end in its corners",     Command("outline", argument="")),
     Row(".",    "",     "",    "a corner of the polygon",                              Command("corner", argument="")),
@@ -131,6 +142,22 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("@o",   "",     "",    "a circle, as wide as a stroke or x",                   Command("circle")),
     Row("@c",   "",     "",    "a disc, as wide as a stroke or x",                     Command("disc")),
     Row("@O",   "",     "",    "a sphere, as wide as a stroke or x",                   Command("sphere")),
+
+    Row("", "", "", "a stroke in its second direction, as long as the step", Command("draw aside", argument=""), fractint="D"),
+    Row("", "", "", "forward like `D`, without a stroke", Command("move aside", argument=""), fractint="M"),
+    Row("", "", "", "turn to the left, by the angle", Command("steer", argument=""), fractint="+"),
+    Row("", "", "", "turn to the right, by the angle", Command("steer", -1.0, argument=""), fractint="-"),
+    Row("", "", "", "turn round, or to the right as far as whole angles lead", Command("about", argument=""), fractint="|"),
+    Row("", "", "", "turn its second direction to the left, by x degrees", Command("swerve"), fractint="\\"),
+    Row("", "", "", "turn its second direction to the right, by x degrees", Command("swerve", -1.0), fractint="/"),
+    Row("", "", "", "left and right change places in these turns", Command("reverse", argument=""), fractint="!"),
+    Row("", "", "", "the step is x times as long", Command("length", 0.0, argument="times"), fractint="@"),
+    Row("", "", "", "the step is 1/x times as long", Command("length", 0.0, argument="inverse"), fractint="@I"),
+    Row("", "", "", "the step is √x times as long", Command("length", 0.0, argument="root"), fractint="@Q"),
+    Row("", "", "", "the step is 1/√x times as long", Command("length", 0.0, argument="inverse root"), fractint="@IQ @QI"),
+    Row("", "", "", "colour x", Command("dye", 0.0), fractint="C"),
+    Row("", "", "", "the colour x places further", Command("dye", argument="more"), fractint="<"),
+    Row("", "", "", "the colour x places before", Command("dye", argument="less"), fractint=">"),
 
     Row("%",    "%",    "",    "the rest of the branch is cut off in the next step"),
     Row("?P ?H ?U ?L ?E", "", "", "a question to the surroundings"),
@@ -143,14 +170,14 @@ COMMAND_TABLE: tuple[Row, ...] = (
 )
 
 COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
-    tradition: {symbol: row.commands for row in COMMAND_TABLE for symbol in row[:3][column].split()}
-    for column, tradition in enumerate(("abop", "grogra", "plant-string"))}
+    tradition: {symbol: row.commands for row in COMMAND_TABLE for symbol in row.symbols[column].split()}
+    for column, tradition in enumerate(("abop", "grogra", "plant-string", "fractint"))}
 """For each tradition its commands, by symbol."""
 
-LEFT_SIDE: Mapping[str, int] = {"abop": 1, "grogra": -1, "plant-string": 1}
+LEFT_SIDE: Mapping[str, int] = {"abop": 1, "grogra": -1, "plant-string": 1, "fractint": 1}
 """Where the turtle's left is in the picture when it starts: 1 to the left of its way, -1 to the right."""
 
-STEP: Mapping[str, float] = {"abop": 1.0, "grogra": 100.0, "plant-string": 1.0}
+STEP: Mapping[str, float] = {"abop": 1.0, "grogra": 100.0, "plant-string": 1.0, "fractint": 1.0}
 """How long a step is, where the system does not say."""
 FIRST_COLOUR = 14
 """The colour of strokes where none was set, as GROGRA numbers it: yellow."""
@@ -190,8 +217,8 @@ _CALLED = (Command("called"),)
 """Draw the surface of the symbol's name, if a tilde stands before it."""
 
 
-def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, list[Instruction]]:
-    """What the modules tell the turtle that each state is drawn as.
+def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str, angle: Value = 90) -> dict[int, list[Instruction]]:
+    """What the modules tell the turtle that each state is drawn as, where the system's angle is so many degrees.
 
     Raises
     ------
@@ -207,22 +234,24 @@ def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[
     table, symbols = COMMANDS[tradition], {module.symbol for image in drawn.values() for module in image}
     called = _CALLED if "~" in symbols & table.keys() else ()
     commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
-    return {state: [_order(command, module) for module in image for command in commands[module.symbol]]
+    return {state: [_order(command, module, angle) for module in image for command in commands[module.symbol]]
             for state, image in drawn.items()}
 
 
-def _order(command: Command, module: Module) -> Instruction:
+def _order(command: Command, module: Module, angle: Value) -> Instruction:
     """A command with a module's argument."""
     values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, command.factor, command.addend
-    if not values:
+    if action == "about":
+        factor, addend = half_turn(angle)
+    elif not values:
         action = command.bare or action
     elif command.argument == "all":
         factor, addend = 0.0, math.copysign(1.0, factor) * values[0]
-    elif command.argument == "more":
-        factor, addend = 1.0, values[0]
+    elif command.argument in ("more", "less"):
+        factor, addend = 1.0, values[0] if command.argument == "more" else -values[0]
     else:
-        factor, addend = values[0], 0.0
+        factor, addend = times(command.argument, values[0]), 0.0
     return Instruction(action, factor, addend, values, module.symbol, command.surface)
 
 
@@ -255,11 +284,13 @@ def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> 
     ('RH', '=')
     """
     own = {production.predecessor.symbol for production in (*system.productions, *system.decomposition)}
+    known = own | COMMANDS[system.turtle].keys()
     met = dict.fromkeys(module.symbol for image in drawn.values() for module in image)
     return tuple(symbol for symbol in met
-                 if symbol not in COMMANDS[system.turtle] and symbol not in own and _looks_like_a_command(symbol))
+                 if symbol not in known and _looks_like_a_command(symbol, system.turtle))
 
 
-def _looks_like_a_command(symbol: str) -> bool:
-    sign = not (symbol[0].isalnum() or symbol[0] == "_")
+def _looks_like_a_command(symbol: str, tradition: str) -> bool:
+    """Whether a symbol is probably meant as a command; to Fractint all characters but its own commands are alike."""
+    sign = not (symbol[0].isalnum() or symbol[0] == "_") and tradition != "fractint"
     return sign or (len(symbol) > 1 and any(symbol in column for column in COMMANDS.values()))

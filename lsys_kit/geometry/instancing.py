@@ -27,9 +27,10 @@ from lsys_kit.notation.model.modules import CLOSING, OPENING
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a piece depends on: the state, how many steps it is from the word that is drawn, and what the turtle carries."""
 PieceColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
-_CARRIED = ("length", "width", "colour", "sag", "once")
+_CARRIED = ("length", "width", "colour", "sag", "once", "hand")
 _carried = attrgetter(*_CARRIED)
-ELSEWHERE = frozenset(("level", "droop", "tropism", "jump", "back", "outline", "corner", "fill", "announce", "called"))
+ELSEWHERE = frozenset(("level", "droop", "tropism", "jump", "back", "outline", "corner", "fill", "announce", "called",
+                       "draw aside", "move aside"))
 """Actions that depend on more than what a turtle carries."""
 OFTEN = 30
 """Pieces pay where a word has so many times more modules than there are pieces to make."""
@@ -113,6 +114,7 @@ class Pieces:
         self._axes = [0, 2] if flat else [0, 1, 2]
         self._first = initial_frame(states.system.turtle, float(states.system.heading))
         self._back = np.array(self._first[:3]).T  # its inverse is its transpose
+        self._opening, self._closing = (pair & COMMANDS[states.system.turtle].keys() for pair in (OPENING, CLOSING))
         self._known: dict[Key, Piece] = {}
         self._told: dict[int, list[Instruction]] = {}
 
@@ -153,10 +155,10 @@ class Pieces:
         stack: list[tuple[Floats, Floats, tuple[Any, ...]]] = []
         for state in row:
             symbol = self.states.modules[state].symbol
-            if symbol in CLOSING:
+            if symbol in self._closing:
                 at, turned, carried = stack.pop()
                 continue
-            if symbol in OPENING:
+            if symbol in self._opening:
                 stack.append((at, turned, carried))
             piece = yield state, steps, carried
             parts.append(Placed(piece, at, turned, len(stack)))
@@ -171,7 +173,8 @@ class Pieces:
         for name, value in zip(_CARRIED, carried, strict=True):
             setattr(turtle, name, value)
         if state not in self._told:
-            self._told.update(instructions(interpretations(self.states, [state]), self.states.system.turtle))
+            system = self.states.system
+            self._told.update(instructions(interpretations(self.states, [state]), system.turtle, system.angle))
         turtle.state = state
         for order in self._told[state]:
             if order.action in SPACE_ACTS:

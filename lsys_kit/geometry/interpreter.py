@@ -47,6 +47,8 @@ class Turtle:
         space a point and a frame.
     length, width, colour, sag
         Its step, the width and the colour of its strokes, and the strength of `RV`.
+    hand, bearing
+        Fractint's `!`, as 1 or -1, and how many degrees its second direction is to the left of the first heading.
     pulls
         By its number each tropism.
     last
@@ -57,13 +59,14 @@ class Turtle:
         The state of the module that it follows.
     """
 
-    __slots__ = ("at", "colour", "deepest", "first", "last", "length", "once", "outlines", "pulls", "rounds", "sag", "stack",
-                 "state", "tilde", "unfinished", "unknown", "way", "width")
+    __slots__ = ("at", "bearing", "colour", "deepest", "first", "hand", "last", "length", "once", "outlines", "pulls", "rounds",
+                 "sag", "stack", "state", "tilde", "unfinished", "unknown", "way", "width")
 
     def __init__(self, at: Any, way: Any, step: float) -> None:
         self.at, self.way = at, way
         self.last: Any = None
         self.length, self.width, self.colour, self.sag = step, float(OWN), OWN, 0.0
+        self.hand, self.bearing = 1, 0.0
         self.pulls: Mapping[float, tuple[float, float, float]] = {}
         self.once: tuple[tuple[str, float], ...] = ()
         self.first = {name: getattr(self, name) for name in ("length", "width", "colour", "sag")}
@@ -77,6 +80,10 @@ class Turtle:
 
     def go(self, length: float, drawn: bool) -> None:
         """Go forward, perhaps with a stroke."""
+        raise NotImplementedError
+
+    def facing(self, degrees: float) -> Any:
+        """How it is turned when it looks so many degrees to the left of its first heading."""
         raise NotImplementedError
 
     def spot(self, ahead: float, left: float, up: float) -> Any:
@@ -100,11 +107,11 @@ MOST_COLOURS = 2 ** 31 - 1
 Act: TypeAlias = Callable[[Any, Any], None]
 """What a turtle does when it meets an order."""
 
-_KEPT = ("at", "way", "length", "width", "colour", "sag", "pulls", "last", "once")
+_KEPT = ("at", "way", "length", "width", "colour", "sag", "pulls", "last", "once", "hand", "bearing")
 _kept = attrgetter(*_KEPT)
 
 
-def _forward(drawn: bool, corner: bool) -> Act:
+def forward(drawn: bool, corner: bool) -> Act:
     def act(turtle: Turtle, order: Instruction) -> None:
         turtle.go(order.factor * turtle.length + order.addend, drawn)
         if corner and turtle.unfinished:
@@ -157,7 +164,7 @@ def _open(turtle: Turtle, _: Instruction) -> None:
 def _close(turtle: Turtle, _: Instruction) -> None:
     if turtle.stack:
         (turtle.at, turtle.way, turtle.length, turtle.width, turtle.colour, turtle.sag, turtle.pulls, turtle.last,
-         turtle.once) = turtle.stack.pop()
+         turtle.once, turtle.hand, turtle.bearing) = turtle.stack.pop()
 
 
 def _outline(turtle: Turtle, _: Instruction) -> None:
@@ -205,8 +212,8 @@ def _round(kind: int) -> Act:
 
 
 COMMON: Mapping[str, Act] = {
-    "draw": _forward(True, True), "move": _forward(False, True),
-    "draw past": _forward(True, False), "move past": _forward(False, False),
+    "draw": forward(True, True), "move": forward(False, True),
+    "draw past": forward(True, False), "move past": forward(False, False),
     "length": _length, "first length": _first("length"), "next length": _next("length", _length),
     "width": _width, "first width": _first("width"), "next width": _next("width", _width),
     "sag": _sag, "first sag": _first("sag"), "next sag": _next("sag", _sag),
@@ -272,7 +279,7 @@ def compile_word(word: Word, acts: Mapping[str, Act], ready: Callable[[Instructi
     """What a word tells a turtle that has these acts."""
     system, drawn = word.states.system, interpretations(word.states, word.numbers())
     return CompiledWord({state: [(acts[order.action], ready(order)) for order in found if order.action in acts]
-                 for state, found in instructions(drawn, system.turtle).items()}, unknown_commands(drawn, system))
+                 for state, found in instructions(drawn, system.turtle, system.angle).items()}, unknown_commands(drawn, system))
 
 
 def shapes_left(outlines: Sequence[Outline], rounds: Sequence[RoundShape],

@@ -19,6 +19,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Instruction, initial_step
+from lsys_kit.geometry.fractint import FRACTINT
 from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.notation.model.expressions import Number
@@ -41,10 +42,11 @@ _COLUMNS = 10
 class SpaceTurtle(Turtle):
     """A turtle in space: it is at a point, and turned as its frame says."""
 
-    __slots__ = ("strokes",)
+    __slots__ = ("start", "strokes")
 
     def __init__(self, frame: TurtleFrame, step: float) -> None:
         super().__init__((0.0, 0.0, 0.0), frame, step)
+        self.start = frame
         self.strokes = array("d")
 
     def go(self, length: float, drawn: bool) -> None:
@@ -56,6 +58,10 @@ class SpaceTurtle(Turtle):
             self.strokes.extend((*start, *end, len(self.stack), self.state, self.width, self.colour))
             for pull in self.pulls.values():
                 _pulled(self, pull)
+
+    def facing(self, degrees: float) -> TurtleFrame:
+        head, left, up, rotations = self.start
+        return *_towards(head, left, *cos_sin(degrees)), up, rotations
 
     def spot(self, ahead: float, left: float, up: float) -> Vector:
         (x, y, z), ((hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _) = self.at, self.way
@@ -118,6 +124,11 @@ def _turn(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.way
     head, left = _towards(head, left, *angle)
     turtle.way = _framed(head, left, up, rotations)
+
+
+def _steer(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
+    cos, sin = angle
+    _turn(turtle, (cos, turtle.hand * sin))
 
 
 def _pitch(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
@@ -201,9 +212,9 @@ def _back(turtle: SpaceTurtle, order: Instruction) -> None:
         turtle.at = x + part * (u - x), y + part * (v - y), z + part * (w - z)
 
 
-_ROTATIONS: Mapping[str, Act] = {"turn": _turn, "pitch": _pitch, "roll": _roll}
-SPACE_ACTS: Mapping[str, Act] = {**COMMON, **_ROTATIONS, "level": _level, "droop": _droop, "tropism": _tropism, "jump": _jump,
-                           "back": _back}
+_ROTATIONS: Mapping[str, Act] = {"turn": _turn, "steer": _steer, "about": _turn, "pitch": _pitch, "roll": _roll}
+SPACE_ACTS: Mapping[str, Act] = {**COMMON, **FRACTINT, **_ROTATIONS, "level": _level, "droop": _droop, "tropism": _tropism,
+                           "jump": _jump, "back": _back}
 """What a turtle in space does, by the names of the actions."""
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.commands import LEFT_SIDE, Instruction, initial_step
+from lsys_kit.geometry.fractint import FRACTINT
 from lsys_kit.geometry.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 
@@ -79,6 +80,9 @@ class _Crawler(Turtle):
         if drawn:
             self.last = self.at
 
+    def facing(self, degrees: float) -> tuple[float, float, float]:
+        return 0.0, degrees, 1
+
     def spot(self, ahead: float, left: float, up: float) -> int:
         turns, offset, side = self.way
         return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.at)
@@ -92,6 +96,11 @@ class _Crawler(Turtle):
 def _turn(turtle: _Crawler, order: Instruction) -> None:
     turns, offset, side = turtle.way
     turtle.way = turns + side * order.factor, offset + side * order.addend, side
+
+
+def _steer(turtle: _Crawler, order: Instruction) -> None:
+    turns, offset, side = turtle.way
+    turtle.way = turns + turtle.hand * order.factor, offset, side
 
 
 def _roll(turtle: _Crawler, order: Instruction) -> None:
@@ -108,7 +117,8 @@ def _back(turtle: _Crawler, order: Instruction) -> None:
 
 _KINDS = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
           "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
-PLANE_ACTS: Mapping[str, Act] = {**COMMON, "turn": _turn, "roll": _roll, "back": _back}
+PLANE_ACTS: Mapping[str, Act] = {**COMMON, **FRACTINT, "turn": _turn, "steer": _steer, "about": _turn, "roll": _roll,
+                                 "back": _back}
 """What a turtle in the plane does, by the names of the actions."""
 
 

@@ -30,7 +30,7 @@ _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
 
 
-def read(text: str, notation: str | None = None) -> LSystem:
+def read(text: str, notation: str | None = None, name: str | None = None) -> LSystem:
     """Read a system.
 
     Parameters
@@ -40,11 +40,14 @@ def read(text: str, notation: str | None = None) -> LSystem:
     notation
         Its name; by default the notation of which the text shows most marks, and the first note of the system says which, if it
         is not the kit's own.
+    name
+        Which system, where a text holds several with names, as files of Fractint's do.
 
     Raises
     ------
     ModelSyntaxError, ModelNameError, ModelValueError
-        The text makes no sense; the error has the place and a hint, which may be that another notation fits.
+        The text makes no sense; the error has the place and a hint, which may be that another notation fits. Or it is not said
+        which of several systems is meant.
     ModelLimitError
         The text is too long.
 
@@ -60,18 +63,23 @@ def read(text: str, notation: str | None = None) -> LSystem:
     ar -> al br
     >>> read("Axiom: I\\nI -> I[A]A(I)A").notes
     ('Read as plant-string.',)
+    >>> print(read("Koch { Angle 6; ...\\nAxiom F\\nF=F+F--F+F }  Line { Angle 4\\nAxiom F }", name="Line"))
+    Line {
+      Angle 4
+      Axiom F
+      }
     """
     check_text(text)
     if _MAP.match(text):
         raise ModelValueError("Here a map system begins, and no L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
-        return _read_in(dialect_named(notation), text)
+        return _read_in(dialect_named(notation), text, name)
     chosen = recognise(text)
     try:
-        system = _read_in(chosen, text)
+        system = _read_in(chosen, text, name)
     except LSystemError as error:
-        other = next((other.name for other in _others(chosen, text) if _reads(other, text)), None)
+        other = next((other.name for other in _others(chosen, text) if _reads(other, text, name)), None)
         if other:
             error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
         raise
@@ -84,17 +92,18 @@ def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
         yield from (notation for notation in DIALECTS.values() if notation is not chosen and notation.likely(text) > 0)
 
 
-def _reads(notation: Dialect, text: str) -> bool:
+def _reads(notation: Dialect, text: str, name: str | None) -> bool:
     """Whether a text makes sense in a notation."""
     try:
-        _read_in(notation, text)
+        _read_in(notation, text, name)
     except LSystemError:
         return False
     return True
 
 
-def _read_in(notation: Dialect, text: str) -> LSystem:
+def _read_in(notation: Dialect, text: str, name: str | None) -> LSystem:
     """Read a system in a notation."""
+    text = notation.entry(text, name)
     draft = Draft(text, notation.name, notation.turtle)
     for start, end in bounded(notation.statements(text), text):
         kind, record = parse(notation, "statement", text, start, end)

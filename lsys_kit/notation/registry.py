@@ -7,13 +7,15 @@ from collections.abc import Mapping
 from lsys_kit.errors import ModelNameError
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
+from lsys_kit.notation.dialects.fractint.dialect import FRACTINT
 from lsys_kit.notation.dialects.grogra.dialect import GROGRA
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.dialects.plant_string.dialect import PLANT_STRING
 from lsys_kit.notation.model.system import WRITERS
 from lsys_kit.notation.syntax.dialect import Dialect
 
-DIALECTS: Mapping[str, Dialect] = {notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA)}
+DIALECTS: Mapping[str, Dialect] = {
+    notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA, FRACTINT)}
 """The notations that can be read and written."""
 WRITERS.update({notation.name: notation.text for notation in DIALECTS.values()})
 

@@ -22,29 +22,31 @@ from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.write import write
+from tests.plants import plant
 
 MOST_MS, MOST_SECONDS = 0.3, 2.0
 MILLION = 1_000_000
 MOST = 49_000
 """How many characters are read in every notation, even where they are one statement."""
-WITH_EXPRESSIONS = [name for name in DIALECTS if name != "plant-string"]
+WITH_EXPRESSIONS = [name for name in DIALECTS if name not in ("plant-string", "fractint")]
 RULE = {
     "abop": "A(t) : t < {} && t > 2 -> B(t+1)[+C(2*t)]F(t^2) A(t)\n", "plant-string": "A -> I[A]A(I)AFFI[L](L)IFA[A]B(B)\n",
     "cpfg": "A(t) : t < {} && t > 2 --> B(t+1)[+C(2*t)]F(t^2)A(t)\n",
     "grogra": "(t<{} && t>2) A(t) # B(t+1) [+ C(2*t)] F(t^2) A(t),\n",
     "mathematica": "LRule[LEFT[], PRED[A[t_ /; t < {} && t > 2]], RIGHT[], SUCC[B[t+1], C[2*t], F[t^2], A[t]]],\n",
+    "fractint": "A=F[+A]\\30D@.5!F<1F|[-A]C{}F\n",
 }
 """A production of each notation, with a place for a number."""
 BEGUN = {"abop": "axiom: A\n", "plant-string": "Axiom: A\n", "cpfg": "Axiom: A\n", "grogra": "\\axiom A,\n",
-         "mathematica": "axiom = AXIOM[A];\nlrules = LRULES[\n"}
-ENDED = {"mathematica": "LRule[LEFT[], PRED[A], RIGHT[], SUCC[B]]];\nlsystem = LSystem[axiom, lrules];"}
-ARROW = {"cpfg": " --> ", "grogra": " # ", "mathematica": " -> "}
+         "fractint": "Plant {\nAngle 8\nAxiom A\n", "mathematica": "axiom = AXIOM[A];\nlrules = LRULES[\n"}
+ENDED = {"mathematica": "LRule[LEFT[], PRED[A], RIGHT[], SUCC[B]]];\nlsystem = LSystem[axiom, lrules];", "fractint": "}"}
+ARROW = {"cpfg": " --> ", "grogra": " # ", "mathematica": " -> ", "fractint": "="}
 
 
 def model(notation: str, rules: int, wide: int = 0) -> str:
     """A model with so many productions, whose successors end in so many modules more."""
     end = {"grogra": ",\n", "mathematica": "]],\n"}.get(notation, "\n")
-    more = ", A[t]" if notation == "mathematica" else " A" if notation == "plant-string" else " A(t)"
+    more = ", A[t]" if notation == "mathematica" else " A" if notation in ("plant-string", "fractint") else " A(t)"
     rule = RULE[notation].removesuffix(end) + more * wide + end
     return BEGUN[notation] + "".join(rule.format(number) for number in range(rules)) + ENDED.get(notation, "")
 
@@ -155,12 +157,12 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_a_model_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
     """A plant and a parametric filament where the notation can express it: from text to system."""
-    texts = [write(system(id), notation) for id in ("K5", "P4") if not DIALECTS[notation].lacking(system(id))]
+    texts = [write(each, notation) for each in (plant(notation), system("P4")) if not DIALECTS[notation].lacking(each)]
     assert benchmark(lambda: [read(text, notation) for text in texts])
 
 
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_the_largest_model_that_is_read(notation: str) -> None:
-    """The productions of the long texts are what they are taken for."""
+    """The productions of the long texts are what they are taken for; Fractint makes one of all that are for one symbol."""
     found = read(million(notation)["the most that is read"], notation).productions
-    assert len(found) == most_rules(notation) + (notation == "mathematica")
+    assert len(found) == (1 if notation == "fractint" else most_rules(notation) + (notation == "mathematica"))

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from lsys_kit import read, system
+from lsys_kit import read
 from lsys_kit.notation.registry import DIALECTS
 from tests.classroom.test_typeset import harmless
+from tests.plants import plant
 from tests.test_trust import HOSTILE
 
 ALGA = "axiom: a\na -> b a\nb -> a"
@@ -103,8 +104,8 @@ def test_a_notation_may_be_insisted_on(notebook):
 def test_every_notation_is_understood(notebook, notation):
     from lsys_kit import write
 
-    seen = notebook.run(f"%%lsystem plant {notation}\n{write(system('K5'), notation)}\n")
-    assert notebook.names["plant"] == system("K5")
+    seen = notebook.run(f"%%lsystem plant {notation}\n{write(plant(notation), notation)}\n")
+    assert notebook.names["plant"] == plant(notation)
     assert f"in the notation {notation}." in seen.said
 
 

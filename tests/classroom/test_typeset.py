@@ -14,6 +14,7 @@ from lsys_kit import derive, limits, read, system, systems
 from lsys_kit.classroom.typeset import FIRST_MODULES, FIRST_STEPS, MOST_RULES, first_words, formula, shown
 from lsys_kit.notation.read import read_expression
 from lsys_kit.notation.registry import DIALECTS
+from tests.plants import plant
 
 TAGS = frozenset(("div", "b", "i", "u", "span", "pre", "table", "tbody", "tr", "td", "sub", "sup", "br"))
 ATTRIBUTES = frozenset(("style", "class", "role", "aria-hidden", "aria-label", "tabindex", "colspan"))
@@ -85,7 +86,7 @@ def test_the_first_words_are_those_of_the_derivation(id):
 def test_the_notation_is_named(notation):
     from dataclasses import replace
 
-    said = shown(replace(system("K5"), notation=notation), "plant")
+    said = shown(replace(plant(notation), notation=notation), "plant")
     assert f"<b>plant</b> is an L-system in the notation {notation}." in said["text/html"]
     assert said["text/plain"].startswith(f"plant is an L-system in the notation {notation}.\n")
 

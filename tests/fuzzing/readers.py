@@ -28,8 +28,9 @@ LISTINGS = Path(__file__).parent.parent / "listings"
 def seeds(notation: str, folder: Path) -> None:
     """Write what the fuzzer begins with: listings, and the catalogue's systems."""
     from lsys_kit import ModelValueError, system, systems, write
+    from tests.plants import plant
 
-    texts = [path.read_text() for path in sorted(LISTINGS.glob(f"*.{notation}.txt"))]
+    texts = [path.read_text() for path in sorted(LISTINGS.glob(f"*.{notation}.txt"))] + [write(plant(notation), notation)]
     for id in systems():
         with contextlib.suppress(ModelValueError):
             texts.append(write(system(id), notation))

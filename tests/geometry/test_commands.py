@@ -20,8 +20,8 @@ README = Path(__file__).parents[2] / "README.md"
 
 
 def test_a_symbol_means_one_thing_in_a_tradition():
-    for column in range(3):
-        assert max(Counter(symbol for row in COMMAND_TABLE for symbol in row[column].split()).values()) == 1
+    for column in range(len(COMMANDS)):
+        assert max(Counter(symbol for row in COMMAND_TABLE for symbol in row.symbols[column].split()).values()) == 1
 
 
 def test_each_command_is_one_that_the_turtle_in_space_follows():
@@ -51,6 +51,10 @@ def test_grogra_has_the_commands_of_kurths_lectures(symbol):
 
 def test_plant_strings_have_those_of_seed_004():
     assert set("IAB[]()LF") <= COMMANDS["plant-string"].keys()
+
+
+def test_fractint_has_those_of_its_documentation():
+    assert COMMANDS["fractint"].keys() == {*"FGDM+-|\\/!C<>[]@", "@I", "@Q", "@IQ", "@QI"}
 
 
 def order(command, tradition="abop"):
@@ -106,5 +110,5 @@ def cell(symbols):
 
 
 def test_the_readme_says_what_the_commands_mean():
-    lines = [f"| {' | '.join(map(cell, row[:3]))} | {row.words} |" for row in COMMAND_TABLE]
+    lines = [f"| {' | '.join(map(cell, row.symbols))} | {row.words} |" for row in COMMAND_TABLE]
     assert "\n".join(lines) in README.read_text(encoding="utf-8")

@@ -56,14 +56,15 @@ WIDTHS = {"abop": command("#!;,'") | command("#!", lengths) | command(";,'", st.
           "grogra": command(("D", "P", "L")) | command(("D", "D+", "D*", "L", "L+", "Ll", "Dl", "F+"), lengths)
           | command(("L*", "Ll*", "Dl*", "F*"), st.integers(0, 15).map(lambda tenths: tenths / 10))
           | command("P", st.integers(0, 15)) | command("N") | command(("@",), st.integers(0, 4).map(lambda part: part / 4)),
-          "plant-string": st.nothing()}
+          "plant-string": st.nothing(), "fractint": command("C<>", st.integers(0, 300)) | command("<>C") | command(
+              ("@", "@I", "@Q", "@IQ"), st.integers(1, 30).map(lambda tenths: tenths / 10))}
 STROKES = {"abop": command("FfGg+-") | command("Ff", lengths) | command("+-", degrees) | command("|"),
            "grogra": command(("F", "f", "+", "-", "RU")) | command("Ff", lengths) | command(("RU",), degrees),
-           "plant-string": command("IAB+-")}
+           "plant-string": command("IAB+-"), "fractint": command("FGDM+-|!") | command("\\/", degrees)}
 SHAPES = {"abop": command("{.}") | command(("@o", "@c", "@O"), lengths) | command(("@o", "@c")) | st.just(("/", 180))
-          | st.just(("\\", -540)), "grogra": st.just(("RH", 180)), "plant-string": command("LF")}
+          | st.just(("\\", -540)), "grogra": st.just(("RH", 180)), "plant-string": command("LF"), "fractint": st.nothing()}
 TURNS = {"abop": command("&^\\/") | command("&^\\/", degrees), "grogra": command(("RL", "RH")) | command(("RL", "RH"), degrees),
-         "plant-string": st.nothing()}
+         "plant-string": st.nothing(), "fractint": st.nothing()}
 TRADITIONS = list(STROKES)
 
 
@@ -144,7 +145,8 @@ def test_turning_the_start_turns_the_picture(found, angle, heading):
 
 
 ONCE_ROUND = {"abop": [[(symbol, 360)] for symbol in "+-&^/\\"] + [[("|",), ("|",)]],
-              "grogra": [[(symbol, 360)] for symbol in ("RU", "RL", "RH")], "plant-string": [[("+",)] * 5]}
+              "grogra": [[(symbol, 360)] for symbol in ("RU", "RL", "RH")], "plant-string": [[("+",)] * 5],
+              "fractint": [[("+",)] * 5, [("\\", 360)], [("!",), ("!",)]]}
 
 
 @given(free_words, st.data())
@@ -528,4 +530,4 @@ def test_lychnis_stands_in_space_with_leaves_and_flowers():
 def test_the_states_of_a_word_say_what_was_drawn(found):
     word = word_of(found[1], found[0])
     symbols = {word.states.modules[state].symbol for state in trace_in_space(word).segments.states}
-    assert symbols <= {"F", "G", "F+", "F*", "I", "A", "B"}
+    assert symbols <= {"F", "G", "F+", "F*", "I", "A", "B", "D"}

@@ -71,6 +71,7 @@ PIECES = [
     "decomposition:", "meta:", "ignore:", "depth:", "repeat(2, i) <", "repeat(", "uniform(", "> ",
     "\n", " ", "  ", "\t", "\r", "\x00", "\ufeff", "\u202e",
     "\ud800", "Ф", "p_1:", "V = {", "P = {", "ω =", "\\omega:", "δ =", "°", "::=", "\\vec{", "\\overleftarrow{A}", "A\u20d7",
+    "F=", "Angle 6\n", "Axiom ", "Koch {\n", "}\n", "@iq", "\\30", "c",
     "_{r}", "\\rightarrow", "\\xrightarrow{", "\\geq", "(A, 0)", "@o", "@Ts", "?P", "turtle:", "seed:",
     "Number of productions:",
 ]
@@ -84,6 +85,7 @@ MODELS = [
     "P = {F ::= F+F--F+F, f ::= f}\naxiom F\nG(t) : t \\geq 1 \\xrightarrow{0.5} F@o",
     "ω : (a, 0)\np_1 : (a, 1) → (a, 0)(b, 0)\np_2 : b < a > [b ε] → ?P",
     "Number of productions: 1\nI -> I[A](I)\nStage 0 string: I",
+    "Koch { ; a curve\n  Angle 6\n  Axiom F--F--F\n  F=F+F\n  F=--F@.5!<1F|[\\30D]\n  }\nDot (old) {\n Axiom c1f\nangle=4\n}",
 ]
 
 
@@ -102,7 +104,7 @@ ANY_TEXT = st.one_of(spoilt(), st.lists(st.sampled_from(PIECES)).map("".join), s
                      st.text(max_size=40))
 
 
-@given(ANY_TEXT, st.sampled_from(["abop", "plant-string"]))
+@given(ANY_TEXT, st.sampled_from(["abop", "plant-string", "fractint"]))
 def test_a_text_is_a_system_or_an_explained_slip(text: str, notation: str) -> None:
     def derived() -> None:
         system = read(text, notation)

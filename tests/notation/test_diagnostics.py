@@ -377,7 +377,7 @@ PLANT_STRINGS = [
     ("Axiom: I\nStage 1 string I",
      'A ":" is missing behind "Stage 1 string"', 2, 1, 'Type "stage 1 string: I".'),
     ("Axiom: I\nturtle: logo",
-     'I do not know the turtle "logo"', 2, 9, 'Turtles are "abop", "grogra" and "plant-string".'),
+     'I do not know the turtle "logo"', 2, 9, 'Turtles are "abop", "grogra", "plant-string" and "fractint".'),
     ("Axiom: I\ndepth: 2",
      'A plant string has no "depth:"', 2, 1, "Its settings are angle, length, seed, steps and turtle."),
     ("Axiom: I\nignore: A",

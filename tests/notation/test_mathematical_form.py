@@ -139,7 +139,7 @@ UNREADABLE = [
     ("axiom: A\nA > B ε -> C",
      'This "ε" ends no branch', 2, 7, 'It stands before the "]" of a branch in a right context, as in "A > [B ε]C -> D".'),
     ("axiom: A\nturtle: logo",
-     'I do not know the turtle "logo"', 2, 9, TURTLES := 'Turtles are "abop", "grogra" and "plant-string".'),
+     'I do not know the turtle "logo"', 2, 9, TURTLES := 'Turtles are "abop", "grogra", "plant-string" and "fractint".'),
     ("axiom: A\nturtle:",
      'Nothing stands behind "turtle:"', 2, 1, TURTLES),
     ("axiom: A\ncells: round",

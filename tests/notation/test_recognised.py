@@ -12,6 +12,7 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.write import write
+from tests.plants import plant
 
 FOLDER = Path(__file__).parents[1] / "listings"
 LISTINGS = [(listing["file"], listing["notation"])
@@ -40,6 +41,11 @@ SHORT = {
     "grogra": [
         "* # F a,\na # F [ RU45 a ] a", "\\angle 60,\n* # F", "a # b", "* -> F a,\na -> F", "a # F ?0.5",
         "\\var x uniform 0 1,\n* # F", "(t<6) k(t) # k(t+1)", "* → F a, a → RU(30) F a", "a -> &(3) < F >",
+    ],
+    "fractint": [
+        "Angle 6\nAxiom F\nF=F+F", "Koch {\n  angle 6\n  axiom f\n  f=f+f\n  }", "Axiom F",
+        "angle=6", "A { Angle 8 ; -> eighths\nAxiom F->5\n}",
+        "; Dear all -> look:\nThis: is it {\nAngle 4\n}", "comment {\n  axiom: A\n  A -> B\n}\nA {\n  Angle 4\n}",
     ],
     "mathematica": [
         "LRule[LEFT[], PRED[a], RIGHT[], SUCC[b]]", "AXIOM[a]", "Axiom: a\nRules: a -> b", "Axiom: a\n\nRules: < a > -> b",
@@ -75,7 +81,7 @@ def test_the_notation_of_a_short_text_is_recognised(notation: str, text: str) ->
 
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_what_was_recognised_is_told_once(notation: str) -> None:
-    text = write(system("K5"), notation)
+    text = write(plant(notation), notation)
     told = [f"Read as {notation}."] if notation != "abop" else []
     assert [note for note in read(text).notes if note.startswith("Read as")] == told
     assert not any(note.startswith("Read as") for note in read(text, notation).notes)

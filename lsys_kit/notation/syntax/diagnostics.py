@@ -35,7 +35,7 @@ _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
 """The characters beyond ASCII that the grammars know."""
 _A_VALUE = frozenset(("NUMBER", "LPAR"))
 _AN_ARROW = "This is no arrow"
-_CHOICES = {"TRADITION": ("turtle", "turtle", 'Turtles are "abop", "grogra" and "plant-string".'),
+_CHOICES = {"TRADITION": ("turtle", "turtle", 'Turtles are "abop", "grogra", "plant-string" and "fractint".'),
             "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".')}
 """The keywords behind which one of some words stands, by the kind of that word; what it is called, and which there are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")

@@ -19,6 +19,13 @@ if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
     from lsys_kit.notation.syntax.failure import ParseFailure
 
+def whole(text: str, name: str | None) -> str:
+    """A text that holds one system, which has no name."""
+    if name is not None:
+        raise ModelValueError("A text in this notation holds one system, without a name", hint="Leave the name out.")
+    return text
+
+
 Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
 """Something to ask about the place where a parser stumbled; an answer is what the person is told."""
 
@@ -68,6 +75,8 @@ class Dialect(Grammar):
         The text of a system that lacks nothing in the notation.
     lacking
         The first thing that a system has and the notation lacks, in words.
+    entry
+        The text with the system of a name in it alone; without a name, with the only one.
     turtle
         Whose turtle commands its symbols are, if the text says nothing.
     likely
@@ -81,6 +90,7 @@ class Dialect(Grammar):
     write: Callable[[LSystem], str]
     lacking: Callable[[LSystem], str | None]
     likely: Callable[[str], int]
+    entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"
 
     def text(self, system: LSystem) -> str:

@@ -102,7 +102,8 @@ def _pattern(modules: Iterable[Pattern]) -> Iterator[str]:
 def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
-        return "turtle commands of " + {"grogra": "GROGRA", "plant-string": "plant strings"}[system.turtle]
+        whose = {"grogra": "GROGRA", "plant-string": "plant strings", "fractint": "Fractint"}
+        return f"turtle commands of {whose[system.turtle]}"
     found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules"),),
                   map(_lacking_symbol, _symbols(system)), map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))

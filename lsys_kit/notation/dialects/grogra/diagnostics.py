@@ -81,7 +81,8 @@ def _directive(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found.startswith("=") and failure.before.split()[0] == "\\const":
         return failure.error('No "=" is needed here', f'Type "{failure.before} {excerpt(failure.after[1:].strip())},".')
     if "TRADITION" in failure.accepted:
-        return failure.error(f"There is no turtle called {quoted(failure.found)}", "Turtles are: abop, grogra, plant-string.")
+        return failure.error(f"There is no turtle called {quoted(failure.found)}",
+                             "Turtles are: abop, grogra, plant-string, fractint.")
     behind = failure.text[failure.start + len(word[0]):failure.at].strip()
     if failure.found or (behind and name not in ("const", "var")):
         return None

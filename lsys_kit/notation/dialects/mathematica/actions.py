@@ -202,9 +202,9 @@ class _Statements(MathematicaExpressions):
         return "more", ("setting", (str(keyword), value))
 
     def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
-        if tradition[1:-1] not in ("abop", "grogra", "plant-string"):
+        if tradition[1:-1] not in ("abop", "grogra", "plant-string", "fractint"):
             raise Misread(ModelNameError, f"I do not know the turtle commands of {tradition}", _around(tradition),
-                          'Turtle commands are those of "abop", "grogra" or "plant-string".')
+                          'Turtle commands are those of "abop", "grogra", "plant-string" or "fractint".')
         return "more", ("setting", ("turtle", str(tradition[1:-1])))
 
     def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:

@@ -1,0 +1,86 @@
+"""Fractint's L-systems, the notation of the best-known collections of the web; the grammar is `grammar.lark`.
+
+What Fractint's documentation leaves open is read as the program reads it: case does not matter, and letters are shown as
+capitals; a second rule for a symbol goes on where the first ends; a second axiom or angle replaces the first; the point of an
+angle and what stands behind it say nothing. A name, braces and one line for each statement are not asked for where they cannot
+be missed: a system may stand there without its name and its braces, and blanks in a word say nothing.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import chain, islice
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.dialects.fractint.actions import Records
+from lsys_kit.notation.dialects.fractint.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.fractint.systems import braced, chosen, lines, meant, uncommented
+from lsys_kit.notation.dialects.fractint.writer import NAME, lacking, module_text, run_on, system_text
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.modules import flat
+from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.dialect import Dialect
+
+_SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
+"""A line that gives an angle or an axiom, without a colon."""
+_OTHER = re.compile(r"(?![^\s=]\s*=|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM", re.IGNORECASE)
+"""A line that no system of Fractint's has."""
+SAMPLE = 50
+"""So many systems of a file show in which notation it is."""
+
+
+def _finish(draft: Draft) -> LSystem:
+    """The system: of several angles or axioms the last counts, and the rules for a symbol are one."""
+    said = {kind: (record, at) for kind, record, at in draft.more if kind != "rule"}
+    for kind in said:
+        if sum(kind == other for other, *_ in draft.more) > 1:
+            draft.notes.append(f"The {kind} is given more than once: the last one counts.")
+    if "axiom" in said:
+        draft.axiom = said["axiom"][0]
+    _check(draft, {*said})
+    draft.settings |= {"angle": said["angle"][0], "heading": Number(0)}
+    draft.sections["productions"] = _joined(draft)
+    return build_system(draft)
+
+
+def _check(draft: Draft, said: set[str]) -> None:
+    """A system has an axiom and an angle."""
+    wanted = {"axiom": ("There is no axiom", 'Give the first word on a line of its own, as in "Axiom F--F--F".'),
+              "angle": ("There is no angle", 'Give the parts of a full turn on a line of its own, as in "Angle 6".')}
+    for kind, (message, hint) in wanted.items():
+        if kind not in said:
+            end = max((at[1] for _, _, at in draft.more), default=len(draft.source.rstrip()))
+            raise ModelSyntaxError(message, draft.source, end, None, hint)
+
+
+def _joined(draft: Draft) -> list[Production]:
+    """One rule for each symbol, the words of its rules one behind another."""
+    rules: dict[str, list[tuple[Production, tuple[int, int]]]] = {}
+    for kind, rule, at in draft.more:
+        if kind == "rule":
+            rules.setdefault(rule.predecessor.symbol, []).append((rule, at))
+    return [_one(draft, parts) for parts in rules.values()]
+
+
+def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Production:
+    successor = tuple(chain.from_iterable(rule.successor for rule, _ in parts))
+    if pair := run_on(flat(successor)):
+        raise ModelSyntaxError(f'"{pair[1].symbol}" would be read as a part of "{module_text(pair[0])}" in the rule before',
+                               draft.source, *(pair[1].at or parts[0][1]),
+                               "Rules for the same symbol are read as one word: part it elsewhere.")
+    return Production(parts[0][0].predecessor, successor, at=parts[0][1] if len(parts) == 1 else None)
+
+
+def _likely(text: str) -> int:
+    """Ten for each line of the first systems that gives an angle or an axiom as only Fractint does; nothing where other lines
+    cannot stand there."""
+    plain = uncommented(text)
+    bodies = [plain[entry.opened + 1:entry.stop] for entry in meant(islice(braced(plain), SAMPLE))] or [plain]
+    said = [line.strip() for body in bodies for line in body.splitlines()]
+    return 0 if any(map(_OTHER.match, said)) else 10 * sum(map(bool, map(_SAID.match, said)))
+
+
+FRACTINT = Dialect(
+    name=NAME, statements=lines, records=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text, joined="".join,
+    write=system_text, lacking=lacking, likely=_likely, turtle=NAME, entry=chosen, starts=("statement", "word"))
