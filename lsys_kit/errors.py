@@ -40,8 +40,14 @@ class LSystemError(Exception):
 
     def __init__(self, message: str, source: str | None = None, start: int | None = None, end: int | None = None,
                  hint: str | None = None) -> None:
-        self.message, self.source = _plain(message), source
+        self.message = _plain(message)
         self.hint = None if hint is None else _plain(hint)
+        self._locate(source, start, end)
+        super().__init__(self._text())
+
+    def _locate(self, source: str | None, start: int | None, end: int | None) -> None:
+        """Set the place, given by offsets in a text."""
+        self.source = source
         self.line: int | None = None
         self.column: int | None = None
         self.end: int | None = None
@@ -53,7 +59,12 @@ class LSystemError(Exception):
             self.line = source.count("\n", 0, start) + 1
             self.column = start - line_start + 1
             self.end = max(min(line_end, end or start + 1) - line_start + 1, self.column + 1)
-        super().__init__(self._text())
+
+    def moved(self, source: str, start: int, end: int) -> Self:
+        """The same error at another place, perhaps in another text."""
+        self._locate(source, start, end)
+        self.args = (self._text(),)
+        return self
 
     def with_hint(self, hint: str) -> Self:
         """The same error with another hint."""

@@ -23,7 +23,7 @@ from lsys_kit.notation.registry import DIALECTS, dialect_named, recognise
 from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.segmentation import segment_word
+from lsys_kit.notation.syntax.segmentation import check_digits, segment_word
 from lsys_kit.notation.syntax.statements import ARROW, bounded, check_text
 
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
@@ -103,14 +103,23 @@ def _reads(notation: Dialect, text: str, name: str | None) -> bool:
 
 def _read_in(notation: Dialect, text: str, name: str | None) -> LSystem:
     """Read a system in a notation."""
-    text = notation.entry(text, name)
+    transcript = notation.transcribe(notation.entry(text, name))
+    try:
+        system = _built(notation, transcript.text)
+    except LSystemError as error:
+        raise transcript.relocated(error) from None
+    return replace(system, notes=(*transcript.notes, *system.notes, *unused_productions(system)))
+
+
+def _built(notation: Dialect, text: str) -> LSystem:
+    """The system of a text that is written as its notation's grammar has it."""
     draft = Draft(text, notation.name, notation.turtle)
     for start, end in bounded(notation.statements(text), text):
         kind, record = parse(notation, "statement", text, start, end)
         draft.add(kind, record, (start, end))
     system = notation.finish(draft)
     check_decomposition(system)
-    return replace(system, notes=(*system.notes, *unused_productions(system)))
+    return system
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:
@@ -125,6 +134,8 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     check_word(word, (), text)
     if system is not None and notation == "abop":
         word = segment_word(word, system)
+    if notation == "abop":
+        check_digits(flat(word), system.alphabet if system else (), text)
     return tuple(Module(part.symbol, tuple(value_of(a, text) for a in part.arguments), part.at) for part in flat(word))
 
 

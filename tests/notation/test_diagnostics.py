@@ -165,8 +165,6 @@ UNREADABLE = [
      'This "[" is never closed', 1, 10, 'Every branch ends with "]".'),
     ("axiom: A\nA ⇒ B",
      "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
-    ("axiom: A\nA \u2013> B",
-     "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
     ("angle 60\naxiom: A",
      'A ":" is missing behind "angle"', 1, 1, 'Type "angle: 60".'),
     ("axiom: F = F\nF -> F",

@@ -75,7 +75,8 @@ def joined(texts: Iterable[str]) -> str:
 
 def _runs_on(last: str, name: str) -> bool:
     """Whether a name directly behind a module would be read together with it."""
-    return _word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower())
+    return (_word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower())
+            or (last == "." and name[:1].isdigit()))
 
 
 def _word_like(character: str) -> bool:

@@ -14,6 +14,7 @@ from lark import Transformer
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.transcription import Transcript, as_typed
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
@@ -77,6 +78,8 @@ class Dialect(Grammar):
         The first thing that a system has and the notation lacks, in words.
     entry
         The text with the system of a name in it alone; without a name, with the only one.
+    transcribe
+        A text as its grammar reads it, where prints have it otherwise.
     turtle
         Whose turtle commands its symbols are, if the text says nothing.
     likely
@@ -92,6 +95,7 @@ class Dialect(Grammar):
     likely: Callable[[str], int]
     entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"
+    transcribe: Callable[[str], Transcript] = as_typed
 
     def text(self, system: LSystem) -> str:
         """The text of a system.

@@ -8,10 +8,11 @@ whole.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from typing import Any
 
+from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -54,6 +55,15 @@ def segment_with_notes(system: LSystem) -> LSystem:
     parted, made = segment_system(system)
     notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
     return replace(parted, notes=(*system.notes, *notes)) if made else system
+
+
+def check_digits(word: Iterable[Pattern], alphabet: Collection[str], source: str) -> None:
+    """A digit is a symbol where the alphabet has it; elsewhere it is a value that belongs to nothing."""
+    alone = next((module for module in word if module.symbol.isdigit() and module.symbol not in alphabet), None)
+    if alone:
+        start, end = alone.at or (None, None)
+        raise ModelSyntaxError("A number stands alone in a word", source, start, end,
+                               'Values stand in parentheses behind a symbol, as in "A(2)".')
 
 
 def _modules(system: LSystem) -> Iterable[Pattern]:

@@ -9,8 +9,9 @@ from typing import Any
 from lark import Transformer
 from lark.visitors import merge_transformers
 
-from lsys_kit.notation.model.modules import flat, joined
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.expressions import Name
+from lsys_kit.notation.model.modules import Pattern, flat, joined
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.actions import Expressions, Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
@@ -18,11 +19,15 @@ from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
 from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.printed import IN_A_SET, printed_statements
-from lsys_kit.notation.syntax.segmentation import segment_system, segment_with_notes
+from lsys_kit.notation.syntax.segmentation import check_digits, segment_system, segment_with_notes
 from lsys_kit.notation.syntax.statements import without_comments
+from lsys_kit.notation.syntax.transcription import likely, transcribe
 
-_SYMBOL = re.compile(r"[A-Za-z_]\w*|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
+_SYMBOL = re.compile(r"[A-Za-z_]\w*|\d|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
 """What a symbol may be."""
+_EDGE = re.compile(r"F_\w+")
+
+
 def _records() -> Transformer[Any, Any]:
     return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
@@ -52,10 +57,28 @@ def _finish(draft: Draft) -> LSystem:
     """The system with letters that were written together parted, and a note that says so."""
     _settle(draft)
     missing_colon(draft.sections["productions"], _made(draft), draft.source)
-    return segment_with_notes(build_system(draft))
+    system = _with_edges(segment_with_notes(build_system(draft)))
+    check_digits(system.modules, system.alphabet, draft.source)
+    return system
+
+
+def _with_edges(system: LSystem) -> LSystem:
+    """F_l, F_r and the like are kinds of edges: a turtle draws each as F (ABOP, section 1.4.1)."""
+    drawn = {rule.predecessor.symbol for rule in system.interpretation}
+    edges = {(module.symbol, len(module.arguments)) for module in system.modules
+             if _EDGE.fullmatch(module.symbol) and module.symbol not in drawn}
+    if not edges:
+        return system
+    names = [tuple(Name(f"x{i}") for i in range(size)) for _, size in sorted(edges)]
+    rules = (Production(Pattern(symbol, values), (Pattern("F", values[:1]),))
+             for (symbol, _), values in zip(sorted(edges), names, strict=True))
+    shown = ", ".join(sorted({symbol for symbol, _ in edges}))
+    return replace(system, interpretation=(*system.interpretation, *rules), notes=(*system.notes, f"Drawn as F: {shown}."))
 
 
 def _write(system: LSystem) -> str:
+    digits = {module.symbol for module in system.modules if module.symbol.isdigit()}.difference(system.alphabet)
+    system = replace(system, alphabet=(*system.alphabet, *sorted(digits)))
     while mistaken := segment_system(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
     look = [] if system.cells == LSystem.cells else [f"cells: {system.cells}"]
@@ -64,7 +87,7 @@ def _write(system: LSystem) -> str:
 
 
 def _lacking(system: LSystem) -> str | None:
-    """What the notation cannot write: round branches, and symbols such as digits or a comma."""
+    """What the notation cannot write: round branches, and symbols such as a comma."""
     strange = (module.symbol for module in system.modules if not _SYMBOL.fullmatch(module.symbol))
     found = next(strange, None)
     return first_missing(system, "round brackets as branches") or (None if found is None else f'symbol "{found}"')
@@ -72,4 +95,4 @@ def _lacking(system: LSystem) -> str | None:
 
 ABOP = Dialect(
     name="abop", statements=printed_statements, records=_records, finish=_finish, diagnostics=DIAGNOSTICS, module=str,
-    joined=joined, write=_write, lacking=_lacking, likely=lambda text: 1)
+    joined=joined, write=_write, lacking=_lacking, likely=likely, transcribe=transcribe)

@@ -1,0 +1,285 @@
+"""Listings as books print them, transcribed into the kit's own notation, character by character.
+
+The Algorithmic Beauty of Plants prints a system with its number of steps and its angle on one line, the axiom without a name,
+labels before productions, probabilities over arrows, digits as symbols, and typographic signs. Whatever is printed otherwise
+than the kit writes it becomes a list of edits. The transcript remembers where in the source each of its characters comes
+from, so that an error is shown in the text that was typed.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from lsys_kit.budget import current
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.syntax.failure import blank_parentheses
+from lsys_kit.notation.syntax.statements import ARROW, without_comments
+
+_ARROW = ARROW.pattern
+_SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
+"""Typographic signs, and what is typed for them."""
+_WEDGES = str.maketrans("∧⋀", "^^")
+"""Before an arrow a wedge joins two conditions; behind it, it is a turn."""
+_LABEL = re.compile(r"[ \t]*+[pP]_?(?:\d+|\{\d+\})[ \t]*+:")
+_OMEGA = re.compile(r"[ \t]*+(?:ω|\\omega)[ \t]*+[:=]")
+_AXIOM = re.compile(r"[ \t]*+axiom\b", re.IGNORECASE)
+_DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
+_ASSIGNED = r"(?:[A-Za-z]\w*|δ|\\delta)[ \t]*+=[ \t]*+[\d.]+[ \t]*+(?:°|\^?\{?\\circ\}?)?"
+_ASSIGNMENTS = re.compile(rf"[ \t]*+{_ASSIGNED}(?:[ \t]*+[,;][ \t]*+{_ASSIGNED})*[ \t]*+[,;.]?[ \t]*+$")
+_STEPS = re.compile(r"\bn[ \t]*+=")
+_NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
+_DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
+_INCLUDED = re.compile(r"[ \t]*+#[ \t]*+include\b.*")
+_START = re.compile(r"[ \t]*+(Start(?:wort|word)|Start word)\b[ \t]*+:?", re.IGNORECASE)
+_DASH = re.compile(rf"([ \t]*+[-•–*][ \t]++)[A-Za-z\\][^<]*?(?:{_ARROW})")
+"""A dash before a production of a list; before a "<" it would be a neighbour."""
+_PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
+_ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
+_ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:{_ARROW}|:))")
+_EQUALS = re.compile(r"(?<![<>=!:])=(?!=)")
+_DIGIT_RULE = re.compile(rf"(?:[^<>:]*+<)?[ \t]*+\d[ \t]*+(?:>[^<>:]*?)?(?:{_ARROW}|:)")
+_ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
+_ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
+_DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
+_SPACE = re.compile(
+    r"\\(?:q?quad\b|[,;!])|\\\\[ \t]*+$|\\(?:begin|end)[ \t]*+\{(?:array|align\*?|eqnarray\*?|tabular)\}(?:\{[lcr| ]*\})?")
+_ACCENT = re.compile(r"\\(bar|overline|hat|tilde|dot)[ \t]*+(?:\{[ \t]*+([A-Za-z]\w*)[ \t]*+\}|([A-Za-z]))")
+
+
+class Edit(NamedTuple):
+    """A stretch of the source, and what is written in its place."""
+
+    start: int
+    end: int
+    text: str
+
+
+@dataclass(frozen=True)
+class Transcript:
+    """A source as the kit writes it.
+
+    Attributes
+    ----------
+    source, text
+        What was typed, and what is read.
+    notes
+        What was understood.
+    """
+
+    source: str
+    text: str
+    notes: tuple[str, ...] = ()
+    _starts: Sequence[int] = field(default=(0,), repr=False)
+    _origins: Sequence[int] = field(default=(0,), repr=False)
+
+    def origin(self, offset: int) -> int:
+        """Where in the source a character of the text comes from; what was put in comes from the place where it was put.
+
+        >>> found = transcribe("n=3, δ=60°\\nF\\nF → F+F")
+        >>> found.text, found.origin(found.text.index("F+F"))
+        ('steps:3\\n δ=60°\\naxiom: F\\nF → F+F', 17)
+        """
+        piece = bisect_right(self._starts, offset) - 1
+        last = self._origins[piece + 1] if piece + 1 < len(self._origins) else len(self.source)
+        return min(self._origins[piece] + offset - self._starts[piece], last)
+
+    def relocated(self, error: LSystemError) -> LSystemError:
+        """An error about the text, as one about the source."""
+        if self.text == self.source or error.line is None or error.source != self.text:
+            return error
+        before = sum(len(line) + 1 for line in self.text.split("\n")[:error.line - 1])
+        start, end = before + (error.column or 1) - 1, before + (error.end or 2) - 1
+        return error.moved(self.source, self.origin(start), max(self.origin(end), self.origin(start) + 1))
+
+
+def transcribe(source: str) -> Transcript:
+    """A listing in print as the kit's own notation has it; any other text as it is.
+
+    >>> print(transcribe("ω : F\\np1 : F .5→ F[+F]\\np2 : F .5→ F").text)
+    ω : F
+    p1 : F→ F[+F] : .5
+    p2 : F→ F : .5
+    """
+    typed = _with_typed_signs(source)
+    listing = _Listing(without_comments(typed))
+    edits = sorted({*listing.macros(), *listing.settings(), *listing.rules(), *listing.digits()})
+    parts, starts, origins = [], [0], [0]
+    at = length = 0
+    for edit in edits:
+        if edit.start < at:  # within what another edit has replaced
+            continue
+        for text, origin in ((typed[at:edit.start], at), (edit.text, edit.start)):
+            starts.append(length)
+            origins.append(origin)
+            parts.append(text)
+            length += len(text)
+        at = edit.end
+    notes = tuple(dict.fromkeys(listing.notes))
+    return Transcript(source, "".join((*parts, typed[at:])), notes, (*starts, length), (*origins, at))
+
+
+def _with_typed_signs(source: str) -> str:
+    """A text with the signs of a keyboard in place of typographic ones, every other character in its place.
+
+    >>> _with_typed_signs("A(t) : t > 1 ∧ t < 5 → ’∧F")
+    "A(t) : t > 1 ∧ t < 5 → '^F"
+    """
+    if source.isascii():
+        return source
+    lines = []
+    for line in source.translate(_SIGNS).split("\n"):
+        behind = max((arrow.end() for arrow in ARROW.finditer(line)), default=0)
+        lines.append(line[:behind] + line[behind:].translate(_WEDGES))
+    return "\n".join(lines)
+
+
+class _Line(NamedTuple):
+    start: int
+    text: str
+
+    @property
+    def end(self) -> int:
+        return self.start + len(self.text.rstrip())
+
+
+class _Listing:
+    """The lines of a text without its comments, and the edits that its printed form asks for."""
+
+    def __init__(self, plain: str) -> None:
+        self.plain = plain
+        self.lines = [_Line(match.start(), match.group()) for match in re.finditer(r"[^\n]+", plain)
+                      if match.group().strip() and len(match.group()) <= current().line]  # longer ones will be refused
+        self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
+        self.printed = self.labelled or bool(_DELTA.search(plain))
+        self.first = next((index for index, line in enumerate(self.lines) if ARROW.search(line.text)), len(self.lines))
+        self.notes: list[str] = []
+
+    def macros(self) -> Iterator[Edit]:
+        """Macros of LaTeX that say nothing, or put something over a letter."""
+        for line in self.lines:
+            for match in _SPACE.finditer(line.text):
+                yield Edit(line.start + match.start(), line.start + match.end(), " ")
+            for match in _ACCENT.finditer(line.text):
+                accent = "bar" if match[1] == "overline" else match[1]
+                yield Edit(line.start + match.start(), line.start + match.end(), f"{match[2] or match[3]}_{accent} ")
+
+    def settings(self) -> Iterator[Edit]:
+        """Numbers on one line, constants and inclusions as cpfg has them, and an axiom that is not called so."""
+        for line in self.lines:
+            if _ASSIGNMENTS.match(line.text):
+                yield from self._assignments(line)
+            elif self.labelled and (defined := _DEFINED.match(line.text)):
+                yield Edit(line.start + defined.start(1), line.start + defined.end(1), "")
+                yield Edit(line.start + defined.start(3), line.start + defined.end(3), " = ")
+            elif self.labelled and _INCLUDED.match(line.text):
+                self.notes.append(f'"{line.text.strip()}" is passed over.')
+                yield Edit(line.start, line.end, "")
+            elif start := _START.match(line.text):
+                yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
+        yield from self._axiom()
+
+    def _assignments(self, line: _Line) -> Iterator[Edit]:
+        for match in re.finditer(r"[,;]|\.(?=[ \t]*$)", line.text):
+            yield Edit(line.start + match.start(), line.start + match.end(), "\n" if line.text[match.end():].strip() else "")
+        steps = _STEPS.search(line.text)
+        if steps and self.printed and len(re.findall(r"\bn\b", self.plain)) == 1:
+            self.notes.append('"n" is read as the number of steps.')
+            yield Edit(line.start + steps.start(), line.start + steps.end(), "steps:")
+
+    def _axiom(self) -> Iterator[Edit]:
+        """Under a line with the angle a word stands alone, before the first production."""
+        named = any(_AXIOM.match(line.text) or _START.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
+        before = [line for line in self.lines if not _ASSIGNMENTS.match(line.text) and not _NAMED.match(line.text)]
+        if self.printed and not named and len(before) > 1 and not ARROW.search(before[0].text) and ARROW.search(before[1].text):
+            first = before[0]
+            self.notes.append(f'"{first.text.strip()}" is read as the axiom.')
+            yield Edit(first.start, first.start, "axiom: ")
+
+    def rules(self) -> Iterator[Edit]:
+        """Productions: dashes before them, lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
+        heads = [line for line in self.lines if ARROW.search(line.text)]
+        dashed = bool(heads) and all(_DASH.match(line.text) for line in heads)
+        above: str | None = None
+        for index, line in enumerate(self.lines):
+            arrow = ARROW.search(line.text)
+            if arrow is None:
+                number = _ABOVE.match(line.text)
+                following = self.lines[index + 1] if index + 1 < len(self.lines) else None
+                if number and following and ARROW.search(following.text):
+                    above = number[1]
+                    yield Edit(line.start, line.end, "")
+                elif self._goes_on(index):
+                    yield Edit(line.start, line.start, "  ")
+                continue
+            if dashed and (dash := _DASH.match(line.text)):
+                yield Edit(line.start + dash.start(1), line.start + dash.end(1), "")
+            yield from self._head(line, line.text[:arrow.start()])
+            condition = ":" in self._bare(line)[:arrow.start()]  # which may end with a number, too
+            over = None if condition else _PROBABILITY.search(line.text)
+            if over:
+                yield Edit(line.start + over.start(), line.start + over.end(), "")
+            if over or above:
+                end = self._end(index)
+                yield Edit(end, end, f" : {over[1] if over else above}")
+            above = None
+
+    def _head(self, line: _Line, head: str) -> Iterator[Edit]:
+        """What stands before the arrow."""
+        for match in _ANY.finditer(line.text, 0, len(head) + 2):
+            side = match.lastgroup or "left"
+            yield Edit(line.start + match.start(side), line.start + match.end(side), "")
+        colon = blank_parentheses(head).rfind(":")
+        if self.labelled and colon >= 0:
+            for match in _EQUALS.finditer(head, colon):
+                self.notes.append('"=" is read as "==" in conditions.')
+                yield Edit(line.start + match.start(), line.start + match.end(), "==")
+
+    def _goes_on(self, index: int) -> bool:
+        """Whether a line of a printed listing goes on with the production above."""
+        line = self.lines[index]
+        return self.printed and index > self.first and not _NAMED.match(line.text) and not _ABOVE.match(line.text)
+
+    def _end(self, index: int) -> int:
+        """Where a production ends that begins on a line."""
+        while index + 1 < len(self.lines) and not ARROW.search(self.lines[index + 1].text) and self._goes_on(index + 1):
+            index += 1
+        return self.lines[index].end
+
+    def digits(self) -> Iterator[Edit]:
+        """Digits as symbols, where a production rewrites one: set apart from what they are glued to."""
+        heads = [line for line in self.lines if ARROW.search(line.text)]
+        declared = any(_ALPHABET.match(line.text) for line in self.lines)
+        if declared or not any(_DIGIT_RULE.match(self._bare(line)) for line in heads):
+            return
+        found: dict[str, None] = {}
+        for line in self.lines:
+            bare = self._bare(line)
+            if not (ARROW.search(bare) or _OMEGA.match(bare) or _ROW.match(bare)):
+                continue
+            if label := _LABEL.match(line.text):  # before digits it might be taken for a module with a condition
+                yield Edit(line.start, line.start + label.end(), "")
+            for match in _DIGIT.finditer(bare):
+                found[match.group()] = None
+                at = line.start + match.start()
+                yield Edit(at, at + 1, f" {match.group()} ")
+        self.notes.append(f"The digits {', '.join(sorted(found))} are read as symbols.")
+        yield Edit(0, 0, f"alphabet: {' '.join(sorted(found))}\n")
+
+    def _bare(self, line: _Line) -> str:
+        """A line without its label, its values and what stands over its arrow, every other character in its place."""
+        text = _LABEL.sub(lambda match: " " * len(match.group()), line.text, count=1) if _LABEL.match(line.text) else line.text
+        return _PROBABILITY.sub(lambda match: " " * len(match.group()), blank_parentheses(text))
+
+
+def as_typed(source: str) -> Transcript:
+    """A text that is read as it stands."""
+    return Transcript(source, source)
+
+
+def likely(text: str) -> int:
+    """How likely a text is a listing as The Algorithmic Beauty of Plants prints it: labels and an ω are no other notation's."""
+    return 1 + 100 * any(_LABEL.match(line) or _OMEGA.match(line) for line in text.split("\n"))

@@ -1,0 +1,141 @@
+"""The Algorithmic Beauty of Plants (1990), its listings as they are printed: read, derived and drawn."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit import draw, system, systems
+from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.read import read
+from lsys_kit.notation.syntax.transcription import transcribe
+from lsys_kit.notation.write import write
+
+LISTINGS = {path.stem: path.read_text(encoding="utf-8")
+            for path in sorted((Path(__file__).parent.parent / "listings" / "abop").glob("*.txt"))}
+"""The figures of the book, by number."""
+
+# The same systems in the kit's own notation, typed by hand.
+PLANTS = {
+    "1.24a": "steps: 5\nangle: 25.7\naxiom: F\nF -> F[+F]F[-F]F",
+    "1.24b": "steps: 5\nangle: 20\naxiom: F\nF -> F[+F]F[-F][F]",
+    "1.24c": "steps: 4\nangle: 22.5\naxiom: F\nF -> F F -[- F + F + F]+[+ F - F - F]",
+    "1.24d": "steps: 7\nangle: 20\naxiom: X\nX -> F[+X]F[-X]+X\nF -> F F",
+    "1.24e": "steps: 7\nangle: 25.7\naxiom: X\nX -> F[+X][-X]F X\nF -> F F",
+    "1.24f": "steps: 5\nangle: 22.5\naxiom: X\nX -> F-[[X]+X]+F[+F X]-X\nF -> F F",
+    "1.25": "steps: 7\nangle: 22.5\naxiom: A\nA -> [&F L!A]/////'[&F L!A]///////'[&F L!A]\nF -> S /////F\nS -> F L\n"
+            "L -> ['''^^{-f+f+f-|-f+f+f}]",
+    "1.26": "steps: 5\nangle: 18\naxiom: plant\n"
+            "plant -> internode + [plant + flower] - - // [- - leaf] internode [+ + leaf] - [plant flower] + + plant flower\n"
+            "internode -> F seg [//&& leaf] [//^^ leaf] F seg\nseg -> seg F seg\nleaf -> ['{+f-f f-f+|+f-f f-f}]\n"
+            "flower -> [&&& pedicel '/ wedge //// wedge //// wedge //// wedge //// wedge]\npedicel -> F F\n"
+            "wedge -> ['^F][{&&&&-f+f|-f+f}]",
+    "1.27": "steps: 5\nangle: 30\naxiom: F\nF -> F[+F]F[-F]F : 0.33\nF -> F[+F]F : 0.33\nF -> F[-F]F : 0.34",
+    "1.31a": "alphabet: 0 1\n"
+             "steps: 30\nangle: 22.5\nignore: + - F\naxiom: F 1 F 1 F 1\n0 < 0 > 0 -> 0\n0 < 0 > 1 -> 1[+F 1 F 1]\n"
+             "0 < 1 > 0 -> 1\n0 < 1 > 1 -> 1\n"
+             "1 < 0 > 0 -> 0\n1 < 0 > 1 -> 1 F 1\n1 < 1 > 0 -> 0\n1 < 1 > 1 -> 0\n+ -> -\n- -> +",
+    "2.6": "steps: 10\nr1 = 0.9\nr2 = 0.6\na0 = 45\na2 = 45\nd = 137.5\nwr = 0.707\naxiom: A(1,10)\n"
+           "A(l,w) -> !(w)F(l)[&(a0)B(l*r2,w*wr)]/(d)A(l*r1,w*wr)\nB(l,w) -> !(w)F(l)[-(a2)$C(l*r2,w*wr)]C(l*r1,w*wr)\n"
+           "C(l,w) -> !(w)F(l)[+(a2)$B(l*r2,w*wr)]B(l*r1,w*wr)",
+    "2.7": "steps: 10\nr1 = 0.9\nr2 = 0.7\na1 = 10\na2 = 60\nwr = 0.707\naxiom: A(1,10)\n"
+           "A(l,w) -> !(w)F(l)[&(a1)B(l*r1,w*wr)]/(180)[&(a2)B(l*r2,w*wr)]\n"
+           "B(l,w) -> !(w)F(l)[+(a1)$B(l*r1,w*wr)][-(a2)$B(l*r2,w*wr)]",
+    "2.8": "steps: 6\nd1 = 94.74\nd2 = 132.63\na = 18.95\nlr = 1.109\nvr = 1.732\naxiom: !(1)F(200)/(45)A\n"
+           "A -> !(vr)F(50)[&(a)F(50)A]/(d1)[&(a)F(50)A]/(d2)[&(a)F(50)A]\nF(l) -> F(l*lr)\n!(w) -> !(w*vr)",
+}
+PLANTS["1.27-numbers-above"] = PLANTS["1.27"]
+
+
+@pytest.mark.parametrize("figure", LISTINGS)
+def test_a_listing_is_read_as_it_is_printed(figure: str) -> None:
+    assert read(LISTINGS[figure]) == read(PLANTS[figure])
+
+
+@pytest.mark.parametrize("figure", LISTINGS)
+def test_a_printed_plant_is_derived_and_drawn(figure: str) -> None:
+    steps = min(read(LISTINGS[figure]).steps or 0, 4)
+    words = derive(read(LISTINGS[figure]), steps)
+    assert str(words[-1]) == str(derive(read(PLANTS[figure]), steps)[-1])
+    assert len(draw(words).scene.segments) > 0
+
+
+@pytest.mark.parametrize("figure", LISTINGS)
+def test_a_printed_listing_can_be_written_again(figure: str) -> None:
+    found = read(LISTINGS[figure])
+    assert read(write(found)) == found
+
+
+@pytest.mark.parametrize("id", systems())
+def test_what_the_kit_writes_is_no_print(id: str) -> None:
+    """What is in the kit's own notation already is read as it stands."""
+    text = write(system(id), "abop") if system(id).turtle == "abop" else "axiom: A"
+    assert transcribe(text).text == text
+
+
+@pytest.mark.parametrize(("text", "line", "column"), [
+    ("n=5, δ=25.7°\nF\nF→F[+F", 3, 4), ("n=5, δ=25.7°\nF\nF→F[+F]F[−F]]F", 3, 13),
+    ("ω : A\np1 : A .5→ B(\np2 : A .5→ C", 2, 14), ("ω : A(0)\np1 : A(t) : u=1 → B", 2, 13),
+])
+def test_a_mistake_in_print_is_shown_where_it_was_typed(text: str, line: int, column: int) -> None:
+    with pytest.raises(LSystemError) as caught:
+        read(text)
+    assert (caught.value.source, caught.value.line, caught.value.column) == (text, line, column)
+
+
+@pytest.mark.parametrize(("text", "expected"), [
+    ("Startwort: A\n- A -> B\n- B -> A B", "axiom: A\nA -> B\nB -> A B"),
+    ("Startwort a\na -> b a", "axiom: a\na -> b a"),
+    ("axiom: A\nA –> B", "axiom: A\nA -> B"),
+    ("axiom: 0\n0 -> 0 1\n1 -> 0", "alphabet: 0 1\naxiom: 0\n0 -> 0 1\n1 -> 0"),
+    ("axiom: A\nA .5-> B\nA .5-> C", "axiom: A\nA -> B : 0.5\nA -> C : 0.5"),
+    ("ω : A(0)\np1 : A(t) : t=0 → A(1)", "axiom: A(0)\nA(t) : t == 0 -> A(1)"),
+    ("\\omega: \\bar{A}\np_1: \\quad \\bar{A} \\rightarrow \\bar{A} B", "axiom: A_bar\nA_bar -> A_bar B"),
+])
+def test_other_prints_are_read_as_they_are_meant(text: str, expected: str) -> None:
+    assert read(text) == read(expected)
+
+
+@pytest.mark.parametrize("text", ["axiom: A\nA -> 2 B", "axiom: A 1\nA -> B", "axiom: A\n1 < A -> B"])
+def test_a_digit_that_nothing_rewrites_is_no_symbol(text: str) -> None:
+    with pytest.raises(LSystemError, match="A number stands alone in a word"):
+        read(text)
+
+
+def test_what_was_understood_is_said() -> None:
+    assert set(read(LISTINGS["1.31a"]).notes) >= {'"n" is read as the number of steps.', "The digits 0, 1 are read as symbols."}
+    assert read(LISTINGS["2.6"]).constants[0].value.value == Fraction(9, 10)
+
+
+@given(st.text("AB01 .<>:*=→∗δωp\n-,;#n()[]’∧", max_size=60))
+def test_every_place_of_a_transcript_is_one_of_the_source(text: str) -> None:
+    try:
+        found = transcribe(text)
+    except LSystemError:
+        return
+    places = [found.origin(offset) for offset in range(len(found.text) + 1)]
+    assert all(0 <= place <= len(text) for place in places)
+    assert places == sorted(places) or "0" in text or "1" in text
+
+
+@pytest.mark.parametrize("part", ["p1 : ", "n=5, ", "δ=", "∗ ", "’", "∧ ", ".5→ ", "A .5", "  ", "\n ", "* <", "- ", "\\bar{A}",
+                                  "0 ", "= "])
+def test_long_texts_are_transcribed_in_linear_time(part: str) -> None:
+    text = part * (500_000 // len(part))
+    with suppress(LSystemError):
+        transcribe(text)
+
+
+def test_edges_of_several_kinds_are_drawn() -> None:
+    """Figure 1.10a, the dragon curve: F_l and F_r are both drawn as F."""
+    dragon = read("n=10, δ=90°\nF_l\nF_l → F_l+F_r+\nF_r → -F_l-F_r")
+    assert "Drawn as F: F_l, F_r." in dragon.notes
+    assert len(draw(dragon, 5).scene.segments) == 32
+    assert read(write(dragon)) == dragon
+    assert not read("axiom: F_l\nF_l -> F_l F_l\ninterpretation:\nF_l -> f").notes
