@@ -7,7 +7,7 @@ in `dialects`, one for each notation; `expressions.lark` in `syntax` is what the
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from lsys_kit.budget import current
@@ -25,6 +25,7 @@ from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.segmentation import segment_word
 from lsys_kit.notation.syntax.statements import ARROW, bounded, check_text
+from lsys_kit.notation.syntax.wording import notes, reporting
 
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
@@ -96,12 +97,13 @@ def _reads(notation: Dialect, text: str) -> bool:
 def _read_in(notation: Dialect, text: str) -> LSystem:
     """Read a system in a notation."""
     draft = Draft(text, notation.name, notation.turtle)
-    for start, end in bounded(notation.statements(text), text):
-        kind, record = parse(notation, "statement", text, start, end)
-        draft.add(kind, record, (start, end))
-    system = notation.finish(draft)
-    check_decomposition(system)
-    return replace(system, notes=(*system.notes, *unused_productions(system)))
+    with reporting(text, notation.spelling):
+        for start, end in bounded(notation.statements(text), text):
+            kind, record = parse(notation, "statement", text, start, end)
+            draft.add(kind, record, (start, end))
+        system = notation.finish(draft)
+        check_decomposition(system)
+    return replace(system, notes=(*system.notes, *notes(unused_productions(system), notation.spelling)))
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:
@@ -112,11 +114,13 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
     """
     if not text.strip() or text.strip() in ("ε", "*"):
         return ()
-    word = parse(dialect_named(notation), "word", text, 0, len(text))
-    check_word(word, (), text)
-    if system is not None and notation == "abop":
-        word = segment_word(word, system)
-    return tuple(Module(part.symbol, tuple(value_of(a, text) for a in part.arguments), part.at) for part in flat(word))
+    dialect = dialect_named(notation)
+    word = parse(dialect, "word", text, 0, len(text))
+    with reporting(text, dialect.spelling):
+        check_word(word, ())
+        if system is not None and notation == "abop":
+            word = segment_word(word, system)
+        return tuple(Module(part.symbol, tuple(map(value_of, part.arguments)), part.at) for part in flat(word))
 
 
 def read_expression(text: str) -> Expression:
@@ -128,12 +132,24 @@ def read_expression(text: str) -> Expression:
     return parse(ABOP, "expression", text, 0, len(text))  # type: ignore[no-any-return]
 
 
+def checked_expression(text: str, names: Collection[str], wanted: str = "number") -> Expression:
+    """Read an expression that uses some names and is a "number" or a "truth".
+
+    >>> print(checked_expression("t < 5", ["t"], "truth"))
+    t < 5
+    """
+    expression = read_expression(text)
+    with reporting(text):
+        check_expression(expression, names, wanted)
+    return expression
+
+
 def read_number(text: str) -> Value:
     """Read a number, exactly; it may be written as a calculation.
 
     >>> read_number("14/10")
     Fraction(7, 5)
     """
-    expression = read_expression(text)
-    check_expression(expression, (), text)
-    return value_of(expression, text)
+    expression = checked_expression(text, ())
+    with reporting(text):
+        return value_of(expression)

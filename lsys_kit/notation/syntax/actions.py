@@ -6,6 +6,7 @@ The parser calls these methods while it reads, so that there is no tree in betwe
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 from sys import float_info
 from typing import Any
@@ -13,12 +14,13 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelNameError, ModelSyntaxError
-from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.analysis.checks import closest
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
+from lsys_kit.notation.syntax.spelling import ModelError
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
               "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}
@@ -26,10 +28,10 @@ _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
 
 
-class Misread(Exception):
-    """A record that cannot be made, before the text it came from is known."""
+class ActionError(Exception):
+    """A mistake that only one dialect knows and words itself, before the text it was made in is known."""
 
-    def __init__(self, kind: type[Any], message: str, at: TextSpan, hint: str | None = None) -> None:
+    def __init__(self, kind: type[ModelError], message: str, at: TextSpan, hint: str | None = None) -> None:
         self.kind, self.message, self.at, self.hint = kind, message, at, hint
         super().__init__(message)
 
@@ -44,7 +46,7 @@ def _around(*parts: Any) -> TextSpan:
 
 def _check_name(token: Token) -> None:
     if len(token) > current().name:
-        raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", _around(token))
+        raise problem("name too long", _around(token), most=current().name)
 
 
 def _symbol(token: Token) -> str:
@@ -61,11 +63,19 @@ def _symbol(token: Token) -> str:
 def _number(token: Token) -> Number:
     exponent = re.search(r"[eE]([+-]?\d+)$", token)
     if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
-        raise Misread(ModelSyntaxError, "This number is too long", _around(token), "Numbers go up to about 10^308.")
+        raise problem("number too long", _around(token))
     value = normalised(Fraction(str(token)))
     if value > float_info.max:
-        raise Misread(ModelSyntaxError, "This number is too large", _around(token), "Numbers go up to about 10^308.")
+        raise problem("number too large", _around(token))
     return Number(value, _around(token))
+
+
+def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> None:
+    """A function gets as many values as it takes."""
+    least, most = OPERATORS[operator].arity
+    if not least <= len(operands) <= most:
+        wanted = f"{least if least == most else f'{least} or more'} value{'s' * (most > 1)}"
+        raise problem("number of arguments", _around(name), name=name, wanted=wanted, given=len(operands))
 
 
 def _named(part: Any) -> bool:
@@ -99,21 +109,17 @@ class Expressions(Transformer[Any, Any]):
         operator = OPERATORS.get(name)
         functions = [known for known, entry in OPERATORS.items() if entry.precedence is None]
         if operator is None or name not in functions:
-            raise Misread(ModelNameError, f'I do not know the function "{name}"', _around(name),
-                          suggestion(name, functions, 0.7) or f"Functions are: {', '.join(sorted(functions))}.")
-        least, most = operator.arity
-        if not least <= len(operands) <= most:
-            raise Misread(ModelSyntaxError, f"{name}(...) takes {least if least == most else f'{least} or more'} "
-                          f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
+            raise problem("unknown function", _around(name), closest(name, functions, 0.7), name=name,
+                        known=", ".join(sorted(functions)))
+        check_arity(name, str(name), operands)
         return self._applied(str(name), operands, _around(name, operands[-1]))
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
         applied = Apply(operator, operands, at)
         if applied.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"This expression is nested more than {current().depth} deep", at,
-                          'Give a part of it a name, on a line such as "c = ...".')
+            raise problem("expression too deep", at, most=current().depth)
         if at and at[1] - at[0] > current().expression:
-            raise Misread(ModelSyntaxError, f"This expression has more than {current().expression:,} characters", at)
+            raise problem("expression too long", at, most=current().expression)
         return applied
 
 
@@ -154,7 +160,7 @@ class Statements(Transformer[Any, Any]):
     def repeat(self, keyword: Token, count: Expression, *rest: Any) -> Repeat:
         repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", _around(keyword, rest[-1][-1]))
         if repeat.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"Repetitions are nested more than {current().depth} deep", _around(keyword))
+            raise problem("repetitions too deep", _around(keyword), most=current().depth)
         return repeat
 
     def production(self, *parts: Any) -> tuple[str, Production]:
@@ -169,8 +175,7 @@ class Statements(Transformer[Any, Any]):
     def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         bracket = next((name for name in names if name in "[]"), None)
         if bracket is not None:
-            raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
-                          "Contexts follow the branches in any case.")
+            raise problem("bracket in list", _around(bracket))
         return keyword.rstrip(": \t").lower(), tuple(dict.fromkeys(map(_symbol, names)))
 
     def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:

@@ -6,16 +6,16 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import (
     check_constants,
     check_expression,
     check_meta,
     check_production,
     check_word,
-    span,
     value_of,
 )
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import names_in
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
@@ -61,7 +61,7 @@ class Draft:
         """Take in what a statement says: its kind and its record."""
         if kind == "axiom":
             if self.axiom is not None:
-                raise ModelSyntaxError("A second axiom stands here", self.source, *at, "A system has one axiom.")
+                raise problem("second axiom", at)
             self.axiom = record
         elif kind == "constant":
             self.constants.append(replace(record, at=at))
@@ -82,26 +82,24 @@ class Draft:
     def _set(self, kind: str, record: Any, at: tuple[int, int]) -> None:
         """Take in a setting."""
         if kind in ("ignore", "consider") and {"ignore", "consider"} & self.settings.keys() - {kind}:
-            raise ModelSyntaxError('Both "ignore:" and "consider:" stand here', self.source, *at,
-                                   "Say either what contexts pass over, or what they do not pass over.")
+            raise problem("ignore and consider", at)
         if kind in self.settings:
-            raise ModelSyntaxError(f'"{kind}:" stands here a second time', self.source, *at, "A system has one of it.")
+            raise problem("setting twice", at, keyword=kind)
         self.settings[kind] = record
 
 
 def build_system(draft: Draft) -> LSystem:
     """The system of a draft, checked."""
     source, names = draft.source, [constant.name for constant in draft.constants]
-    check_constants(draft.constants, source)
+    check_constants(draft.constants)
     if draft.axiom is None:
-        raise ModelSyntaxError("There is no axiom", source, len(source), None,
-                               'Give the first word on a line of its own, as in "axiom: A".')
-    check_word(draft.axiom, names, source)
+        raise problem("no axiom", (len(source), len(source)))
+    check_word(draft.axiom, names)
     for section, productions in draft.sections.items():
         for production in productions:
-            check_production(production, names, source, section)
+            check_production(production, names, section)
     for rule in draft.meta:
-        check_meta(rule, names, source)
+        check_meta(rule, names)
     sections = {section: tuple(productions) for section, productions in draft.sections.items()}
     return LSystem(draft.axiom, constants=tuple(draft.constants), meta=tuple(draft.meta), notation=draft.notation,
                    source=source, notes=tuple(draft.notes), **sections, **_settings(draft))  # type: ignore[arg-type]
@@ -116,14 +114,11 @@ def _settings(draft: Draft) -> dict[str, Any]:
             continue
         used = sorted(names_in(setting) & {constant.name for constant in draft.constants})
         if used:
-            raise ModelNameError(f'The constant "{used[0]}" cannot be used here', draft.source, *span(setting),
-                                 f'"{name}:" is set to a number.')
-        check_expression(setting, (), draft.source)
-        result[name] = value_of(setting, draft.source)
+            raise problem("constant in setting", setting.at, name=used[0], keyword=name)
+        check_expression(setting, ())
+        result[name] = value_of(setting)
         if name in _COUNTED and not (isinstance(result[name], int) and result[name] >= 0):
-            counted = _COUNTED[name]
-            raise ModelValueError(f'"{setting}" is no number of {counted}', draft.source, *span(setting),
-                                  f"{counted.capitalize()} are counted from 0: 0, 1, 2, ...")
+            raise problem(f"number of {_COUNTED[name]}", setting.at, expression=setting)
         if name == "seed" and not isinstance(result[name], int):
-            raise ModelValueError(f'"{setting}" is no seed', draft.source, *span(setting), "A seed is a whole number.")
+            raise problem("seed", setting.at, expression=setting)
     return result

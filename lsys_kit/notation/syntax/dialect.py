@@ -14,6 +14,7 @@ from lark import Transformer
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.spelling import KIT_SPELLING, Spelling
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
@@ -37,12 +38,15 @@ class Grammar:
         What is asked about a slip, the most telling first.
     starts
         What can be parsed: a statement, and perhaps a word or an expression alone.
+    spelling
+        How messages spell what they quote.
     """
 
     name: str
     records: Callable[[], Transformer[Any, Any]]
     diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
+    spelling: Spelling = KIT_SPELLING
 
     @property
     def file(self) -> str:

@@ -11,9 +11,11 @@ from lark.exceptions import UnexpectedInput
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.syntax.actions import Misread
+from lsys_kit.notation.analysis.problems import ProblemFound
+from lsys_kit.notation.syntax.actions import ActionError
 from lsys_kit.notation.syntax.diagnostics import diagnose
 from lsys_kit.notation.syntax.dialect import Grammar
+from lsys_kit.notation.syntax.wording import error_of
 
 _SYNTAX = Path(__file__).parent
 """Where `expressions.lark` stands, which the grammars share."""
@@ -26,10 +28,13 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
                               limit=current().line, needed=end - start, source=text, start=start)
     try:
         return _parser(notation).parse(TextSlice(text, start, end), start=rule)
-    except UnexpectedInput as slip:
-        raise diagnose(slip, text, start, end, notation) from None
-    except Misread as misread:
-        raise misread.kind(misread.message, text, *(misread.at or (None, None)), misread.hint) from None
+    except UnexpectedInput as unexpected:
+        raise diagnose(unexpected, text, start, end, notation) from None
+    except ProblemFound as error:
+        raise error_of(error.problem, text, notation.spelling) from None
+    except ActionError as error:
+        first, last = error.at or (None, None)
+        raise error.kind(error.message, text, first, last, error.hint) from None
 
 
 @cache

@@ -73,7 +73,7 @@ def _members(plain: str, source: str) -> Iterator[tuple[int, int]]:
             opened = None
     if opened is not None:
         raise ModelSyntaxError('This "{" is never closed', source, opened.end() - 1, opened.end(),
-                               'Every "{" needs a "}" behind it.')
+                               'Every "{" needs a "}" after it.')
 
 
 def _parted(plain: str, start: int, end: int) -> Iterator[tuple[int, int]]:

@@ -51,7 +51,7 @@ def _made(draft: Draft) -> set[str]:
 def _finish(draft: Draft) -> LSystem:
     """The system with letters that were written together parted, and a note that says so."""
     _settle(draft)
-    missing_colon(draft.sections["productions"], _made(draft), draft.source)
+    missing_colon(draft.sections["productions"], _made(draft))
     return segment_with_notes(build_system(draft))
 
 

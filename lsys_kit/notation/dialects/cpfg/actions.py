@@ -13,11 +13,10 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
-from lsys_kit.notation.dialects.cpfg.wording import in_cpfg
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
 
 _SPELLINGS = {"<>": "!=", "%": "mod"}
 """Operators that the kit spells otherwise."""
@@ -57,9 +56,9 @@ def _is_block(part: Any) -> bool:
     return isinstance(part, tuple) and part[:1] in (("before",), ("after",))
 
 
-def _misplaced(token: Token) -> Misread:
-    return Misread(ModelSyntaxError, 'This "=" stands for the rest of no branch', (token.start_pos or 0, token.end_pos or 0),
-                   'It stands before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".')
+def _misplaced(token: Token) -> ActionError:
+    return ActionError(ModelSyntaxError, 'This "=" is not at the end of a branch', (token.start_pos or 0, token.end_pos or 0),
+                       'It is written before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".')
 
 
 @v_args(inline=True)
@@ -78,11 +77,7 @@ class _Expressions(Expressions):
         return self._applied(made.operator, made.operands, at)
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: Any) -> Apply:
-        try:
-            return simplified(super()._applied(operator, wanted(operator, operands), at))
-        except Misread as misread:
-            misread.hint = misread.hint and in_cpfg(misread.hint)
-            raise
+        return simplified(super()._applied(operator, wanted(operator, operands), at))
 
 
 @v_args(inline=True)
@@ -160,7 +155,7 @@ class Records(_Expressions, Statements):
     def choice(self, condition: Expression, then: Any, otherwise: Any = ()) -> Choice:
         choice = Choice(as_truth(condition), _as_block(then), _as_block(otherwise))
         if choice.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"Choices are nested more than {current().depth} deep", _around(condition))
+            raise ActionError(ModelSyntaxError, f"Choices are nested more than {current().depth} deep", _around(condition))
         return choice
 
     def production(self, *parts: Any) -> tuple[str, Any]:

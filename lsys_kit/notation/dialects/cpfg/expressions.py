@@ -22,7 +22,7 @@ from lsys_kit.notation.model.expressions import (
     is_random,
     styled_text,
 )
-from lsys_kit.notation.syntax.actions import Misread
+from lsys_kit.notation.syntax.actions import ActionError
 
 SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "floor", "ceil")
 """The functions that cpfg and the kit call alike."""
@@ -87,18 +87,18 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
     """
     place = at or (0, 0)
     if name in ABSENT:
-        raise Misread(ModelNameError, f"The kit has no {name}(...)", place)
+        raise ActionError(ModelNameError, f"The kit has no {name}(...)", place)
     if name not in _FUNCTIONS and name not in BUILT:
         known = (*SAME, *RENAMED, *BUILT)
-        raise Misread(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)
+        raise ActionError(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)
                       or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}.")
     count = 1 if name in BUILT else OPERATORS[_FUNCTIONS[name]].arity[0]
     if len(operands) != count:
-        raise Misread(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
+        raise ActionError(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
     if name not in BUILT:
         return Apply(_FUNCTIONS[name], wanted(_FUNCTIONS[name], operands), at)
     if name != "ran" and is_random(operands[0]):
-        raise Misread(ModelValueError, f"{name}(...) cannot be of a random number", place,
+        raise ActionError(ModelValueError, f"{name}(...) cannot be of a random number", place,
                       _ROUNDED if name == "trunc" else None)
     return BUILT[name](as_number(operands[0]), at)
 

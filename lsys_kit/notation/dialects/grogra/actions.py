@@ -14,7 +14,7 @@ from lsys_kit.notation.dialects.grogra.variables import Variable
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
-from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
 from lsys_kit.notation.syntax.statements import without_comments
 
 RELATIONS = {"=": "==", "\\leq": "<=", "\\le": "<=", "\\geq": ">=", "\\ge": ">=", "\\neq": "!=", "\\ne": "!="}
@@ -63,7 +63,7 @@ class _Expressions(Expressions):
         operator = OPERATORS.get(name)
         at = name.start_pos or 0, name.end_pos or 0
         if operator is not None and operator.random:
-            raise Misread(ModelSyntaxError, "A random number is declared on a line of its own", at,
+            raise ActionError(ModelSyntaxError, "A random number is declared on a line of its own", at,
                           f'Type "\\var x {name} ...," there, and "x" here.')
         if operator is not None and operator.precedence is None and name != "sensed":
             return super().call(name, *operands)
@@ -83,7 +83,7 @@ class _Statements(_Expressions, Statements):
     def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> tuple[str, Any]:
         ends = [int(end) for end in steps[0].split("-")] if steps else []
         if ends and ends[0] > ends[-1]:
-            raise Misread(ModelValueError, f'"{steps[0]}" runs backwards', (steps[0].start_pos or 0, steps[0].end_pos or 0),
+            raise ActionError(ModelValueError, f'"{steps[0]}" runs backwards', (steps[0].start_pos or 0, steps[0].end_pos or 0),
                           'Steps are counted upwards, as in "1-8".')
         return "more", ("axiom", (word, ends[-1] if ends else None))
 

@@ -10,20 +10,22 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.analysis.checks import SETTINGS, span
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
+from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.dialects.grogra.actions import RELATIONS, statements, transformer
 from lsys_kit.notation.dialects.grogra.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
+from lsys_kit.notation.dialects.grogra.spelling import SPELLING
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
 from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
-from lsys_kit.notation.model.expressions import Expression, Name, Number, expression_type, names_in
+from lsys_kit.notation.model.expressions import Expression, Name, Number, names_in
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.statements import without_comments
+from lsys_kit.notation.syntax.wording import reporting
 
 _SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
               **{tex: sign for tex, sign in RELATIONS.items() if tex != "="}}
@@ -43,7 +45,7 @@ _MARKS = re.compile(
 
 def _finish(draft: Draft) -> LSystem:
     """The system, once variables are replaced, the axiom is found, and chance is whole."""
-    notes = _put_together(draft)
+    notes = _complete(draft)
     _check_constants(draft)
     variables = [replace(record, at=record.at or at) for kind, record, at in draft.more if kind == "variable"]
     _begin(draft, notes)
@@ -54,8 +56,8 @@ def _finish(draft: Draft) -> LSystem:
     return replace(system, productions=productions, notes=tuple(dict.fromkeys(notes)))
 
 
-def _put_together(draft: Draft) -> list[str]:
-    """Take in what is set, and the rules of the interpretation; what is worth telling of it."""
+def _complete(draft: Draft) -> list[str]:
+    """Take in the settings and the rules of the interpretation; notes on them."""
     notes = []
     for kind, record, at in draft.more:
         if kind == "axiom":
@@ -75,7 +77,7 @@ def _put_together(draft: Draft) -> list[str]:
 def _set(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
     """Take in a setting: a number, or a row of names."""
     if name in draft.settings:
-        raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "A system has one of it.")
+        raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "Keep one of the two lines.")
     if isinstance(value, Expression) and names_in(value):
         raise ModelNameError(f'The name "{sorted(names_in(value))[0]}" cannot be used here', draft.source, *span(value),
                              f"The {name} is set to a number.")
@@ -102,9 +104,6 @@ def _check_constants(draft: Draft) -> None:
     """Constants have names of their own, and use only those before them."""
     known: set[str] = set()
     for constant in draft.constants:
-        if constant.name in SETTINGS:
-            raise ModelNameError(f'"{constant.name}" is no constant', draft.source, *span(constant),
-                                 f'Type "\\{constant.name.lower()} {constant.value},".')
         for expression in (constant.value, *(constant.range or ())):
             resolve(expression, Scope(draft.source, frozenset(known), {}))
         known.add(constant.name)
@@ -118,10 +117,6 @@ def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
     draft.axiom = resolve_items(draft.axiom or (), scope)  # type: ignore[assignment]
     for section, rules in draft.sections.items():
         draft.sections[section] = [resolve_rule(rule, scope, section == "productions") for rule in rules]
-    for rule in draft.sections["productions"]:
-        if rule.probability is not None and expression_type(rule.probability) == "truth":
-            raise ModelValueError(f'A probability stands behind "?", but "{rule.probability}" is true or false', draft.source,
-                                  *span(rule.probability), 'A condition stands in front: "(t < 6) k(t) # k(t+1)".')
 
 
 def _spelt(source: str) -> Iterator[str]:
@@ -167,8 +162,10 @@ def _one(symbol: str) -> str:
 
 def _lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
-    if found := missing_feature(system):
-        return found
+    with reporting(system.source, SPELLING):
+        missing = missing_feature(system)
+    if missing:
+        return missing
     for symbol, count in dict.fromkeys((module.symbol, len(module.arguments)) for module in system.modules):
         if not _reads_back(Pattern(symbol, (Name("t"),) * count)):
             return f'symbol "{symbol}"' + (f" with {count} values" if count else "")
@@ -186,4 +183,5 @@ def _reads_back(module: Pattern) -> bool:
 
 GROGRA = Dialect(
     name="grogra", statements=statements, records=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra")
+    joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra",
+    spelling=SPELLING)

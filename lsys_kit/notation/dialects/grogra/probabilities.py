@@ -66,8 +66,7 @@ def _parameters(rule: Production, constants: frozenset[str]) -> list[str]:
     return [a.name for a in arguments if isinstance(a, Name) and a.name not in constants]
 
 
-def _candidates(rules: Sequence[Production], row: Sequence[int], constants: frozenset[str],
-                source: str) -> Iterator[tuple[int, Production]]:
+def _candidates(rules: Sequence[Production], row: Sequence[int], constants: frozenset[str]) -> Iterator[tuple[int, Production]]:
     """The rules of a row, and between them those for all modules of the kind, made for the modules of the row."""
     first, places = rules[row[0]], set(row)
     for number in range(row[0], len(rules)):
@@ -77,7 +76,7 @@ def _candidates(rules: Sequence[Production], row: Sequence[int], constants: froz
         elif rule.probability is None and _is_for_all(rule, first, constants):
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
             condition = None if rule.condition is None else renamed(rule.condition, names)
-            if condition is None or names_in(condition) or value_of(condition, source):
+            if condition is None or names_in(condition) or value_of(condition):
                 yield number, replace(first, successor=renamed_items(rule.successor, names), probability=None,
                                       condition=condition if condition and names_in(condition) else None)
 
@@ -116,8 +115,6 @@ class _Shares:
 
     Attributes
     ----------
-    source
-        The text.
     parts
         For each condition the probabilities that are asked for where it holds; 1 for all that is left.
     bounds
@@ -126,7 +123,6 @@ class _Shares:
         The conditions under which nothing is left.
     """
 
-    source: str
     parts: dict[_Condition, list[Expression]] = field(default_factory=dict)
     bounds: dict[_Condition, Fraction] = field(default_factory=dict)
     closed: set[_Condition] = field(default_factory=set)
@@ -164,14 +160,14 @@ class _Shares:
         if closes:
             self.closed.add(condition)
         self.parts.setdefault(condition, []).append(asked)
-        value = Fraction(0) if names_in(asked) else Fraction(value_of(asked, self.source))
+        value = Fraction(0) if names_in(asked) else Fraction(value_of(asked))
         self.bounds[condition] = self.bounds.get(condition, Fraction(0)) + value
         return written
 
     def _answer(self, condition: _Condition, share: Expression | None) -> tuple[Expression, Expression, bool]:
         """What a rule gets, what counts for the next ones, and whether nothing is left for these."""
         if share is not None and not names_in(share):
-            together = self.taken(condition) + Fraction(value_of(share, self.source))
+            together = self.taken(condition) + Fraction(value_of(share))
             if together < 1:
                 return share, share, False
             left = self.left(condition)
@@ -202,9 +198,9 @@ def _remaining(terms: list[Expression]) -> Expression:
 
 def _complete(system: LSystem, row: Sequence[int], constants: frozenset[str], found: list[list[Production]]) -> list[str]:
     """Put the rules for the same modules, with probabilities that add up to 1, where they belong; what is worth telling."""
-    first, source = system.productions[row[0]], system.source
-    names, shares, notes = _parameters(first, constants), _Shares(source), list[str]()
-    for number, rule in _candidates(system.productions, row, constants, source):
+    first = system.productions[row[0]]
+    names, shares, notes = _parameters(first, constants), _Shares(), list[str]()
+    for number, rule in _candidates(system.productions, row, constants):
         there = dict(zip(_parameters(rule, constants), map(Name, names), strict=True))
         condition = None if rule.condition is None else renamed(rule.condition, there)
         if rule.probability is None and (shares.closed & {None, condition} or (number not in row and shares.complete)):

@@ -106,7 +106,7 @@ def _check_kind(variable: Variable, source: str) -> None:
         raise ModelSyntaxError(f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not '
                                f"{len(variable.values)}", source, *at, said)
     if kind in ("index", "function") and (len(variable.numbers) < len(variable.values) or min(variable.numbers, default=0) < 0):
-        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers from 0 on', source, *at, said)
+        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers, 0 or more', source, *at, said)
 
 
 def _place(at: TextSpan) -> tuple[int | None, int | None]:
@@ -139,14 +139,15 @@ def _meant_name(name: Name, scope: Scope) -> Expression:
         return Apply("sensed", (Number(variable.numbers[0]),), name.at)
     if variable.kind == "function":
         raise ModelSyntaxError(f'"{name}" is a function, and its values are missing', scope.source, *_place(name.at),
-                               f'It is asked as in "{name}({", ".join("1" * variable.numbers[1])})".')
+                               f'It is called as in "{name}({", ".join("1" * variable.numbers[1])})".')
     if variable.kind == "index":
         inside = f" with {variable.level} more around it" if variable.level else ""
         raise ModelNameError(f'"{name}" counts repetitions, and nothing is repeated here', scope.source, *_place(name.at),
                              f'It is used in what is repeated, as in "&(3) < a({name}) >"{inside}.')
     if not scope.chance:
-        raise ModelValueError(f'"{name}" is another number at every use, which cannot be here', scope.source, *_place(name.at),
-                              f'Random variables stand behind the "#" of a rule, as in "a # F({name})".')
+        raise ModelValueError(f'"{name}" draws a new number at every use, which is not possible here', scope.source,
+                              *_place(name.at),
+                              f'Random variables belong after the "#" of a rule, as in "a # F({name})".')
     return replace(random_call(variable), at=name.at)
 
 

@@ -14,7 +14,7 @@ from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
-_STYLE = Style({"==": "="})
+STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
 _PLAIN = re.compile(r"-?\d+(\.\d+)?")
 START = (Pattern("*"),)
@@ -27,7 +27,7 @@ def module_text(module: Module | Pattern) -> str:
     >>> print(module_text(Module("RU", (45,))), module_text(Module("L*", (0.6,))), module_text(Module("a", (1, 2))))
     RU45 L*0.6 a(1, 2)
     """
-    texts = [styled_text(a, _STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
+    texts = [styled_text(a, STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
     if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN.fullmatch(texts[0]):
         return module.symbol + texts[0]
     return f"{module.symbol}({', '.join(texts)})" if texts else module.symbol
@@ -54,15 +54,15 @@ def successor_text(items: Iterable[Item]) -> str:
 
 
 def _count(count: Expression) -> str:
-    text = styled_text(count, _STYLE)
+    text = styled_text(count, STYLE)
     return text if text.isdigit() else f"({text})"
 
 
 def rule_text(rule: Production, arrow: str = "#") -> str:
     """The text of a rule: the condition in front, the probability behind."""
-    condition = "" if rule.condition is None else f"({styled_text(rule.condition, _STYLE)})"
+    condition = "" if rule.condition is None else f"({styled_text(rule.condition, STYLE)})"
     left, right = joined_word(map(module_text, rule.left)), joined_word(map(module_text, rule.right))
-    probability = "" if rule.probability is None else f"?{styled_text(rule.probability, _STYLE)}"
+    probability = "" if rule.probability is None else f"?{styled_text(rule.probability, STYLE)}"
     parts = (condition, f"{left} <" if left else "", module_text(rule.predecessor), f"> {right}" if right else "", arrow,
              successor_text(rule.successor), probability)
     return " ".join(filter(None, parts))
@@ -95,7 +95,7 @@ def _constant(constant: Constant) -> str:
 
 def _alone(value: Expression) -> str:
     """A value as it stands in a line of its own: in parentheses, if it is calculated."""
-    text = styled_text(value, _STYLE)
+    text = styled_text(value, STYLE)
     return text if isinstance(value, Name) or re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text) else f"({text})"
 
 

@@ -13,12 +13,13 @@ from lark.visitors import merge_transformers
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
 from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
-from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, _around, _check_name
 
 WordDefinition: TypeAlias = tuple[Pattern, ...]
 SYMBOL_PATTERN = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
@@ -121,8 +122,8 @@ class _Statements(MathematicaExpressions):
             return _plain(token, "A symbol")
         text = re.sub(r"\\(.)", r"\1", token[1:-1])
         if not SYMBOL_PATTERN.fullmatch(text):
-            raise Misread(ModelSyntaxError, "One symbol stands between quotation marks", _around(token),
-                          'Part symbols by commas, as in \'F, "+", F\'.')
+            raise ActionError(ModelSyntaxError, "There is more than one symbol between these quotation marks", _around(token),
+                          'Separate symbols by commas, as in \'F, "+", F\'.')
         return token.update(value=text)
 
     def pattern(self, symbol: Token, *asked: RequiredArgument) -> PatternDefinition:
@@ -131,14 +132,14 @@ class _Statements(MathematicaExpressions):
     def parameter(self, blank: Token, *condition: Expression) -> RequiredArgument:
         name = blank[:-1]
         if name.endswith("_"):
-            raise Misread(ModelSyntaxError, f'"{blank}" stands for a row of values', _around(blank),
+            raise ActionError(ModelSyntaxError, f'"{blank}" stands for a row of values', _around(blank),
                           f'A parameter stands for one: type "{name.rstrip("_")}_".')
         _check_name(_plain(blank.update(value=name), "A parameter"))
         return RequiredArgument(Name(name, _around(blank)), True, *condition)
 
     def asked(self, value: Expression, *condition: Expression) -> RequiredArgument:
         if condition:
-            raise Misread(ModelSyntaxError, 'A parameter is named with "_" behind it', value.at,
+            raise ActionError(ModelSyntaxError, 'A parameter is named with "_" after it', value.at,
                           f'Type "{value}_ /; ...".' if isinstance(value, Name) else None)
         return RequiredArgument(value)
 
@@ -191,8 +192,9 @@ class _Statements(MathematicaExpressions):
 
     def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
         name = call.split("[")[0].rstrip()
-        raise Misread(ModelNameError, f'I do not know "{name}[...]"', (call.start_pos or 0, (call.start_pos or 0) + len(name)),
-                      INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.")
+        at = call.start_pos or 0
+        raise ActionError(ModelNameError, f'I do not know "{name}[...]"', (at, at + len(name)),
+                          INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.")
 
     def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
         _check_name(_plain(name, "A constant"))
@@ -203,15 +205,14 @@ class _Statements(MathematicaExpressions):
 
     def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
         if tradition[1:-1] not in ("abop", "grogra", "plant-string"):
-            raise Misread(ModelNameError, f"I do not know the turtle commands of {tradition}", _around(tradition),
+            raise ActionError(ModelNameError, f"I do not know the turtle commands of {tradition}", _around(tradition),
                           'Turtle commands are those of "abop", "grogra" or "plant-string".')
         return "more", ("setting", ("turtle", str(tradition[1:-1])))
 
     def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
         bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
         if bracket is not None:
-            raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
-                          "Contexts follow the branches in any case.")
+            raise problem("bracket in list", _around(bracket))
         kept = tuple(dict.fromkeys(str(symbol) for symbol in symbols if (symbol.type, symbol) != ("NAME", "Null")))
         return "more", ("setting", ("ignore", kept))
 
@@ -229,10 +230,10 @@ class _Statements(MathematicaExpressions):
 def _plain(name: Token, what: str) -> Token:
     """A name that means nothing else in Mathematica."""
     if name.endswith("_"):
-        raise Misread(ModelSyntaxError, f'{what} has a name without "_" at its end', _around(name),
+        raise ActionError(ModelSyntaxError, f'{what} has a name without "_" at its end', _around(name),
                       f'Type "{name.rstrip("_")}".')
     if name == "Degree":
-        raise Misread(ModelNameError, f'{what} cannot be called "Degree"', _around(name),
+        raise ActionError(ModelNameError, f'{what} cannot be called "Degree"', _around(name),
                       "It says that an angle is in degrees.")
     return name
 
@@ -243,7 +244,7 @@ def _rule(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, right
     every = (*left, pattern, *right)
     condition = condition_of(condition for one in every for condition in one.conditions)
     if isinstance(condition, Apply) and condition.depth > current().depth:
-        raise Misread(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
+        raise ActionError(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
     numbers = count(1)
     modules = tuple(_module(one, numbers) for one in every)
     production = Production(modules[len(left)], successor, condition, modules[:len(left)], modules[len(left) + 1:])

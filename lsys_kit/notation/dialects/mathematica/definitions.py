@@ -21,8 +21,8 @@ Thing = TypeVar("Thing")
 _PARTS = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
 _HINTS = {
     "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _PARTS,
-    "row of rules": _PARTS,
-    "rule": 'A rule is defined before its name stands in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
+    "list of rules": _PARTS,
+    "rule": 'A rule is defined before its name is used in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
 
 
 @dataclass
@@ -136,11 +136,11 @@ def rules_in(definitions: Definitions, system: SystemDefinition) -> Iterator[Rul
     if rules is None:
         rules, alone = RuleList(tuple(definitions.single.values())), []
     if alone:
-        definitions.notes["A rule that stands outside of LRULES is not used."] = None
+        definitions.notes["A rule outside of LRULES is not used."] = None
     if isinstance(rules, Token):
-        rules = _called(definitions, definitions.rules, rules, "row of rules")
+        rules = _called(definitions, definitions.rules, rules, "list of rules")
     if rules.comma:
-        definitions.notes["The comma behind the last LRule is passed over."] = None
+        definitions.notes["The comma after the last LRule is ignored."] = None
     for member in rules.members:
         yield member if isinstance(member, RuleDefinition) else _called(definitions, definitions.single, member, "rule")
 

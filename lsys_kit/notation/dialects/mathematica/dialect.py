@@ -10,6 +10,7 @@ from lsys_kit.notation.dialects.mathematica.actions import SYMBOL_PATTERN, trans
 from lsys_kit.notation.dialects.mathematica.builder import finish
 from lsys_kit.notation.dialects.mathematica.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
+from lsys_kit.notation.dialects.mathematica.spelling import SPELLING
 from lsys_kit.notation.dialects.mathematica.statements import statements
 from lsys_kit.notation.dialects.mathematica.writer import module_text, system_text
 from lsys_kit.notation.model.expressions import Apply, Name
@@ -64,4 +65,5 @@ def _used(system: LSystem) -> tuple[set[str], set[str]]:
 
 MATHEMATICA = Dialect(
     name="mathematica", statements=statements, records=transformer, finish=finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)))
+    joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)),
+    spelling=SPELLING)

@@ -14,7 +14,6 @@ from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_co
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import ParseFailure, blank_parentheses
 from lsys_kit.notation.syntax.formatting import first_missing, settings
-from lsys_kit.notation.syntax.predecessor_diagnostics import PRODUCTION
 from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
 
 NAME = "plant-string"
@@ -35,9 +34,9 @@ _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern
 """How lines begin that other notations hardly have, and how much each says."""
 
 
-def _of_others(failure: ParseFailure) -> ModelSyntaxError | None:
+def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
     """What only other notations have, or a line of a lesson without its colon."""
-    line = failure.text[failure.start:failure.end]
+    line = failure.statement
     keyword, heading = _KEYWORD.match(line), _HEADING.match(line)
     if keyword:
         return failure.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
@@ -45,7 +44,7 @@ def _of_others(failure: ParseFailure) -> ModelSyntaxError | None:
     if heading:
         return missing_keyword_colon(failure.source, failure.start, heading[1], line[heading.end():])
     if failure.found == ":" and ARROW.search(failure.before):
-        return failure.error("A plant string has no probabilities", PRODUCTION)
+        return failure.error("A plant string has no probabilities", failure.spelling.rule_example)
     return None
 
 
@@ -93,6 +92,6 @@ def _branches(words: Iterable[str]) -> int:
 
 
 PLANT_STRING = Dialect(
-    name=NAME, statements=statements, records=Statements, finish=_finish, diagnostics=(_of_others, *DIAGNOSTICS), module=str,
-    joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
+    name=NAME, statements=statements, records=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
+    module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
     starts=("statement", "word"))
