@@ -40,8 +40,8 @@ class LSystemError(Exception):
 
     def __init__(self, message: str, source: str | None = None, start: int | None = None, end: int | None = None,
                  hint: str | None = None) -> None:
-        self.message, self.source = _plain(message), source
-        self.hint = None if hint is None else _plain(hint)
+        self.message, self.source = _printable_text(message), source
+        self.hint = None if hint is None else _printable_text(hint)
         self.line: int | None = None
         self.column: int | None = None
         self.end: int | None = None
@@ -57,7 +57,7 @@ class LSystemError(Exception):
 
     def with_hint(self, hint: str) -> Self:
         """The same error with another hint."""
-        self.hint = _plain(hint)
+        self.hint = _printable_text(hint)
         self.args = (self._text(),)
         return self
 
@@ -126,7 +126,7 @@ def printable(character: str) -> str:
     return character if character.isprintable() else "?"
 
 
-def _plain(text: str) -> str:
+def _printable_text(text: str) -> str:
     """A text with its lines, whatever a person's text in it may hold that would not show or would turn it around."""
     return "\n".join("".join(map(printable, line)) for line in text.split("\n"))
 

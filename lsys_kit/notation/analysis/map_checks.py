@@ -16,7 +16,7 @@ LEAST_WALLS = 3
 def check_map(system: MapSystem) -> None:
     """The first cell has an inside, and each wall has at most one production, which can be applied from either of its ends."""
     if len(system.axiom) < LEAST_WALLS:
-        raise problem("cell without inside", _place(system.axiom),
+        raise problem("cell without inside", _row_span(system.axiom),
                     walls="1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls")
     met: set[Edge] = set()
     for production in system.productions:
@@ -38,7 +38,7 @@ def _check_markers(production: EdgeProduction) -> None:
     """Markers belong between two parts of a wall, not at its ends, where they would touch other walls."""
     parts = production.successor
     if not production.walls:
-        raise problem("wall erased", _place(parts), wall=production.predecessor)
+        raise problem("wall erased", _row_span(parts), wall=production.predecessor)
     end = next((part for part in (parts[0], parts[-1]) if isinstance(part, Marker)), None)
     if end is not None:
         raise problem("marker at end", end.at)
@@ -48,7 +48,7 @@ def _check_neutral(production: EdgeProduction) -> None:
     """A wall without direction may be read from either end, so what it becomes must be the same from both."""
     if production.predecessor.arrow or places(production.successor) == places(production.turned):
         return
-    raise problem("neutral wall not symmetric", _place(production.successor), wall=production.predecessor,
+    raise problem("neutral wall not symmetric", _row_span(production.successor), wall=production.predecessor,
                 backwards="".join(map(str, production.turned)))
 
 
@@ -68,7 +68,7 @@ def places(parts: tuple[SuccessorPart, ...]) -> list[Edge | tuple[tuple[Edge, ..
     return sides
 
 
-def _place(parts: tuple[SuccessorPart, ...]) -> TextSpan:
+def _row_span(parts: tuple[SuccessorPart, ...]) -> TextSpan:
     """The offsets of a row of parts."""
     first, last = parts[0].at, parts[-1].at
     return (first[0], last[1]) if first and last else None

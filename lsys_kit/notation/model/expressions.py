@@ -108,14 +108,14 @@ def styled_text(expression: Expression, style: Style = PLAIN_STYLE) -> str:
         return spelt + style.brackets[0] + ", ".join(styled_text(o, style) for o in expression.operands) + style.brackets[1]
     if len(expression.operands) == 1:
         tightly = 7 if expression.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
-        return spelt[0] + _within(expression.operands[0], tightly, style)
+        return spelt[0] + _operand_text(expression.operands[0], tightly, style)
     left, right = expression.operands
     power = expression.operator == "^"
-    return (_within(left, operator.precedence + power, style) + operator.spelling(spelt)
-            + _within(right, operator.precedence + (not power), style))
+    return (_operand_text(left, operator.precedence + power, style) + operator.spelling(spelt)
+            + _operand_text(right, operator.precedence + (not power), style))
 
 
-def _within(expression: Expression, precedence: int, style: Style) -> str:
+def _operand_text(expression: Expression, precedence: int, style: Style) -> str:
     """The operand's text, in parentheses where it binds less tightly than its surroundings."""
     own, text = None, styled_text(expression, style)
     if isinstance(expression, Apply):

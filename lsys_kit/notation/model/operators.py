@@ -49,7 +49,7 @@ class Operator:
         "number" or "truth".
     arity
         The least and the greatest number of operands.
-    asks
+    conditional
         Whether its first operand is a truth, whatever the others are.
     random
         Whether it gives another number at every use.
@@ -62,7 +62,7 @@ class Operator:
     takes: str = "number"
     gives: str = "number"
     arity: tuple[int, int] = (2, 2)
-    asks: bool = False
+    conditional: bool = False
     random: bool = False
     looks: bool = False
 
@@ -71,7 +71,7 @@ class Operator:
 
     def wanted(self, index: int) -> str:
         """What the operand with an index must be: a "number" or a "truth"."""
-        return "truth" if self.asks and index == 0 else self.takes
+        return "truth" if self.conditional and index == 0 else self.takes
 
 
 def _strict(function: Callable[..., Any]) -> Callable[..., Function]:
@@ -181,7 +181,7 @@ OPERATORS: Mapping[str, Operator] = {
     "min": Operator(_strict(min), None, arity=(2, 16)),
     "max": Operator(_strict(max), None, arity=(2, 16)),
     "mod": Operator(_strict(lambda x, y: bounded_exact(x % y)), None),
-    "if": Operator(_if, None, arity=(3, 3), asks=True),
+    "if": Operator(_if, None, arity=(3, 3), conditional=True),
     "sqrt": _function("sqrt", math.sqrt),
     "exp": _function("exp", math.exp),
     "log": _function("log", math.log),

@@ -36,7 +36,7 @@ class ActionError(Exception):
         super().__init__(message)
 
 
-def _around(*parts: Any) -> TextSpan:
+def place_of(*parts: Any) -> TextSpan:
     """The offsets from the first to the last of some tokens or records."""
     first, last = parts[0], parts[-1]
     start: int = first.start_pos if isinstance(first, Token) else first.at[0]  # type: ignore[assignment]
@@ -44,14 +44,14 @@ def _around(*parts: Any) -> TextSpan:
     return start, end
 
 
-def _check_name(token: Token) -> None:
+def check_name(token: Token) -> None:
     if len(token) > current().name:
-        raise problem("name too long", _around(token), most=current().name)
+        raise problem("name too long", place_of(token), most=current().name)
 
 
 def _symbol(token: Token) -> str:
     """A symbol as the kit spells it: with an arrow over it in print, the letter and where the arrow points, L_r or L_l."""
-    _check_name(token)
+    check_name(token)
     if token.type != "PRINTED":
         return _SPELLINGS.get(token, str(token))
     letters = re.sub(r"^\\[a-z]+|\W", "", token)
@@ -63,11 +63,11 @@ def _symbol(token: Token) -> str:
 def _number(token: Token) -> Number:
     exponent = re.search(r"[eE]([+-]?\d+)$", token)
     if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
-        raise problem("number too long", _around(token))
+        raise problem("number too long", place_of(token))
     value = normalised(Fraction(str(token)))
     if value > float_info.max:
-        raise problem("number too large", _around(token))
-    return Number(value, _around(token))
+        raise problem("number too large", place_of(token))
+    return Number(value, place_of(token))
 
 
 def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> None:
@@ -75,10 +75,10 @@ def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> N
     least, most = OPERATORS[operator].arity
     if not least <= len(operands) <= most:
         wanted = f"{least if least == most else f'{least} or more'} value{'s' * (most > 1)}"
-        raise problem("number of arguments", _around(name), name=name, wanted=wanted, given=len(operands))
+        raise problem("number of arguments", place_of(name), name=name, wanted=wanted, given=len(operands))
 
 
-def _named(part: Any) -> bool:
+def _is_named(part: Any) -> bool:
     """Whether a part of a statement comes with its name."""
     return isinstance(part, tuple) and len(part) == 2 and isinstance(part[0], str)
 
@@ -91,28 +91,28 @@ class Expressions(Transformer[Any, Any]):
         return _number(token)
 
     def name(self, token: Token) -> Name:
-        _check_name(token)
-        return Name(str(token), _around(token))
+        check_name(token)
+        return Name(str(token), place_of(token))
 
     def unary(self, sign: Token, operand: Expression) -> Expression:
         operator = _SPELLINGS.get(sign, str(sign))
         if operator == "+":
             return operand
         if operator == "-" and isinstance(operand, Number):
-            return Number(-operand.value, _around(sign, operand))
-        return self._applied("-x" if operator == "-" else operator, (operand,), _around(sign, operand))
+            return Number(-operand.value, place_of(sign, operand))
+        return self._applied("-x" if operator == "-" else operator, (operand,), place_of(sign, operand))
 
     def binary(self, left: Expression, sign: Token, right: Expression) -> Expression:
-        return self._applied(_SPELLINGS.get(sign, str(sign)), (left, right), _around(left, right))
+        return self._applied(_SPELLINGS.get(sign, str(sign)), (left, right), place_of(left, right))
 
     def call(self, name: Token, *operands: Expression) -> Expression:
         operator = OPERATORS.get(name)
         functions = [known for known, entry in OPERATORS.items() if entry.precedence is None]
         if operator is None or name not in functions:
-            raise problem("unknown function", _around(name), closest(name, functions, 0.7), name=name,
+            raise problem("unknown function", place_of(name), closest(name, functions, 0.7), name=name,
                         known=", ".join(sorted(functions)))
         check_arity(name, str(name), operands)
-        return self._applied(str(name), operands, _around(name, operands[-1]))
+        return self._applied(str(name), operands, place_of(name, operands[-1]))
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
         applied = Apply(operator, operands, at)
@@ -128,7 +128,7 @@ class Statements(Transformer[Any, Any]):
     """What the grammars of the notations name."""
 
     def module(self, symbol: Token, *arguments: Any) -> Pattern:
-        at = _around(symbol, *arguments)
+        at = place_of(symbol, *arguments)
         if symbol.type == "TIMED":
             symbol, arguments = arguments[0], arguments[1:]
         return Pattern(_symbol(symbol), arguments, at)
@@ -158,34 +158,34 @@ class Statements(Transformer[Any, Any]):
         return "condition", None
 
     def repeat(self, keyword: Token, count: Expression, *rest: Any) -> Repeat:
-        repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", _around(keyword, rest[-1][-1]))
+        repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", place_of(keyword, rest[-1][-1]))
         if repeat.depth > current().depth:
-            raise problem("repetitions too deep", _around(keyword), most=current().depth)
+            raise problem("repetitions too deep", place_of(keyword), most=current().depth)
         return repeat
 
     def production(self, *parts: Any) -> tuple[str, Production]:
         modules = [part for part in parts if isinstance(part, Pattern)]
-        successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
-        return "production", Production(modules[0], successor, **dict(part for part in parts if _named(part)))
+        successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
+        return "production", Production(modules[0], successor, **dict(part for part in parts if _is_named(part)))
 
     def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Any) -> tuple[str, MetaRule]:
-        successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
-        return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _named(part)))
+        successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
+        return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _is_named(part)))
 
     def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         bracket = next((name for name in names if name in "[]"), None)
         if bracket is not None:
-            raise problem("bracket in list", _around(bracket))
+            raise problem("bracket in list", place_of(bracket))
         return keyword.rstrip(": \t").lower(), tuple(dict.fromkeys(map(_symbol, names)))
 
     def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "axiom", word
 
     def plain_axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
-        return "more", ("axiom", word)
+        return "deferred", ("axiom", word)
 
     def delta(self, _: Token, value: Expression, *sign: Token) -> tuple[str, Any]:
-        return "more", ("angle", value)
+        return "deferred", ("angle", value)
 
     def vocabulary(self, _: Token, *letters: Token) -> tuple[str, tuple[str, ...]]:
         """Only names of several letters might be mistaken."""
@@ -194,7 +194,7 @@ class Statements(Transformer[Any, Any]):
     def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:
         ends = [part for part in rest if not isinstance(part, Token)]
         step = ends[2] if len(ends) == 3 else Number(1)
-        _check_name(name)
+        check_name(name)
         return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
 
     def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
@@ -214,10 +214,10 @@ class Statements(Transformer[Any, Any]):
         return "section", keyword.rstrip(": \t").lower()
 
     def heading(self, _: Token) -> tuple[str, Any]:
-        return "more", ("heading", None)
+        return "deferred", ("heading", None)
 
     def how_many(self, _: Token, number: Token) -> tuple[str, Any]:
-        return "more", ("how many", _number(number))
+        return "deferred", ("how many", _number(number))
 
     def stage(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
-        return "more", ("stage", word)
+        return "deferred", ("stage", word)

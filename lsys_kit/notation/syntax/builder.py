@@ -20,11 +20,11 @@ from lsys_kit.notation.model.expressions import names_in
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
-_ROWS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
+_SYMBOL_LISTS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are rows of symbols, and where a system has them."""
-_PLAIN = frozenset(("turtle", "cells"))
+_TEXT_SETTINGS = frozenset(("turtle", "cells"))
 """The settings that are texts."""
-_COUNTED = {"steps": "steps", "depth": "rounds", "decomposition_depth": "rounds"}
+_COUNTS = {"steps": "steps", "depth": "rounds", "decomposition_depth": "rounds"}
 """The settings that are whole numbers from 0 on, and what they count."""
 
 
@@ -38,8 +38,8 @@ class Draft:
         The text, the notation in which it is read, and whose turtle commands are meant if it says nothing.
     settings
         What is set, by the names of the statements.
-    more
-        What only the notation itself knows how to put together.
+    deferred
+        Statements that only the dialect itself can complete, once all are read.
     notes
         What is worth telling.
     """
@@ -54,7 +54,7 @@ class Draft:
     meta: list[MetaRule] = field(default_factory=list)
     settings: dict[str, Any] = field(default_factory=dict)
     section: str = "productions"
-    more: list[tuple[str, Any, tuple[int, int]]] = field(default_factory=list)
+    deferred: list[tuple[str, Any, tuple[int, int]]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
     def add(self, kind: str, record: Any, at: tuple[int, int]) -> None:
@@ -74,8 +74,8 @@ class Draft:
             self.section = record
         elif kind == "meta":
             self.meta.append(replace(record, at=at))
-        elif kind == "more":
-            self.more.append((*record, at))
+        elif kind == "deferred":
+            self.deferred.append((*record, at))
         else:
             self._set(kind, record, at)
 
@@ -102,23 +102,23 @@ def build_system(draft: Draft) -> LSystem:
         check_meta(rule, names)
     sections = {section: tuple(productions) for section, productions in draft.sections.items()}
     return LSystem(draft.axiom, constants=tuple(draft.constants), meta=tuple(draft.meta), notation=draft.notation,
-                   source=source, notes=tuple(draft.notes), **sections, **_settings(draft))  # type: ignore[arg-type]
+                   source=source, notes=tuple(draft.notes), **sections, **_checked_settings(draft))  # type: ignore[arg-type]
 
 
-def _settings(draft: Draft) -> dict[str, Any]:
+def _checked_settings(draft: Draft) -> dict[str, Any]:
     """What is set, as a system has it."""
     result: dict[str, Any] = {"turtle": draft.turtle}
     for name, setting in draft.settings.items():
-        if name in _ROWS or name in _PLAIN:
-            result[_ROWS.get(name, name)] = setting
+        if name in _SYMBOL_LISTS or name in _TEXT_SETTINGS:
+            result[_SYMBOL_LISTS.get(name, name)] = setting
             continue
         used = sorted(names_in(setting) & {constant.name for constant in draft.constants})
         if used:
             raise problem("constant in setting", setting.at, name=used[0], keyword=name)
         check_expression(setting, ())
         result[name] = value_of(setting)
-        if name in _COUNTED and not (isinstance(result[name], int) and result[name] >= 0):
-            raise problem(f"number of {_COUNTED[name]}", setting.at, expression=setting)
+        if name in _COUNTS and not (isinstance(result[name], int) and result[name] >= 0):
+            raise problem(f"number of {_COUNTS[name]}", setting.at, expression=setting)
         if name == "seed" and not isinstance(result[name], int):
             raise problem("seed", setting.at, expression=setting)
     return result

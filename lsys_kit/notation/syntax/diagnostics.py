@@ -141,7 +141,7 @@ def _equals(failure: ParseFailure) -> ModelSyntaxError | None:
     return failure.error('A single "=" cannot be used here', 'To compare two values, type "==".')
 
 
-def _constant(failure: ParseFailure) -> ModelSyntaxError | None:
+def _constant_declaration(failure: ParseFailure) -> ModelSyntaxError | None:
     """Something in the declaration of a constant."""
     constant = re.match(r"([A-Za-z_]\w*)\s*=(?!=)\s*([A-Za-z_]\w*$)?", failure.before)
     if not constant or ARROW.search(failure.text, failure.start, failure.end) or "RANGE" in failure.accepted:
@@ -177,5 +177,6 @@ def _anything_else(failure: ParseFailure) -> ModelSyntaxError:
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
     foreign_comment, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows, misspelling,
-    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals, value_in_parentheses, _constant)
+    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals, value_in_parentheses,
+    _constant_declaration)
 """The diagnostics of the kit's own notation and of plant strings, the most specific first."""

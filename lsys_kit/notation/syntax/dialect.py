@@ -32,8 +32,8 @@ class Grammar:
     ----------
     name
         What the notation is called.
-    records
-        What its grammar names, as records.
+    transformer
+        What makes records of what its grammar names.
     diagnostics
         What is asked about a slip, the most telling first.
     starts
@@ -43,7 +43,7 @@ class Grammar:
     """
 
     name: str
-    records: Callable[[], Transformer[Any, Any]]
+    transformer: Callable[[], Transformer[Any, Any]]
     diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
     spelling: Spelling = KIT_SPELLING

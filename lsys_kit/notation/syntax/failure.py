@@ -11,7 +11,7 @@ from lsys_kit.errors import ModelSyntaxError, named, printable
 from lsys_kit.notation.syntax.spelling import Spelling
 from lsys_kit.notation.syntax.statements import ARROW, without_comments
 
-_WORDS = {
+_TOKEN_NAMES = {
     "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',
     "COMMA": '","', "COLON": '":"', "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
 }
@@ -123,7 +123,7 @@ def excerpt(text: str) -> str:
 
 def expected_hint(accepted: frozenset[str]) -> str | None:
     """A hint that says what could stand at the place, if that is not too much."""
-    words = sorted({_WORDS[name] for name in accepted if name in _WORDS})
+    words = sorted({_TOKEN_NAMES[name] for name in accepted if name in _TOKEN_NAMES})
     if not words or len(words) > 4:
         return None
     return "Possible here: " + " or ".join((", ".join(words[:-1]), words[-1]) if len(words) > 1 else words) + "."

@@ -40,4 +40,4 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
 @cache
 def _parser(notation: Grammar) -> Lark:
     return Lark.open(str(_SYNTAX.parent / "dialects" / notation.file), import_paths=[str(_SYNTAX)], parser="lalr",
-                     start=[*notation.starts], maybe_placeholders=False, transformer=notation.records())
+                     start=[*notation.starts], maybe_placeholders=False, transformer=notation.transformer())

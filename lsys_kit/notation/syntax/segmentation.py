@@ -27,7 +27,7 @@ def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
     ['b', 'a']
     """
     word = tuple(word)
-    return _parted(word, _glued(flat(word), *_symbols(system)))
+    return _segmented(word, _glued(flat(word), *_whole_and_parts(system)))
 
 
 def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
@@ -40,12 +40,12 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
     {'JF': ['J', 'F']}
     """
     made: dict[str, list[str]] = {}
-    while found := _glued(_modules(system), *_symbols(system)):
+    while found := _glued(_divisible_modules(system), *_whole_and_parts(system)):
         made |= found
-        system = replace(system, axiom=_parted(system.axiom, found), productions=_parted_rules(system.productions, found),
-                         decomposition=_parted_rules(system.decomposition, found),
-                         interpretation=_parted_rules(system.interpretation, found),
-                         meta=tuple(replace(rule, successor=_parted(rule.successor, found)) for rule in system.meta))
+        system = replace(system, axiom=_segmented(system.axiom, found), productions=_segmented_rules(system.productions, found),
+                         decomposition=_segmented_rules(system.decomposition, found),
+                         interpretation=_segmented_rules(system.interpretation, found),
+                         meta=tuple(replace(rule, successor=_segmented(rule.successor, found)) for rule in system.meta))
     return system, made
 
 
@@ -56,7 +56,7 @@ def segment_with_notes(system: LSystem) -> LSystem:
     return replace(parted, notes=(*system.notes, *notes)) if made else system
 
 
-def _modules(system: LSystem) -> Iterable[Pattern]:
+def _divisible_modules(system: LSystem) -> Iterable[Pattern]:
     """The modules that may be glued: a predecessor is what it is."""
     yield from system.axiom
     for rule in system.rules:
@@ -65,17 +65,17 @@ def _modules(system: LSystem) -> Iterable[Pattern]:
         yield from flat(meta.successor)
 
 
-def _parted_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
-    return tuple(replace(rule, left=_parted(rule.left, made), right=_parted(rule.right, made),
-                         successor=_parted(rule.successor, made)) for rule in rules)
+def _segmented_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
+    return tuple(replace(rule, left=_segmented(rule.left, made), right=_segmented(rule.right, made),
+                         successor=_segmented(rule.successor, made)) for rule in rules)
 
 
-def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
+def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
     """The word with its glued names parted; what a name has in parentheses goes to its last symbol."""
     result: list[Item] = []
     for module in word:
         if isinstance(module, Repeat):
-            result.append(replace(module, body=_parted(module.body, made)))
+            result.append(replace(module, body=_segmented(module.body, made)))
         elif pieces := made.get(module.symbol):
             result += [Pattern(symbol, at=module.at) for symbol in pieces[:-1]]
             result.append(replace(module, symbol=pieces[-1]))
@@ -87,10 +87,10 @@ def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]
 def _glued(modules: Iterable[Pattern], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
     """The glued names among some modules, and the symbols of which each is made."""
     names = dict.fromkeys(module.symbol for module in modules if len(module.symbol) > 1 and module.symbol not in whole)
-    return {name: pieces for name in names if (pieces := _pieces(name, whole, parts))}
+    return {name: pieces for name in names if (pieces := _symbols_of_name(name, whole, parts))}
 
 
-def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
+def _whole_and_parts(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     """The names that stay whole, and the symbols of which a name may be made."""
     rewritten = {rule.predecessor.symbol for rule in system.rules}
     rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
@@ -99,13 +99,13 @@ def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
 
 
-def _pieces(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
+def _symbols_of_name(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
     """The symbols that a name stands for; nothing where it is a symbol of its own."""
     capitals = name.isalpha() and name.isupper() and not whole.isdisjoint(name)
-    return _partings(name, parts) or (list(name) if capitals else [])
+    return _unique_split(name, parts) or (list(name) if capitals else [])
 
 
-def _partings(name: str, parts: frozenset[str]) -> list[str]:
+def _unique_split(name: str, parts: frozenset[str]) -> list[str]:
     """The one way to part a name into symbols, or nothing where there is none or more than one."""
     ways: list[list[list[str]]] = [[[]]]
     for end in range(1, len(name) + 1):

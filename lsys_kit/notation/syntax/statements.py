@@ -11,7 +11,7 @@ from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
 _STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
-_GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
+_CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
 PER_RULE = 64
 """How many characters there may be for each production that a model may have, blanks and comments not counted."""
 
@@ -33,7 +33,7 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     end, last = 0, ""
     for offset, line in lines:
         indented = len(line) - len(line.lstrip()) > base
-        goes_on = ARROW.match(line.lstrip()) or (indented and (_GOES_ON.search(last) or not _STARTS.search(line)))
+        goes_on = ARROW.match(line.lstrip()) or (indented and (_CONTINUES.search(last) or not _STARTS.search(line)))
         if start is not None and not goes_on:
             yield start, end
         if start is None or not goes_on:

@@ -62,13 +62,13 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     condition, probability = production.condition, production.probability
     done = replace(
         production, condition=None if condition is None else rule.replaced(condition, first),
-        successor=tuple(_module(rule, module, last) for module in flat(production.successor)),
+        successor=tuple(_substituted_module(rule, module, last) for module in flat(production.successor)),
         probability=None if probability is None else rule.replaced(probability, last))
     _check_draws(done, (*before, *after), source)
     return done
 
 
-def _module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
+def _substituted_module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
     return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))
 
 
@@ -109,19 +109,19 @@ class _Rule:
 
     def replaced(self, expression: Expression, values: Bindings) -> Expression:
         """An expression with what its names stand for."""
-        result = _replaced(expression, values)
+        result = _with_values(expression, values)
         if getattr(result, "depth", 0) > current().depth or _long(result):
             raise ModelSyntaxError("What is computed here becomes too long an expression", self.source, *span(expression),
                                    "Compute less in one rule, and the rest in the next step.")
         return result
 
 
-def _replaced(expression: Expression, values: Bindings) -> Expression:
+def _with_values(expression: Expression, values: Bindings) -> Expression:
     if isinstance(expression, Name):
         return values.get(expression.name, expression)
     if not isinstance(expression, Apply):
         return expression
-    operands = tuple(_replaced(operand, values) for operand in expression.operands)
+    operands = tuple(_with_values(operand, values) for operand in expression.operands)
     same = all(new is old for new, old in zip(operands, expression.operands, strict=True))
     return expression if same else replace(expression, operands=operands)
 

@@ -73,7 +73,7 @@ def _end_of_block(failure: ParseFailure) -> ModelSyntaxError | None:
     return None
 
 
-def _macro(failure: ParseFailure) -> ModelSyntaxError | None:
+def _macro_definition(failure: ParseFailure) -> ModelSyntaxError | None:
     """A constant without a name or a value, or with a value that is not a number."""
     statement = failure.statement
     defined = _MACRO.match(statement)
@@ -120,5 +120,5 @@ def _similar_keyword(name: str) -> str | None:
     return next((keyword for keyword in CPFG_KEYWORDS if keyword.lower() in close), None)
 
 
-DIAGNOSTICS: Sequence[Diagnostic] = (_feature, _in_a_block, _end_of_block, _macro, _keyword, *SHARED_DIAGNOSTICS)
+DIAGNOSTICS: Sequence[Diagnostic] = (_feature, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
 """The diagnostics of a cpfg text, the most specific first."""

@@ -6,16 +6,14 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from lark import Transformer
-
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
-from lsys_kit.notation.dialects.cpfg.actions import Records
+from lsys_kit.notation.dialects.cpfg.actions import CpfgStatements
 from lsys_kit.notation.dialects.cpfg.blocks import substitute
 from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
 from lsys_kit.notation.dialects.cpfg.statements import statements
-from lsys_kit.notation.dialects.cpfg.writer import joined, missing_feature, module_text, system_text
+from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system
@@ -26,13 +24,9 @@ from lsys_kit.notation.syntax.statements import ARROW, without_comments
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
     re.MULTILINE | re.IGNORECASE)
-_AXIOM = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
+_AXIOM_MARK = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
 _DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
 _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*")
-
-
-def _records() -> Transformer[Any, Any]:
-    return Records()
 
 
 def _finish(draft: Draft) -> LSystem:
@@ -46,7 +40,7 @@ def _finish(draft: Draft) -> LSystem:
 def _complete(draft: Draft) -> None:
     """Take in what is known only when the whole text is read: the sections, and what the blocks of the rules compute."""
     section, constants = "productions", [constant.name for constant in draft.constants]
-    for kind, record, at in draft.more:
+    for kind, record, at in draft.deferred:
         if kind == "section":
             section = record
             draft.add(kind, record, at)
@@ -55,10 +49,10 @@ def _complete(draft: Draft) -> None:
             draft.add("production", substitute(production, before, after, constants, draft.source), at)
         elif kind == "count":
             keyword, expression = record
-            _count(draft, section, keyword, expression, at)
+            _resolve_count(draft, section, keyword, expression, at)
 
 
-def _count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
+def _resolve_count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
     """A number of steps or rounds, or a seed, which the constants may say."""
     depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
     if keyword == "maximum depth" and section not in depths:
@@ -121,7 +115,7 @@ def _enclosed(value: str) -> bool:
 def _likely(text: str) -> int:
     """Ten for each mark that only cpfg has; two for a capital "Axiom:" and long arrows after single letters."""
     marks = len(_MARKS.findall(text))
-    if not marks and _AXIOM.search(text):
+    if not marks and _AXIOM_MARK.search(text):
         heads = [line[:arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"]
         single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", blank_parentheses(head).split(":")[0]))
         return 2 * (bool(heads) and single)
@@ -129,5 +123,5 @@ def _likely(text: str) -> int:
 
 
 CPFG = Dialect(
-    name="cpfg", statements=statements, records=_records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined, write=system_text, lacking=missing_feature, likely=_likely, spelling=SPELLING)
+    name="cpfg", statements=statements, transformer=CpfgStatements, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined=joined_word, write=system_text, lacking=missing_feature, likely=_likely, spelling=SPELLING)

@@ -135,15 +135,17 @@ def _spelt(expression: Expression) -> Expression:
     if operator in ("min", "max"):
         return Name(f"({texts[0]} {'<' if operator == 'min' else '>'} {texts[1]} ? {texts[0]} : {texts[1]})")
     if operator == "uniform":
-        return Name(f"ran({texts[1]})" if operands[0] == ZERO else f"({_apart(operands[0])} + ran({_between(expression)}))")
+        if operands[0] == ZERO:
+            return Name(f"ran({texts[1]})")
+        return Name(f"({_parenthesised(operands[0])} + ran({_between(expression)}))")
     if operator == "mod":
-        return Name(f"({_apart(operands[0])} % {_apart(operands[1])})")
+        return Name(f"({_parenthesised(operands[0])} % {_parenthesised(operands[1])})")
     if operator in ("-x", "^"):  # both bind otherwise in cpfg than in the kit
-        operands = (*operands[:-1], Name(_apart(operands[-1])))
+        operands = (*operands[:-1], Name(_parenthesised(operands[-1])))
     return Apply(operator, operands)
 
 
-def _apart(expression: Expression) -> str:
+def _parenthesised(expression: Expression) -> str:
     """The text of an operand, in parentheses where it is made with an operator or has a sign."""
     text = styled_text(expression, _STYLE)
     plain = isinstance(expression, Name) or (isinstance(expression, Number) and text[0] != "-" and "/" not in text)

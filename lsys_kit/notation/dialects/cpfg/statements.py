@@ -19,7 +19,7 @@ _KEYWORD = re.compile(
     r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider"
     r"|angle|heading|length)[ \t]*:|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
     re.IGNORECASE)
-_AXIOM = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
+_AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
 _END = re.compile(r"endlsystem\b", re.IGNORECASE)
 
@@ -61,29 +61,29 @@ def _cut(text: str) -> Iterator[tuple[int, int]]:
     """The offsets of what is no comment."""
     first: _Line | None = None
     end, has_arrow = 0, False
-    for line in _lines(text):
-        if first is not None and not _goes_on(line, first, has_arrow):
+    for line in _nonblank_lines(text):
+        if first is not None and not _continues(line, first, has_arrow):
             yield first.start, end
             first = None
         if line.text.startswith("//") and (first is None or line.text[2:3].isspace()):
             continue
         if first is None:
-            first, has_arrow = line, _AXIOM.match(line.text) is not None
+            first, has_arrow = line, _AXIOM_START.match(line.text) is not None
         end, has_arrow = line.end, has_arrow or ARROW.search(line.text) is not None
     if first is not None:
         yield first.start, end
 
 
-def _goes_on(line: _Line, first: _Line, has_arrow: bool) -> bool:
+def _continues(line: _Line, first: _Line, has_arrow: bool) -> bool:
     """Whether a line goes on with a statement that begins with another; an axiom counts as having its arrow."""
-    if _KEYWORD.match(first.text) or _KEYWORD.match(line.text) or _AXIOM.match(line.text):
+    if _KEYWORD.match(first.text) or _KEYWORD.match(line.text) or _AXIOM_START.match(line.text):
         return False
     if ARROW.match(line.text):
-        return not _AXIOM.match(first.text)
+        return not _AXIOM_START.match(first.text)
     return line.indent > first.indent and not (has_arrow and ARROW.search(line.text))
 
 
-def _lines(text: str) -> Iterator[_Line]:
+def _nonblank_lines(text: str) -> Iterator[_Line]:
     """The lines in which something stands, without a comment behind a setting."""
     for found in re.finditer(r"[^\n]+", without_comments(text)):
         line, said = found.group(), found.group().strip()

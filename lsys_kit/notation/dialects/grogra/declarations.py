@@ -14,7 +14,7 @@ from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Na
 from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
 
-_Function = tuple[int, int]
+_FunctionKey = tuple[int, int]
 """A function of the turtle: its number, and how many values it is asked with."""
 
 
@@ -31,7 +31,7 @@ class Declared:
     """
 
     draws: Mapping[Expression, str]
-    functions: Mapping[_Function, str]
+    functions: Mapping[_FunctionKey, str]
     levels: Mapping[str, int]
 
     @property
@@ -54,15 +54,15 @@ def declarations(system: LSystem) -> Declared:
     [('x0', 'uniform'), ('i', 'index')]
     """
     taken = {name for expression in _expressions(system) for name in names_in(expression)}
-    asked = [found for expression in _expressions(system) for found in _asked(expression)]
+    asked = [found for expression in _expressions(system) for found in _draws_and_senses(expression)]
     draws = dict.fromkeys(found for found in asked if found.operator != "sensed")
-    functions = dict.fromkeys(_function(found) for found in asked if found.operator == "sensed")
+    functions = dict.fromkeys(_function_key(found) for found in asked if found.operator == "sensed")
     levels = {repeat.index: level for repeat, level in _repeats(system) if repeat.index}
-    return Declared(dict(zip(draws, _free("x", taken), strict=False)), dict(zip(functions, _free("f", taken), strict=False)),
-                    levels)
+    return Declared(dict(zip(draws, _free_names("x", taken), strict=False)),
+                    dict(zip(functions, _free_names("f", taken), strict=False)), levels)
 
 
-def _free(letter: str, taken: Collection[str]) -> Iterator[str]:
+def _free_names(letter: str, taken: Collection[str]) -> Iterator[str]:
     """The letter with a number, those left out that have a meaning already."""
     return (name for name in (f"{letter}{number}" for number in count()) if name not in taken)
 
@@ -78,17 +78,17 @@ def _expressions(system: LSystem) -> Iterator[Expression]:
         yield from expressions_of(rule.successor)
 
 
-def _asked(expression: Expression) -> Iterator[Apply]:
+def _draws_and_senses(expression: Expression) -> Iterator[Apply]:
     """The draws and the questions to the turtle in an expression."""
     if isinstance(expression, Apply):
         if expression.operator == "sensed" or OPERATORS[expression.operator].random:
             yield expression
         if not OPERATORS[expression.operator].random:
             for operand in expression.operands:
-                yield from _asked(operand)
+                yield from _draws_and_senses(operand)
 
 
-def _function(asked: Apply) -> _Function:
+def _function_key(asked: Apply) -> _FunctionKey:
     first, count = asked.operands[0], len(asked.operands) - 1
     number = first.value if isinstance(first, Number) else -1
     return (number if isinstance(number, int) else -1), count
@@ -124,7 +124,7 @@ def inexpressible(system: LSystem) -> str | None:
     needed, constants = declarations(system), {constant.name for constant in system.constants}
     for drawn in needed.draws:
         values = as_variable(drawn).values
-        if any(names_in(value) - constants or any(_asked(value)) for value in values):
+        if any(names_in(value) - constants or any(_draws_and_senses(value)) for value in values):
             return "random numbers that depend on parameters"
         if random_call(as_variable(drawn)) != drawn:
             return f"random number like {drawn}"
@@ -147,7 +147,7 @@ def with_variables(expression: Expression, names: Declared) -> Expression:
     operands = tuple(with_variables(operand, names) for operand in expression.operands)
     if expression.operator == "sensed":
         values = f"({', '.join(map(str, operands[1:]))})" if operands[1:] else ""
-        return Name(f"{names.functions[_function(expression)]}{values}")
+        return Name(f"{names.functions[_function_key(expression)]}{values}")
     return Apply(expression.operator, operands)
 
 

@@ -150,19 +150,19 @@ def _comparison(failure: ParseFailure) -> ModelSyntaxError | None:
     return None if unclosed_bracket(failure.before) is None else second_comparison(failure)
 
 
-def _number(failure: ParseFailure) -> ModelSyntaxError | None:
+def _stray_number(failure: ParseFailure) -> ModelSyntaxError | None:
     """A number that belongs to nothing."""
     if failure.found[:1].isdigit() and "IDENTIFIER" in failure.accepted:
         return failure.error("A number is not a module", _NUMBER)
     return None
 
 
-def _macro(failure: ParseFailure) -> ModelSyntaxError | None:
+def _tex_macro(failure: ParseFailure) -> ModelSyntaxError | None:
     word = re.match(r"\\[A-Za-z]+", failure.after)
     return failure.error(f'I do not know "{word[0]}"', expected_hint(failure.accepted), length=len(word[0])) if word else None
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
     foreign_comment, _no_predecessor, _comma, _directive, _comparison, _predecessor, _repeat, repetition, misspelling,
-    _other_notation, parentheses, _arrow, second_arrow, unreadable_character, value_in_parentheses, _number, _macro)
+    _other_notation, parentheses, _arrow, second_arrow, unreadable_character, value_in_parentheses, _stray_number, _tex_macro)
 """The diagnostics of a text in GROGRA's notation, the most specific first."""

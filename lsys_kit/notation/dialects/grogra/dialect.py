@@ -27,7 +27,7 @@ from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.statements import without_comments
 from lsys_kit.notation.syntax.wording import reporting
 
-_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
+_SLIDE_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
               **{tex: sign for tex, sign in RELATIONS.items() if tex != "="}}
 """How the slides spell what GROGRA writes otherwise."""
 _SPELT = re.compile(r"[→⟶]|\\[A-Za-z]+|\bStartwort\b")
@@ -47,8 +47,8 @@ def _finish(draft: Draft) -> LSystem:
     """The system, once variables are replaced, the axiom is found, and chance is whole."""
     notes = _complete(draft)
     _check_constants(draft)
-    variables = [replace(record, at=record.at or at) for kind, record, at in draft.more if kind == "variable"]
-    _begin(draft, notes)
+    variables = [replace(record, at=record.at or at) for kind, record, at in draft.deferred if kind == "variable"]
+    _default_axiom(draft, notes)
     _replace_variables(draft, variables)
     system, read_as = with_ones(build_system(draft))
     productions, said = complete_probabilities(system)
@@ -59,7 +59,7 @@ def _finish(draft: Draft) -> LSystem:
 def _complete(draft: Draft) -> list[str]:
     """Take in the settings and the rules of the interpretation; notes on them."""
     notes = []
-    for kind, record, at in draft.more:
+    for kind, record, at in draft.deferred:
         if kind == "axiom":
             word, steps = record
             draft.add("axiom", word, at)
@@ -84,7 +84,7 @@ def _set(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
     draft.settings[name] = value
 
 
-def _begin(draft: Draft, notes: list[str]) -> None:
+def _default_axiom(draft: Draft, notes: list[str]) -> None:
     """Without an axiom the word begins with "*", or, where no rule is for it, with the first rule's left side."""
     rules = [rule for section in draft.sections.values() for rule in section]
     if draft.axiom is not None:
@@ -122,7 +122,7 @@ def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
 def _spelt(source: str) -> Iterator[str]:
     """Notes on what the slides spell otherwise."""
     found = dict.fromkeys(_SPELT.findall(without_comments(source)))
-    pairs = [f'"{word}" as "{_SPELLINGS[word]}"' for word in found if word in _SPELLINGS]
+    pairs = [f'"{word}" as "{_SLIDE_SPELLINGS[word]}"' for word in found if word in _SLIDE_SPELLINGS]
     if pairs:
         yield f"Read as in GROGRA: {', '.join(pairs)}."
     if "\\dots" in found:
@@ -182,6 +182,6 @@ def _reads_back(module: Pattern) -> bool:
 
 
 GROGRA = Dialect(
-    name="grogra", statements=statements, records=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    name="grogra", statements=statements, transformer=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
     joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra",
     spelling=SPELLING)

@@ -23,7 +23,7 @@ from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 
 _Condition = Expression | None
-_COMPARED = 100
+_MOST_COMPARED = 100
 """So many conditions are compared with each other; of more, any two may hold together."""
 
 
@@ -140,7 +140,7 @@ class _Shares:
     def beside(self, condition: _Condition) -> list[_Condition]:
         """The conditions that may hold together with another."""
         return [other for other in self.parts
-                if other in (None, condition) or len(self.parts) > _COMPARED or not exclusive(other, condition)]
+                if other in (None, condition) or len(self.parts) > _MOST_COMPARED or not exclusive(other, condition)]
 
     def taken(self, condition: _Condition) -> Fraction:
         """What is taken at most where a condition holds."""
@@ -151,7 +151,7 @@ class _Shares:
         beside = self.beside(condition)
         asked = [(other, share) for other in beside for share in self.parts[other]]
         if {*beside} <= {None, condition} and not any(names_in(share) for _, share in asked):
-            return _number(max(Fraction(0), 1 - self.taken(condition)))
+            return _exact_number(max(Fraction(0), 1 - self.taken(condition)))
         return _remaining([s if other in (None, condition) else Apply("if", (other, s, Number(0))) for other, s in asked])
 
     def give(self, condition: _Condition, share: Expression | None) -> Expression:
@@ -222,7 +222,7 @@ def _complete(system: LSystem, row: Sequence[int], constants: frozenset[str], fo
     return notes
 
 
-def _number(value: Fraction) -> Expression:
+def _exact_number(value: Fraction) -> Expression:
     """A number as it reads: a decimal fraction, or a quotient."""
     if "/" in number_text(value):
         return Apply("/", (Number(value.numerator), Number(value.denominator)))

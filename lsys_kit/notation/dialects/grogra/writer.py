@@ -16,7 +16,7 @@ from lsys_kit.notation.syntax.formatting import first_missing
 
 STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
-_PLAIN = re.compile(r"-?\d+(\.\d+)?")
+_PLAIN_NUMBER = re.compile(r"-?\d+(\.\d+)?")
 START = (Pattern("*"),)
 """The axiom of a text that names none."""
 
@@ -28,7 +28,7 @@ def module_text(module: Module | Pattern) -> str:
     RU45 L*0.6 a(1, 2)
     """
     texts = [styled_text(a, STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
-    if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN.fullmatch(texts[0]):
+    if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN_NUMBER.fullmatch(texts[0]):
         return module.symbol + texts[0]
     return f"{module.symbol}({', '.join(texts)})" if texts else module.symbol
 
@@ -49,11 +49,11 @@ def joined_word(texts: Iterable[str]) -> str:
 
 def successor_text(items: Iterable[Item]) -> str:
     """The text of a successor, with what is repeated as `&(n) < ... >`."""
-    return joined_word(f"&{_count(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
+    return joined_word(f"&{_count_text(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
                        else module_text(item) for item in items)
 
 
-def _count(count: Expression) -> str:
+def _count_text(count: Expression) -> str:
     text = styled_text(count, STYLE)
     return text if text.isdigit() else f"({text})"
 
@@ -85,15 +85,16 @@ def _settings(system: LSystem) -> Iterator[str]:
                                     ("\\length", system.length, None), ("\\set seed", system.seed, None),
                                     ("\\set depth", system.depth, 1)):
         if value is not None and value != usual:
-            yield f"{directive} {_alone(Number(value))}"
+            yield f"{directive} {_value_text(Number(value))}"
 
 
 def _constant(constant: Constant) -> str:
-    ends = [_alone(part) for part in constant.range or ()]
-    return f"\\const {constant.name} {_alone(constant.value)}" + (f" in {ends[0]} .. {ends[1]} by {ends[2]}" if ends else "")
+    ends = [_value_text(part) for part in constant.range or ()]
+    span = " in {} .. {} by {}".format(*ends) if ends else ""
+    return f"\\const {constant.name} {_value_text(constant.value)}{span}"
 
 
-def _alone(value: Expression) -> str:
+def _value_text(value: Expression) -> str:
     """A value as it stands in a line of its own: in parentheses, if it is calculated."""
     text = styled_text(value, STYLE)
     return text if isinstance(value, Name) or re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text) else f"({text})"
@@ -106,7 +107,7 @@ def _axiom(system: LSystem) -> Iterator[str]:
 
 
 def _variable(variable: Variable) -> str:
-    return " ".join(("\\var", variable.name, variable.kind, *map(_alone, variable.values)))
+    return " ".join(("\\var", variable.name, variable.kind, *map(_value_text, variable.values)))
 
 
 def missing_feature(system: LSystem) -> str | None:

@@ -33,7 +33,7 @@ _FOREIGN_SIGNS: Mapping[str, tuple[str, str]] = {
 """Signs that other systems have and maps have not: what to say of them, what to write."""
 
 
-def _setting(failure: ParseFailure) -> ModelSyntaxError | None:
+def _foreign_setting(failure: ParseFailure) -> ModelSyntaxError | None:
     """A word with a colon, which maps do not have; or the first cell without its colon, or without walls."""
     statement = failure.statement
     setting, axiom = _SETTING.match(statement), _FIRST_CELL.match(statement)
@@ -112,5 +112,6 @@ def _walls(failure: ParseFailure) -> ModelSyntaxError | None:
     return failure.error(*_FOREIGN_SIGNS[failure.found]) if failure.found in _FOREIGN_SIGNS else None
 
 
-DIAGNOSTICS: Sequence[Diagnostic] = (foreign_comment, _setting, _brackets, second_arrow, _arrow, _walls, unreadable_character)
+DIAGNOSTICS: Sequence[Diagnostic] = (
+    foreign_comment, _foreign_setting, _brackets, second_arrow, _arrow, _walls, unreadable_character)
 """The diagnostics of a map system, the most specific first."""

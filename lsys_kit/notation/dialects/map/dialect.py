@@ -87,7 +87,7 @@ def _system(text: str) -> MapSystem:
 
 
 @v_args(inline=True)
-class _Records(Transformer[Any, Any]):
+class _MapStatements(Transformer[Any, Any]):
     """What `grammar.lark` names."""
 
     def edge(self, label: Token, *points: Token) -> Edge:
@@ -113,4 +113,4 @@ class _Records(Transformer[Any, Any]):
         return "steps", int(number)
 
 
-MAP = Grammar(name="map", records=_Records, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING)
+MAP = Grammar(name="map", transformer=_MapStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING)

@@ -23,7 +23,7 @@ from lsys_kit.notation.syntax.segmentation import segment_with_notes
 def finish(draft: Draft) -> LSystem:
     """The system of a text's definitions."""
     definitions = Definitions(draft.source)
-    for kind, record, at in draft.more:
+    for kind, record, at in draft.deferred:
         definitions.take(kind, record, at)
     try:
         return _system(draft, definitions)
@@ -59,7 +59,7 @@ def _system(draft: Draft, definitions: Definitions) -> LSystem:
 def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:
     """The constants so that each uses only those before it: as they were defined, where that is so already."""
     known = {constant.name: constant for constant in constants}
-    uses = {name: _names(constant) & known.keys() for name, constant in known.items()}
+    uses = {name: _names_of_constant(constant) & known.keys() for name, constant in known.items()}
     before: set[str] = set()
     for name in known:
         if not uses[name] <= before:
@@ -75,7 +75,7 @@ def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:
                              "Give it a value that can be computed without it.") from None
 
 
-def _names(constant: Constant) -> set[str]:
+def _names_of_constant(constant: Constant) -> set[str]:
     """The names that a constant's value and range use."""
     return set().union(*(names_in(part) for part in (constant.value, *(constant.range or ()))))
 
@@ -121,7 +121,7 @@ def _set(draft: Draft, definitions: Definitions) -> None:
 def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
     """What is worth telling."""
     yield from definitions.notes
-    unused = {constant.name for constant in draft.constants} - _used(draft, definitions)
+    unused = {constant.name for constant in draft.constants} - _used_names(draft, definitions)
     for constant in draft.constants:
         if constant.name in unused:
             yield f'The constant "{constant.name}" is used nowhere.'
@@ -131,14 +131,14 @@ def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
         yield f"Passed over, for the kit prints and draws by itself: {', '.join(others)}."
 
 
-def _used(draft: Draft, definitions: Definitions) -> set[str]:
+def _used_names(draft: Draft, definitions: Definitions) -> set[str]:
     """The names that anything uses."""
     rules = draft.sections["productions"]
     steps = definitions.run.steps if definitions.run else None
     parts = [*(argument for module in _modules(draft) for argument in module.arguments), *(rule.condition for rule in rules),
              *definitions.settings.values(), steps]
     names = [names_in(part) for part in parts if isinstance(part, Expression)]
-    return set().union(*names, *map(_names, draft.constants))
+    return set().union(*names, *map(_names_of_constant, draft.constants))
 
 
 def _modules(draft: Draft) -> list[Pattern]:

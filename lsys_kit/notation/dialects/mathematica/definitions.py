@@ -18,10 +18,10 @@ from lsys_kit.notation.dialects.mathematica.actions import RuleDefinition, RuleL
 from lsys_kit.notation.model.system import Constant
 
 Thing = TypeVar("Thing")
-_PARTS = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
+_SYSTEM_EXAMPLE = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
 _HINTS = {
-    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _PARTS,
-    "list of rules": _PARTS,
+    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _SYSTEM_EXAMPLE,
+    "list of rules": _SYSTEM_EXAMPLE,
     "rule": 'A rule is defined before its name is used in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
 
 
@@ -119,13 +119,13 @@ def main_system(definitions: Definitions) -> SystemDefinition:
         return next(reversed(found.systems.values()), SystemDefinition())
     if len(found.systems) > 1:
         found.notes["Several systems are defined: the last that is run is read."] = None
-    return run.system if isinstance(run.system, SystemDefinition) else _called(found, found.systems, run.system, "system")
+    return run.system if isinstance(run.system, SystemDefinition) else _lookup(found, found.systems, run.system, "system")
 
 
 def axiom_in(definitions: Definitions, system: SystemDefinition) -> WordDefinition | None:
     """The axiom of a system, or the last of the text; None where there is none."""
     if isinstance(system.axiom, Token):
-        return _called(definitions, definitions.axioms, system.axiom, "axiom")
+        return _lookup(definitions, definitions.axioms, system.axiom, "axiom")
     return system.axiom or next(reversed(definitions.axioms.values()), None)
 
 
@@ -138,14 +138,14 @@ def rules_in(definitions: Definitions, system: SystemDefinition) -> Iterator[Rul
     if alone:
         definitions.notes["A rule outside of LRULES is not used."] = None
     if isinstance(rules, Token):
-        rules = _called(definitions, definitions.rules, rules, "list of rules")
+        rules = _lookup(definitions, definitions.rules, rules, "list of rules")
     if rules.comma:
         definitions.notes["The comma after the last LRule is ignored."] = None
     for member in rules.members:
-        yield member if isinstance(member, RuleDefinition) else _called(definitions, definitions.single, member, "rule")
+        yield member if isinstance(member, RuleDefinition) else _lookup(definitions, definitions.single, member, "rule")
 
 
-def _called(definitions: Definitions, table: Mapping[str, Thing], name: Token, kind: str) -> Thing:
+def _lookup(definitions: Definitions, table: Mapping[str, Thing], name: Token, kind: str) -> Thing:
     """What has a name; one that is spelt in other cases is read too, with a note."""
     if name in table:
         return table[name]

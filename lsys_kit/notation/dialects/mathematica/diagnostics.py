@@ -149,7 +149,7 @@ def _unreadable(failure: ParseFailure) -> ModelSyntaxError | None:
     return unreadable_character(failure)
 
 
-def _quotation(failure: ParseFailure) -> ModelSyntaxError | None:
+def _quotation_marks(failure: ParseFailure) -> ModelSyntaxError | None:
     """A symbol without its quotation marks, or with one."""
     if failure.found == '"' and "STRING" in failure.accepted:
         return failure.error("This quotation mark is never closed", _QUOTES + r' A "\" is typed "\\".')
@@ -225,7 +225,7 @@ def _random(failure: ParseFailure) -> ModelSyntaxError | None:
 
 _DIAGNOSTICS_OF_BARE_TEXT: Sequence[Diagnostic] = (
     _unclosed, _random, _steps, _closed, _rule_parts, _condition, _round_brackets, _arrow_in_brackets, _unknown_call, _angles,
-    _unreadable, *PRINTED_DIAGNOSTICS, _definition, _lists, _quotation, _commas, misspelling, _value_or_operator)
+    _unreadable, *PRINTED_DIAGNOSTICS, _definition, _lists, _quotation_marks, _commas, misspelling, _value_or_operator)
 
 
 def _diagnose_bare_text(failure: ParseFailure) -> ModelSyntaxError | None:

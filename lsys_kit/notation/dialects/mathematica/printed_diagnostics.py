@@ -36,7 +36,7 @@ def _printed_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
     return failure.error("Only one module can be replaced", 'Neighbours are contexts, as in "a < b > c -> d".')
 
 
-def _misplaced(failure: ParseFailure) -> ModelSyntaxError | None:
+def _misplaced_part(failure: ParseFailure) -> ModelSyntaxError | None:
     """A condition outside of the brackets, an empty axiom, or something that a printed system does not have."""
     if not failure.found and re.fullmatch(r"\s*axiom\s*:", failure.before, re.IGNORECASE):
         return failure.error('There is nothing after "Axiom:"', 'Write the first word there, as in "Axiom: a[1]b".')
@@ -51,5 +51,5 @@ def _misplaced(failure: ParseFailure) -> ModelSyntaxError | None:
     return None
 
 
-PRINTED_DIAGNOSTICS: Sequence[Diagnostic] = (_misplaced, _printed_arrow, _printed_predecessor)
+PRINTED_DIAGNOSTICS: Sequence[Diagnostic] = (_misplaced_part, _printed_arrow, _printed_predecessor)
 """The diagnostics of a printed system."""

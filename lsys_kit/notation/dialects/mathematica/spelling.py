@@ -9,8 +9,8 @@ from lsys_kit.notation.dialects.mathematica.expressions import expression_text
 from lsys_kit.notation.dialects.mathematica.writer import module_text
 from lsys_kit.notation.syntax.spelling import Spelling, Wording
 
-_AXIOM = 'Give the first word, as in "axiom = AXIOM[A];".'
-_UNKNOWN = 'I do not know the name "{name}"'
+_AXIOM_HINT = 'Give the first word, as in "axiom = AXIOM[A];".'
+_UNKNOWN_NAME = 'I do not know the name "{name}"'
 
 SPELLING = Spelling(
     axiom="axiom = AXIOM[A];", constant="dt = 0.5;", part="c = ...;", random="SUCC[F[RandomReal[{1, 2}]]]", rule="rule",
@@ -28,15 +28,15 @@ SPELLING = Spelling(
         (r"\*\*", "This is not an operator", 'A power is typed "t^2".'),
         (r"\+\+", "This is not an operator", 'One more is typed "t + 1".')),
     wordings={
-        "no axiom": Wording("There is no axiom", _AXIOM),
-        "setting as constant": Wording('"{name}" is not a constant', _AXIOM, ModelNameError),
-        "word as axiom": Wording('"{name}" is not a number', _AXIOM, ModelNameError),
+        "no axiom": Wording("There is no axiom", _AXIOM_HINT),
+        "setting as constant": Wording('"{name}" is not a constant', _AXIOM_HINT, ModelNameError),
+        "word as axiom": Wording('"{name}" is not a number', _AXIOM_HINT, ModelNameError),
         "name as constant": Wording('"{name}" is not a number', 'A constant is a number, as in "{constant} = 3;".',
                                     ModelNameError),
-        "name among none": Wording(_UNKNOWN, 'A parameter is named with "_" in a pattern, as in "PRED[A[t_]]"; a constant is '
-                                   'defined, as in "{constant}".', ModelNameError),
+        "name among none": Wording(_UNKNOWN_NAME, 'A parameter is named with "_" in a pattern, as in "PRED[A[t_]]"; a constant '
+                                   'is defined, as in "{constant}".', ModelNameError),
         "symbol as value": Wording(
-            _UNKNOWN, 'Brackets around values are those of a module; a branch is typed \'F, "[", "+", F, "]"\'.',
+            _UNKNOWN_NAME, 'Brackets around values are those of a module; a branch is typed \'F, "[", "+", F, "]"\'.',
             ModelNameError),
         "number of arguments": Wording("{name}[...] takes {wanted}, not {given}"),
         "random number": Wording('"{expression}" draws a new number at every use, which is not possible here',

@@ -26,8 +26,8 @@ _LINE = re.compile(rf"""\s*+(?:
     | productions\s*:\s*
     | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
 """A line of a plant string."""
-_KEYWORD = re.compile(r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)"
-                      r"[ \t]*:", re.IGNORECASE)
+_FOREIGN_KEYWORD = re.compile(
+    r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)[ \t]*:", re.IGNORECASE)
 _HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
 _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
     (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
@@ -37,7 +37,7 @@ _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern
 def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
     """What only other notations have, or a line of a lesson without its colon."""
     line = failure.statement
-    keyword, heading = _KEYWORD.match(line), _HEADING.match(line)
+    keyword, heading = _FOREIGN_KEYWORD.match(line), _HEADING.match(line)
     if keyword:
         return failure.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
                              "and turtle.", failure.start, len(keyword[1]))
@@ -50,7 +50,7 @@ def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _finish(draft: Draft) -> LSystem:
     """The system; where a text counts its productions, as those of the lesson's applet do, the axiom is always I."""
-    if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.more):
+    if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.deferred):
         draft.axiom = (Pattern("I"),)
         draft.notes.append("No axiom is given: it is I.")
     return build_system(draft)
@@ -92,6 +92,6 @@ def _branches(words: Iterable[str]) -> int:
 
 
 PLANT_STRING = Dialect(
-    name=NAME, statements=statements, records=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
+    name=NAME, statements=statements, transformer=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
     module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
     starts=("statement", "word"))
