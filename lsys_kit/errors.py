@@ -1,6 +1,6 @@
 """What went wrong, where it went wrong, and what to try.
 
-Every mistake that a person can make in a model, an answer or a command ends in one of the classes below. Their text is
+Every mistake in a model, an answer or a command is reported by one of the classes below. Their text is
 written for the person who made the mistake: it names the place (line and column, counted from 1), shows the line with a
 caret under the place, and suggests what to try. Faults of the kit itself are never wrapped in these classes.
 """
@@ -19,16 +19,16 @@ class LSystemError(Exception):
     message
         What is wrong, one sentence without its full stop.
     source
-        The text in which the mistake stands, if there is one.
+        The text that has the mistake, if there is one.
     start, end
-        The offsets in `source` between which the mistake stands.
+        The offsets in `source` between which the mistake is.
     hint
         What to try, whole sentences.
 
     Attributes
     ----------
     line, column, end
-        The place, counted from 1; `end` is the column behind the mistake. None where no text is at fault.
+        The place, counted from 1; `end` is the column after the mistake. None where no text is at fault.
 
     Examples
     --------
@@ -63,8 +63,8 @@ class LSystemError(Exception):
 
     def _text(self) -> str:
         where = f" (line {self.line}, column {self.column})" if self.line else ""
-        said = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
-        return said + self._quotation()
+        text = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
+        return text + self._quotation()
 
     def _quotation(self) -> str:
         """The line at fault with a caret under the place; a window of it where the line is long."""
@@ -86,11 +86,11 @@ class ModelSyntaxError(LSystemError):
 
 
 class ModelNameError(LSystemError):
-    """A name stands for nothing: no parameter, constant, function, system or option has it."""
+    """A name is unknown: no parameter, constant, function, system or option has it."""
 
 
 class ModelValueError(LSystemError):
-    """A value cannot be what the model makes of it: a number where a truth is asked for, a division by zero."""
+    """A value is not possible: a number where a truth is needed, a division by zero."""
 
 
 class ModelLimitError(LSystemError):
@@ -112,11 +112,11 @@ class ModelLimitError(LSystemError):
 
 
 class ModelFileError(LSystemError):
-    """A file is not there, cannot be read, or may not be written."""
+    """A file does not exist, cannot be read, or may not be written."""
 
 
 def printable(character: str) -> str:
-    """The character, or a blank or question mark for one that would not show or would turn the text around.
+    """The character, or a blank or question mark for one that is invisible or reverses the text.
 
     >>> printable("a"), printable("\\u202e"), printable("\\t")
     ('a', '?', ' ')
@@ -127,7 +127,7 @@ def printable(character: str) -> str:
 
 
 def _printable_text(text: str) -> str:
-    """A text with its lines, whatever a person's text in it may hold that would not show or would turn it around."""
+    """A text with its lines, without characters that are invisible or reverse it."""
     return "\n".join("".join(map(printable, line)) for line in text.split("\n"))
 
 
@@ -141,7 +141,7 @@ def quotable(name: str) -> str:
 
 
 def named(character: str) -> str:
-    """A character as a message quotes it: itself where it shows, and its Unicode name where it may mislead.
+    """A character as a message quotes it: itself where it is visible, with its Unicode name where it may mislead.
 
     >>> named("x"), named("\\u0445"), named("\\u202e")
     ('"x"', '"х" (CYRILLIC SMALL LETTER HA)', 'RIGHT-TO-LEFT OVERRIDE')

@@ -1,7 +1,7 @@
 """Text to records: a system, a word or an expression, read in one of the notations.
 
-A text is cut into statements, each is parsed by the grammar of its notation, and the records are checked. The grammars stand
-in `dialects`, one for each notation; `expressions.lark` in `syntax` is what they share.
+A text is cut into statements, each is parsed by the grammar of its notation, and the records are checked. The grammars are
+in `dialects`, one for each notation; they share `expressions.lark` in `syntax`.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ def read(text: str, notation: str | None = None) -> LSystem:
     text
         The model: constants, axiom, productions, one a line. `/* ... */` is a comment.
     notation
-        Its name; by default the notation of which the text shows most marks, and the first note of the system says which, if it
-        is not the kit's own.
+        Its name; by default the notation whose features the text shows most. Unless that is the kit's own, the first note of
+        the system names it.
 
     Raises
     ------
     ModelSyntaxError, ModelNameError, ModelValueError
-        The text makes no sense; the error has the place and a hint, which may be that another notation fits.
+        The text makes no sense; the error gives the place and a hint, perhaps that another notation fits.
     ModelLimitError
         The text is too long.
 
@@ -64,7 +64,7 @@ def read(text: str, notation: str | None = None) -> LSystem:
     """
     check_text(text)
     if _MAP.match(text):
-        raise ModelValueError("Here a map system begins, and no L-system", text, len(text) - len(text.lstrip()), None,
+        raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
         return _read_in(dialect_named(notation), text)
@@ -80,7 +80,7 @@ def read(text: str, notation: str | None = None) -> LSystem:
 
 
 def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
-    """The other notations of which a text shows a mark, if it is short enough to be read again."""
+    """The other notations that a text may be in, if it is short enough to be read again."""
     if len(text) <= current().expression:
         yield from (notation for notation in DIALECTS.values() if notation is not chosen and notation.likely(text) > 0)
 
@@ -107,7 +107,7 @@ def _read_in(notation: Dialect, text: str) -> LSystem:
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:
-    """Read a word whose arguments are numbers; with a system, letters written together are parted as in its rules.
+    """Read a word whose arguments are numbers; with a system, letters written together are divided as in its rules.
 
     >>> [str(module) for module in read_word("A(1/2)[B]")]
     ['A(0.5)', '[', 'B', ']']
@@ -124,7 +124,7 @@ def read_word(text: str, notation: str = "abop", system: LSystem | None = None) 
 
 
 def read_expression(text: str) -> Expression:
-    """Read an expression; its names are checked by whoever knows them.
+    """Read an expression; its names are not checked.
 
     >>> print(read_expression("2*(t+1)"))
     2 * (t + 1)

@@ -177,7 +177,7 @@ def test_any_text_is_a_map_system_or_a_slip_that_is_explained(text: str) -> None
 def test_a_map_is_no_l_system() -> None:
     written = str(read_map("map: ABAB\nA -> B[-A][+A]B"))
     for notation in (None, "abop", "grogra", "cpfg", "mathematica", "plant-string"):
-        with pytest.raises(ModelValueError, match="Here a map system begins") as caught:
+        with pytest.raises(ModelValueError, match="This is a map system") as caught:
             read(f"\n{written}", notation)
         assert (caught.value.line, caught.value.column, caught.value.hint) == (2, 1, "Maps are read by read_map(text).")
     with pytest.raises(ModelNameError, match="Maps are no L-systems"):

@@ -22,7 +22,7 @@ from lsys_kit.notation.write import write
 LISTINGS = Path(__file__).parents[1] / "listings"
 TABLE = {listing["file"]: listing for listing in tomllib.loads((LISTINGS / "listings.toml").read_text("utf-8"))["listing"]}
 SYSTEMS = [file for file, listing in TABLE.items() if listing["notation"] == "mathematica" and listing["kind"] == "system"]
-PASSED_OVER = "Passed over, for the kit prints and draws by itself: "
+PASSED_OVER = "Ignored, because the kit prints and draws by itself: "
 
 
 def printed(file: str) -> str:

@@ -213,7 +213,7 @@ NAMES = [
     (AXIOM + "LRule[LEFT[], PRED[a[i_Integer]], RIGHT[], SUCC[a[i]]]",
      'No constant has the name "i_Integer"', 2, 22, 'A parameter is named with "_" after it: "i_".'),
     (AXIOM + "LRule[LEFT[], PRED[a[i__]], RIGHT[], SUCC[a[i]]]",
-     '"i__" stands for a row of values', 2, 22, 'A parameter stands for one: type "i_".'),
+     '"i__" matches a row of values', 2, 22, 'A parameter matches one: type "i_".'),
     (AXIOM + "LRule[LEFT[], PRED[a[i_?NumberQ]], RIGHT[], SUCC[a[i]]]",
      'I did not expect "?" after a parameter', 2, 24, 'A condition follows "/;", as in "i_ /; i < 5".'),
     (AXIOM + "LRule[LEFT[a[i_]], PRED[a[i_]], RIGHT[], SUCC[a[i]]]",

@@ -94,7 +94,7 @@ def _always(rule: Production, constants: Iterable[str]) -> bool:
 
 
 def _always_made(items: Iterable[Item]) -> Iterator[Pattern]:
-    """The modules of a successor that are there however often its parts are repeated."""
+    """The modules of a successor that occur however often its parts are repeated."""
     for item in items:
         if isinstance(item, Pattern):
             yield item

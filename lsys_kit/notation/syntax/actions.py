@@ -1,6 +1,6 @@
-"""What the grammars name, as records: a method for each name.
+"""Records of what the grammars name: a method for each name.
 
-The parser calls these methods while it reads, so that there is no tree in between.
+The parser calls these methods while it reads, so that no tree is built in between.
 """
 
 from __future__ import annotations
@@ -188,7 +188,7 @@ class Statements(Transformer[Any, Any]):
         return "deferred", ("angle", value)
 
     def vocabulary(self, _: Token, *letters: Token) -> tuple[str, tuple[str, ...]]:
-        """Only names of several letters might be mistaken."""
+        """Only names of several letters could be taken for a row of symbols."""
         return "alphabet", tuple(letter for letter in map(_symbol, letters) if letter[0].isalpha() and len(letter) > 1)
 
     def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:

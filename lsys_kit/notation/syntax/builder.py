@@ -1,4 +1,4 @@
-"""What the statements of a text make of a system, one after another, and the checks of the whole."""
+"""The statements of a text gathered into a draft of a system, and the checks of the whole."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
 _SYMBOL_LISTS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
-"""The settings that are rows of symbols, and where a system has them."""
+"""The settings that are lists of symbols, and their attributes of a system."""
 _TEXT_SETTINGS = frozenset(("turtle", "cells"))
-"""The settings that are texts."""
+"""The settings that are words."""
 _COUNTS = {"steps": "steps", "depth": "rounds", "decomposition_depth": "rounds"}
 """The settings that are whole numbers from 0 on, and what they count."""
 
 
 @dataclass
 class Draft:
-    """What the statements read so far make of a system.
+    """The system that the statements read so far make.
 
     Attributes
     ----------
     source, notation, turtle
-        The text, the notation in which it is read, and whose turtle commands are meant if it says nothing.
+        The text, the notation in which it is read, and its tradition of turtle commands by default.
     settings
-        What is set, by the names of the statements.
+        The settings, by keyword.
     deferred
         Statements that only the dialect itself can complete, once all are read.
     notes
-        What is worth telling.
+        Notes on how the text is read.
     """
 
     source: str
@@ -106,7 +106,7 @@ def build_system(draft: Draft) -> LSystem:
 
 
 def _checked_settings(draft: Draft) -> dict[str, Any]:
-    """What is set, as a system has it."""
+    """The settings with their values, checked."""
     result: dict[str, Any] = {"turtle": draft.turtle}
     for name, setting in draft.settings.items():
         if name in _SYMBOL_LISTS or name in _TEXT_SETTINGS:

@@ -1,4 +1,4 @@
-"""What a notation is made of: how its text is cut, parsed and put together, and how a system is written in it.
+"""What a notation consists of: how its text is cut, parsed and completed, and how a system is written in it.
 
 Each notation has a file of its own, with its grammar beside it; `registry` has them all.
 """
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lsys_kit.notation.syntax.failure import ParseFailure
 
 Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
-"""Something to ask about the place where a parser stumbled; an answer is what the person is told."""
+"""Looks at the place where a parser failed; the error says what is wrong, None that this diagnostic does not apply."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +35,7 @@ class Grammar:
     transformer
         What makes records of what its grammar names.
     diagnostics
-        What is asked about a slip, the most telling first.
+        What may be wrong where the parser fails, the most specific first.
     starts
         What can be parsed: a statement, and perhaps a word or an expression alone.
     spelling
@@ -75,7 +75,7 @@ class Dialect(Grammar):
     turtle
         Whose turtle commands its symbols are, if the text says nothing.
     likely
-        How likely a text is in this notation: the number of its marks that are found there.
+        How likely a text is in this notation: a count of its distinctive features.
     """
 
     statements: Callable[[str], Iterator[tuple[int, int]]]

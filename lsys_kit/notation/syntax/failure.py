@@ -98,7 +98,7 @@ def unclosed_bracket(text: str, pair: str = "()") -> int | None:
 
 
 def blank_parentheses(text: str) -> str:
-    """The text with parentheses, and what stands in them, blanked.
+    """The text with parentheses, and what they contain, blanked.
 
     >>> blank_parentheses("A(max(1, 2)) < B")
     'A            < B'
@@ -122,7 +122,7 @@ def excerpt(text: str) -> str:
 
 
 def expected_hint(accepted: frozenset[str]) -> str | None:
-    """A hint that says what could stand at the place, if that is not too much."""
+    """A hint that lists what is possible at the place, if that is not too much."""
     words = sorted({_TOKEN_NAMES[name] for name in accepted if name in _TOKEN_NAMES})
     if not words or len(words) > 4:
         return None

@@ -1,4 +1,4 @@
-"""One statement, word or expression parsed by the grammar of its notation; what went wrong, as an error with its place."""
+"""A statement, word or expression parsed by the grammar of its notation; a failure becomes an error with its place."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.wording import error_of
 
 _SYNTAX = Path(__file__).parent
-"""Where `expressions.lark` stands, which the grammars share."""
+"""The folder of `expressions.lark`, which the grammars share."""
 
 
 def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:

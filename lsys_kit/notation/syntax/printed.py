@@ -1,6 +1,6 @@
 """The mathematical form, as articles print it: `p_1 : a_r → a_l b_r`, `{ar -> al br, al -> bl ar}`, `s < a > → a s,`.
 
-What only labels a production or parts it from the next is no part of it: it is cut off before a grammar reads the rest.
+Labels and separators are not part of a production: they are cut off before a grammar reads the rest.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.syntax.failure import blank_parentheses
 from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
 
-# What labels and sets of productions look like, and what cannot stand behind a label.
+# What labels and sets of productions look like, and what cannot follow a label.
 _LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
 _LABELLED = re.compile(rf"^[ \t]*{_LABEL.pattern}", re.MULTILINE)
 _SET_OPENING = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")
@@ -23,7 +23,7 @@ _BRACKET_OR_COMMA = re.compile(r"[()\[\]{},]")
 
 
 def printed_statements(text: str) -> Iterator[tuple[int, int]]:
-    """The offsets of the statements, without what labels them and parts them from each other in print.
+    """The offsets of the statements, without their labels and separators.
 
     >>> text = "p_1: a -> b,\\nP = {b -> a, c -> b}"
     >>> [text[start:end] for start, end in printed_statements(text)]
@@ -43,7 +43,7 @@ def printed_statements(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _is_label(rest: str, used: bool) -> bool:
-    """Whether a name with a colon behind it labels a production: then it stands for no module that has a condition."""
+    """Whether a name with a colon after it labels a production, and is not a module with a condition."""
     arrow = ARROW.search(rest)
     head = rest[:arrow.start()] if arrow else ""
     bare = blank_parentheses(head)
@@ -77,7 +77,7 @@ def _members(plain: str, source: str) -> Iterator[tuple[int, int]]:
 
 
 def _split_at_commas(plain: str, start: int, end: int) -> Iterator[tuple[int, int]]:
-    """The offsets of what stands between commas, as far as these are not in brackets."""
+    """The offsets between commas that are not in brackets."""
     depth = 0
     for match in (*_BRACKET_OR_COMMA.finditer(plain, start, end), None):
         if match is None or (match[0] == "," and depth == 0):

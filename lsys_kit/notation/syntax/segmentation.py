@@ -1,7 +1,7 @@
 """Letters written together: `F -> FF` means two segments, `ar -> al br` means two cells of two letters each.
 
 Books glue one-letter symbols together; the kit's notation has symbols of several letters. A name of several letters that
-no production rewrites, and that can be parted in just one way into symbols that the system has, is read as those symbols; so
+no production rewrites, and that can be divided in just one way into symbols that the system has, is read as those symbols; so
 is a row of capital letters, one of which a production rewrites: in `A -> BA` the B is new. An `alphabet:` line keeps a name
 whole.
 """
@@ -20,7 +20,7 @@ _ALWAYS = frozenset("Ff")
 
 
 def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
-    """A word with its glued names parted as in a system.
+    """A word with its glued names divided as in a system.
 
     >>> from lsys_kit.notation.read import read
     >>> [str(module) for module in segment_word(read("axiom: ba").axiom, read("axiom: a\\na -> ab\\nb -> a"))]
@@ -31,9 +31,9 @@ def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
 
 
 def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
-    """A system with its glued names parted, and what each of them is made of.
+    """A system with its glued names divided, and the symbols of each.
 
-    The symbols of which one name is made may part another: names are parted until none is left.
+    The symbols of one name may divide another: names are divided until none is left.
 
     >>> from lsys_kit.notation.read import read
     >>> segment_system(replace(read("axiom: F\\nF -> F J J"), axiom=(Pattern("JF"),)))[1]
@@ -50,10 +50,10 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
 
 
 def segment_with_notes(system: LSystem) -> LSystem:
-    """What `segment_system` makes of a system, with a note for each name that was parted."""
-    parted, made = segment_system(system)
+    """What `segment_system` makes of a system, with a note for each name that was divided."""
+    segmented, made = segment_system(system)
     notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
-    return replace(parted, notes=(*system.notes, *notes)) if made else system
+    return replace(segmented, notes=(*system.notes, *notes)) if made else system
 
 
 def _divisible_modules(system: LSystem) -> Iterable[Pattern]:
@@ -71,7 +71,7 @@ def _segmented_rules(rules: Iterable[Production], made: dict[str, list[str]]) ->
 
 
 def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
-    """The word with its glued names parted; what a name has in parentheses goes to its last symbol."""
+    """The word with its glued names divided; the arguments of a name go to its last symbol."""
     result: list[Item] = []
     for module in word:
         if isinstance(module, Repeat):
@@ -100,13 +100,13 @@ def _whole_and_parts(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
 
 
 def _symbols_of_name(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
-    """The symbols that a name stands for; nothing where it is a symbol of its own."""
+    """The symbols that make a name; none where it is a symbol of its own."""
     capitals = name.isalpha() and name.isupper() and not whole.isdisjoint(name)
     return _unique_split(name, parts) or (list(name) if capitals else [])
 
 
 def _unique_split(name: str, parts: frozenset[str]) -> list[str]:
-    """The one way to part a name into symbols, or nothing where there is none or more than one."""
+    """The one way to divide a name into symbols; nothing where there is none or more than one."""
     ways: list[list[list[str]]] = [[[]]]
     for end in range(1, len(name) + 1):
         found = [[*way, name[start:end]] for start in range(max(0, end - 64), end) if name[start:end] in parts

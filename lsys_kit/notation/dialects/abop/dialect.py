@@ -23,12 +23,14 @@ from lsys_kit.notation.syntax.statements import without_comments
 
 _SYMBOL = re.compile(r"[A-Za-z_]\w*|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
 """What a symbol may be."""
+
+
 def _transformer() -> Transformer[Any, Any]:
     return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
 def _resolve_deferred(draft: Draft) -> None:
-    """Take in what the mathematical form says otherwise than the kit: an axiom beside a set, the angle δ, the length d."""
+    """Take in what the mathematical form writes differently: an axiom beside a set, the angle δ, the length d."""
     plain = without_comments(draft.source)
     for kind, record, at in draft.deferred:
         if kind == "axiom" and not IN_A_SET.search(plain):
@@ -49,7 +51,7 @@ def _occurring_symbols(draft: Draft) -> set[str]:
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system with letters that were written together parted, and a note that says so."""
+    """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
     missing_colon(draft.sections["productions"], _occurring_symbols(draft))
     return segment_with_notes(build_system(draft))

@@ -19,11 +19,11 @@ from lsys_kit.notation.model.system import Constant
 from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
 
 _SPELLINGS = {"<>": "!=", "%": "mod"}
-"""Operators that the kit spells otherwise."""
+"""Operators, and how the kit spells them."""
 SYMBOL_PATTERN = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
 """A symbol: a character, or "@" or "?" with a letter."""
 _SECTION_NAMES = {"production": "productions", "homomorphism": "interpretation"}
-"""Sections that the kit calls otherwise."""
+"""Sections, and what the kit calls them."""
 
 
 def _expression_span(first: Expression, last: Expression | None = None) -> tuple[int, int]:
@@ -47,7 +47,7 @@ def _flattened(parts: Iterable[Any]) -> Iterator[Any]:
 
 
 def _as_block(part: Block | Assignment | Choice) -> Block:
-    """What stands behind "if" or "else", with braces or without."""
+    """The block after "if" or "else", with braces or without."""
     return part if isinstance(part, tuple) else (part,)
 
 
@@ -117,7 +117,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
         return "deferred", ("section", _SECTION_NAMES.get(name, name))
 
     def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
-        """Brackets may stand among the symbols that contexts see: they follow the branches in any case."""
+        """Brackets are possible among the symbols that contexts see: contexts follow the branches in any case."""
         others = [name for name in names if name not in "[]"]
         consider = keyword.lower().startswith("consider") and others
         return super().symbols(keyword, *(others if consider else names))
@@ -128,7 +128,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
         return "condition", None if always else as_truth(expression)
 
     def pattern(self, *parts: Pattern | Token | tuple[Pattern, ...]) -> tuple[Pattern, ...]:
-        """A right context, in which a branch ends at its bracket unless "=" stands for the rest of it."""
+        """A right context, in which a branch ends at its bracket unless "=" is written there."""
         found: list[Pattern] = []
         modules = tuple(_flattened(parts))
         for index, module in enumerate(modules):

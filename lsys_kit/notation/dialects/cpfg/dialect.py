@@ -1,4 +1,4 @@
-"""cpfg's notation (seed 002), the language of the Virtual Laboratory; its grammar is `grammar.lark`."""
+"""cpfg's notation (Prusinkiewicz), the language of the Virtual Laboratory; its grammar is `grammar.lark`."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*")
 def _finish(draft: Draft) -> LSystem:
     """The system of all statements."""
     _check_macros(draft)
-    _complete(draft)
+    _resolve_deferred(draft)
     draft.notes += _notes(draft)
     return build_system(draft)
 
 
-def _complete(draft: Draft) -> None:
+def _resolve_deferred(draft: Draft) -> None:
     """Take in what is known only when the whole text is read: the sections, and what the blocks of the rules compute."""
     section, constants = "productions", [constant.name for constant in draft.constants]
     for kind, record, at in draft.deferred:
@@ -53,7 +53,7 @@ def _complete(draft: Draft) -> None:
 
 
 def _resolve_count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
-    """A number of steps or rounds, or a seed, which the constants may say."""
+    """Take in a number of steps or rounds, or a seed, which may be calculated from constants."""
     depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
     if keyword == "maximum depth" and section not in depths:
         raise ModelSyntaxError('This "maximum depth:" is in no section', draft.source, *at,

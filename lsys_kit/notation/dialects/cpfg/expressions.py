@@ -27,7 +27,7 @@ from lsys_kit.notation.syntax.actions import ActionError
 SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "floor", "ceil")
 """The functions that cpfg and the kit call alike."""
 RENAMED: Mapping[str, str] = {"fabs": "abs", "nran": "normal", "biran": "binomial"}
-"""Functions of cpfg that the kit calls otherwise."""
+"""Functions of cpfg that have another name in the kit."""
 ZERO, ONE = Number(0), Number(1)
 
 
@@ -44,7 +44,7 @@ def _sign(x: Expression, at: TextSpan) -> Apply:
 
 
 BUILT: Mapping[str, Callable[[Expression, TextSpan], Apply]] = {"ran": _uniform, "trunc": _truncated, "sign": _sign}
-"""Functions of one value that the kit has in other words."""
+"""Functions of one value that the kit expresses with other operators."""
 ALSO: Mapping[str, str] = {"abs": "abs", "pow": "^"}
 """Functions that C has and people type."""
 _FUNCTIONS: Mapping[str, str] = {**{name: name for name in SAME}, **RENAMED, **ALSO}
@@ -121,14 +121,14 @@ def expression_text(expression: Expression) -> str:
     >>> expression_text(Apply("if", (Apply("<", (Name("t"), Apply("abs", (Name("x"),)))), Number(1), Name("t"))))
     '(t < fabs(x) ? 1 : t)'
     """
-    return styled_text(_spelt(expression), _STYLE)
+    return styled_text(_respelt(expression), _STYLE)
 
 
-def _spelt(expression: Expression) -> Expression:
-    """The expression in which a name stands for each part that cpfg writes otherwise than a style can say."""
+def _respelt(expression: Expression) -> Expression:
+    """The expression with a name in place of each part that a style cannot express in cpfg."""
     if not isinstance(expression, Apply):
         return expression
-    operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
+    operator, operands = expression.operator, tuple(map(_respelt, expression.operands))
     texts = [styled_text(operand, _STYLE) for operand in operands]
     if operator == "if":
         return Name("({} ? {} : {})".format(*texts))
@@ -140,7 +140,7 @@ def _spelt(expression: Expression) -> Expression:
         return Name(f"({_parenthesised(operands[0])} + ran({_between(expression)}))")
     if operator == "mod":
         return Name(f"({_parenthesised(operands[0])} % {_parenthesised(operands[1])})")
-    if operator in ("-x", "^"):  # both bind otherwise in cpfg than in the kit
+    if operator in ("-x", "^"):  # both bind differently in cpfg and in the kit
         operands = (*operands[:-1], Name(_parenthesised(operands[-1])))
     return Apply(operator, operands)
 
@@ -160,7 +160,7 @@ def _between(uniform: Apply) -> str:
 
 
 def simplified(applied: Apply) -> Apply:
-    """What cpfg says with other operators and the kit with one: the lesser of two numbers, a number between two others.
+    """What cpfg writes with several operators and the kit with one: the lesser of two numbers, a random number from a range.
 
     >>> print(simplified(Apply("+", (Number(2), Apply("uniform", (ZERO, Apply("-", (Number(5), Number(2)))))))))
     uniform(2, 5)

@@ -1,4 +1,4 @@
-"""A system as a cpfg text, and what cpfg has no words for."""
+"""A system as a cpfg text, and what cpfg lacks."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def module_text(module: Module | Pattern) -> str:
 
 
 def joined_word(texts: Iterable[str]) -> str:
-    """The texts of modules as one word: a blank only where "@T" would make a symbol with a letter behind it.
+    """The texts of modules as one word: a blank only where "@T" would make a symbol with the letter after it.
 
     >>> joined_word(["F", "@T", "s", "[", "+", "F", "]"])
     'F@T s[+F]'
@@ -72,7 +72,7 @@ def _section(keyword: str, rules: Iterable[Production], depth: int | None) -> It
 
 
 def _macro_line(constant: Constant) -> str:
-    """A constant, in parentheses where its parts could bind to what stands beside its name."""
+    """A constant, in parentheses where its parts could bind to the neighbours of its name."""
     value = expression_text(constant.value)
     apart = isinstance(constant.value, Apply) and OPERATORS[constant.value.operator].precedence is not None
     span = " /* {} .. {} by {} */".format(*constant.range) if constant.range else ""

@@ -1,4 +1,4 @@
-"""What GROGRA's grammar names, as records; where its text parts into statements."""
+"""Records of what GROGRA's grammar names; a text cut into statements."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statement
 from lsys_kit.notation.syntax.statements import without_comments
 
 RELATIONS = {"=": "==", "\\leq": "<=", "\\le": "<=", "\\geq": ">=", "\\ge": ">=", "\\neq": "!=", "\\ne": "!="}
-"""Comparisons that GROGRA or its slides spell otherwise."""
+"""How GROGRA or Kurth's slides spell comparisons."""
 _GLUED = re.compile(r"([^\d.-]+)(-?)([\d.]+)")
 _SEPARATORS = re.compile(r"[()]|,[,\s]*|^[ \t]*Startwort[ \t]+[A-Za-z*](?![^\n]*(?:#|->|→|\\rightarrow))", re.MULTILINE)
 BLANKS = "\ufeff \t\r\n\u00a0"
-"""What stands between statements and means nothing."""
+"""Characters between statements that mean nothing."""
 
 
 def statements(text: str) -> Iterator[tuple[int, int]]:
-    r"""The offsets of the statements: what stands between commas, but not those inside parentheses.
+    r"""The offsets of the statements, which are separated by commas outside of parentheses.
 
     >>> text = "* # F a(1, 2),\n\na(x, y) # F,"
     >>> [text[start:end] for start, end in statements(text)]
@@ -54,7 +54,7 @@ def _stripped(text: str, start: int, end: int) -> Iterator[tuple[int, int]]:
 
 @v_args(inline=True)
 class _GrograExpressions(Expressions):
-    """GROGRA's comparisons, and functions that its text declares."""
+    """GROGRA's comparisons, and functions that the text declares."""
 
     def binary(self, left: Expression, sign: Token, right: Expression) -> Expression:
         return super().binary(left, sign.update(value=RELATIONS.get(sign, str(sign))), right)
@@ -97,7 +97,7 @@ class _GrograStatements(_GrograExpressions, Statements):
         return "deferred", ("note", f'"{" ".join(token.split())}" has no meaning here.')
 
     def constant(self, name: Token, *rest: Any) -> tuple[str, Constant]:
-        return super().constant(*rest)  # what stands first is "\\const"
+        return super().constant(*rest)  # the first token is "\\const"
 
     def variable(self, _: Token, name: Token, kind: Token, *values: Expression) -> tuple[str, Any]:
         self.name(name)

@@ -1,7 +1,7 @@
-"""GROGRA's notation (Kurth; seed 003): rules parted by commas, the turtle's numbers glued on; the grammar is `grammar.lark`.
+"""GROGRA's notation (Kurth): rules separated by commas, numbers glued to turtle commands; the grammar is `grammar.lark`.
 
-Its turtle: positive angles turn to the right on the screen, and `L*0.6`, `D+3` change what is set. What only GROGRA's
-slides spell so (arrows, comparisons in TeX, "Startwort") is read with a note.
+Its turtle: positive angles turn to the right on the screen, and `L*0.6`, `D+3` change what is set. Spellings
+that occur only on Kurth's slides (arrows, comparisons in TeX, "Startwort") are read with a note.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from lsys_kit.notation.syntax.wording import reporting
 
 _SLIDE_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
               **{tex: sign for tex, sign in RELATIONS.items() if tex != "="}}
-"""How the slides spell what GROGRA writes otherwise."""
+"""How the slides spell words of GROGRA."""
 _SPELT = re.compile(r"[→⟶]|\\[A-Za-z]+|\bStartwort\b")
 _ARROW = r"(?:##?|->|→|\\rightarrow)"
 _MARKS = re.compile(
@@ -44,19 +44,19 @@ _MARKS = re.compile(
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system, once variables are replaced, the axiom is found, and chance is whole."""
-    notes = _complete(draft)
+    """The system, with variables replaced, an axiom, and probabilities that add up to 1."""
+    notes = _resolve_deferred(draft)
     _check_constants(draft)
     variables = [replace(record, at=record.at or at) for kind, record, at in draft.deferred if kind == "variable"]
     _default_axiom(draft, notes)
     _replace_variables(draft, variables)
     system, read_as = with_ones(build_system(draft))
-    productions, said = complete_probabilities(system)
-    notes = [*_spelt(draft.source), *notes, *read_as, *said]
+    productions, completed = complete_probabilities(system)
+    notes = [*_spelling_notes(draft.source), *notes, *read_as, *completed]
     return replace(system, productions=productions, notes=tuple(dict.fromkeys(notes)))
 
 
-def _complete(draft: Draft) -> list[str]:
+def _resolve_deferred(draft: Draft) -> list[str]:
     """Take in the settings and the rules of the interpretation; notes on them."""
     notes = []
     for kind, record, at in draft.deferred:
@@ -64,9 +64,9 @@ def _complete(draft: Draft) -> list[str]:
             word, steps = record
             draft.add("axiom", word, at)
             if steps is not None:
-                _set(draft, at, "steps", Number(steps))
+                _add_setting(draft, at, "steps", Number(steps))
         elif kind == "setting":
-            _set(draft, at, *record)
+            _add_setting(draft, at, *record)
         elif kind == "interpretation":
             draft.sections["interpretation"].append(replace(record, at=at))
         elif kind == "note":
@@ -74,8 +74,8 @@ def _complete(draft: Draft) -> list[str]:
     return notes
 
 
-def _set(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
-    """Take in a setting: a number, or a row of names."""
+def _add_setting(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
+    """Take in a setting."""
     if name in draft.settings:
         raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "Keep one of the two lines.")
     if isinstance(value, Expression) and names_in(value):
@@ -85,7 +85,7 @@ def _set(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
 
 
 def _default_axiom(draft: Draft, notes: list[str]) -> None:
-    """Without an axiom the word begins with "*", or, where no rule is for it, with the first rule's left side."""
+    """Without an axiom the first word is "*", or, where no rule is for it, the left side of the first rule."""
     rules = [rule for section in draft.sections.values() for rule in section]
     if draft.axiom is not None:
         return
@@ -101,7 +101,7 @@ def _default_axiom(draft: Draft, notes: list[str]) -> None:
 
 
 def _check_constants(draft: Draft) -> None:
-    """Constants have names of their own, and use only those before them."""
+    """Constants use only those before them."""
     known: set[str] = set()
     for constant in draft.constants:
         for expression in (constant.value, *(constant.range or ())):
@@ -110,7 +110,7 @@ def _check_constants(draft: Draft) -> None:
 
 
 def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
-    """Put what the variables mean in their place, in all rules and the axiom."""
+    """Replace the variables in all rules and in the axiom by what they mean."""
     constants = [constant.name for constant in draft.constants]
     check_variables(variables, constants, draft.source)
     scope = Scope(draft.source, frozenset(constants), {variable.name: variable for variable in variables})
@@ -119,20 +119,20 @@ def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
         draft.sections[section] = [resolve_rule(rule, scope, section == "productions") for rule in rules]
 
 
-def _spelt(source: str) -> Iterator[str]:
-    """Notes on what the slides spell otherwise."""
+def _spelling_notes(source: str) -> Iterator[str]:
+    """Notes on spellings of the slides."""
     found = dict.fromkeys(_SPELT.findall(without_comments(source)))
     pairs = [f'"{word}" as "{_SLIDE_SPELLINGS[word]}"' for word in found if word in _SLIDE_SPELLINGS]
     if pairs:
         yield f"Read as in GROGRA: {', '.join(pairs)}."
     if "\\dots" in found:
-        yield '"\\dots" stands for what is not printed: it is left out.'
+        yield '"\\dots" marks something that is not printed: it is left out.'
 
 
 def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     """A system whose symbols that end in "l" are read with "1" where only that is a symbol of the rules, and notes on it.
 
-    Print does not tell the two apart: seed 003 has `ul` where `u1` is meant.
+    Print does not distinguish the two: Kurth's slides have `ul` where `u1` is meant.
     """
     rewritten = {rule.predecessor.symbol for rule in system.rules}
     symbols = dict.fromkeys(module.symbol for module in system.modules)

@@ -1,10 +1,10 @@
-"""GROGRA's probabilities: `?p` behind a rule is the chance that it is applied, and what the rules leave is the chance that
-nothing happens (seed 003).
+"""GROGRA's probabilities: `?p` after a rule is the chance that it is applied, and what the rules leave of 1 is the chance that
+nothing happens (Kurth).
 
 One random number decides: of the rules that match, in the order written, the first up to whose sum of probabilities it is.
 The kit chooses among weights, whatever they add up to. So the rest becomes a rule of its own that changes nothing, a rule
-without `?` behind others gets what those leave, and a number that goes beyond 1 is cut off. Only where rules with
-probabilities and different contexts, or asked values, match at once are their weights taken in proportion.
+without `?` after others gets what those leave, and a sum beyond 1 is cut off. Only where rules with probabilities and
+different contexts, or values, match at once are their weights taken in proportion.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 _Condition = Expression | None
 _MOST_COMPARED = 100
-"""So many conditions are compared with each other; of more, any two may hold together."""
+"""The number of conditions that are compared with each other; of more, any two are taken to be compatible."""
 
 
 def complete_probabilities(system: LSystem) -> tuple[tuple[Production, ...], tuple[str, ...]]:
@@ -47,7 +47,7 @@ def complete_probabilities(system: LSystem) -> tuple[tuple[Production, ...], tup
         first = next((number for number in row if system.productions[number].probability is not None), None)
         if first is not None:
             row = [number for number in row if number >= first]
-            notes += _complete(system, row, constants, found)
+            notes += _complete_row(system, row, constants, found)
     return tuple(rule for rules in found for rule in rules), tuple(notes)
 
 
@@ -111,12 +111,12 @@ def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tup
 
 @dataclass
 class _Shares:
-    """What rules for the same modules ask for of a probability of 1, one after another.
+    """How rules for the same modules share a probability of 1, one after another.
 
     Attributes
     ----------
     parts
-        For each condition the probabilities that are asked for where it holds; 1 for all that is left.
+        For each condition the probabilities of its rules; 1 for all that is left.
     bounds
         Their sums; those that are calculated from names are taken to leave room for others.
     closed
@@ -155,17 +155,17 @@ class _Shares:
         return _remaining([s if other in (None, condition) else Apply("if", (other, s, Number(0))) for other, s in asked])
 
     def give(self, condition: _Condition, share: Expression | None) -> Expression:
-        """What a rule gets that asks for a probability, or for all that is left."""
-        written, asked, closes = self._answer(condition, share)
+        """The probability of a rule that claims a share, or all that is left."""
+        given, claimed, closes = self._share_of(condition, share)
         if closes:
             self.closed.add(condition)
-        self.parts.setdefault(condition, []).append(asked)
-        value = Fraction(0) if names_in(asked) else Fraction(value_of(asked))
+        self.parts.setdefault(condition, []).append(claimed)
+        value = Fraction(0) if names_in(claimed) else Fraction(value_of(claimed))
         self.bounds[condition] = self.bounds.get(condition, Fraction(0)) + value
-        return written
+        return given
 
-    def _answer(self, condition: _Condition, share: Expression | None) -> tuple[Expression, Expression, bool]:
-        """What a rule gets, what counts for the next ones, and whether nothing is left for these."""
+    def _share_of(self, condition: _Condition, share: Expression | None) -> tuple[Expression, Expression, bool]:
+        """The probability of a rule, what counts for the next ones, and whether nothing is left for these."""
         if share is not None and not names_in(share):
             together = self.taken(condition) + Fraction(value_of(share))
             if together < 1:
@@ -196,8 +196,8 @@ def _remaining(terms: list[Expression]) -> Expression:
     return left
 
 
-def _complete(system: LSystem, row: Sequence[int], constants: frozenset[str], found: list[list[Production]]) -> list[str]:
-    """Put the rules for the same modules, with probabilities that add up to 1, where they belong; what is worth telling."""
+def _complete_row(system: LSystem, row: Sequence[int], constants: frozenset[str], found: list[list[Production]]) -> list[str]:
+    """Put the rules for the same modules, with probabilities that add up to 1, where they belong; notes on them."""
     first = system.productions[row[0]]
     names, shares, notes = _parameters(first, constants), _Shares(), list[str]()
     for number, rule in _candidates(system.productions, row, constants):

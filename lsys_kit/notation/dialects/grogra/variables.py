@@ -1,6 +1,6 @@
-r"""GROGRA's variables: random numbers, what counts repetitions, questions to the turtle (seed 003).
+r"""GROGRA's variables: random numbers, indices of repetitions, sensitive functions (Kurth).
 
-The records have no variables. A random variable is replaced by its draw at every use, for it is another number every time:
+The records have no variables. A random variable is replaced by its draw at every use, since every use draws a new number:
 after `\var x uniform 0 360` the command `RH(x)` is RH(uniform(0, 360)). A function becomes `sensed`, an index the name that
 counts in its `Repeat`. Written back, each distinct draw becomes a variable again.
 """
@@ -27,7 +27,7 @@ VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
 QUERY_FUNCTIONS = frozenset((
     "negbinomial", "generation", "length", "diameter", "color", "order", "xcoordinate", "ycoordinate", "zcoordinate",
     "register", "local"))
-"""What variables of GROGRA may also stand for: most of it the turtle knows, and words do not."""
+"""Other kinds of variables in GROGRA: most depend on the turtle, which words do not know."""
 _POSSIBLE = f"Kinds of variables are: {', '.join(VARIABLE_KINDS)}."
 _UNKNOWN_NAME_HINT = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as '
                       '"\\const k 3," or "\\var x uniform 0 360,".')
@@ -68,7 +68,7 @@ class Scope:
     counting
         For each index that counts here the name of what it counts in the records.
     chance
-        Whether something random may stand here.
+        Whether random numbers are possible here.
     """
 
     source: str
@@ -100,13 +100,13 @@ def _check_kind(variable: Variable, source: str) -> None:
         raise ModelNameError(f'There is no kind of variable called "{kind}"', source, *at,
                              suggestion(kind, VARIABLE_KINDS) or _POSSIBLE)
     least, most, example = VARIABLE_KINDS[kind]
-    said = f'Type "\\var {variable.name} {kind} {example},".'
+    hint = f'Type "\\var {variable.name} {kind} {example},".'
     if not least <= len(variable.values) <= most:
         wanted = f"{least}" if least == most else f"up to {most}" if least == 0 else f"{least} or more"
         raise ModelSyntaxError(f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not '
-                               f"{len(variable.values)}", source, *at, said)
+                               f"{len(variable.values)}", source, *at, hint)
     if kind in ("index", "function") and (len(variable.numbers) < len(variable.values) or min(variable.numbers, default=0) < 0):
-        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers, 0 or more', source, *at, said)
+        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers, 0 or more', source, *at, hint)
 
 
 def _offsets(at: TextSpan) -> tuple[int | None, int | None]:
@@ -114,7 +114,7 @@ def _offsets(at: TextSpan) -> tuple[int | None, int | None]:
 
 
 def resolve(expression: Expression, scope: Scope) -> Expression:
-    """An expression with the variables replaced by what they stand for."""
+    """An expression with the variables replaced by what they mean."""
     if isinstance(expression, Name):
         return _resolve_name(expression, scope)
     if not isinstance(expression, Apply):
@@ -173,7 +173,7 @@ def _root(value: int | Fraction) -> Fraction | None:
 
 
 def _sensed_call(expression: Apply, name: Name, values: list[Expression], scope: Scope) -> Apply:
-    """What a function of the turtle is asked."""
+    """The call of a sensitive function."""
     variable = scope.variables.get(name.name)
     if variable is None or variable.kind != "function":
         functions = {v.name for v in scope.variables.values() if v.kind == "function"}

@@ -59,7 +59,7 @@ def _count_text(count: Expression) -> str:
 
 
 def rule_text(rule: Production, arrow: str = "#") -> str:
-    """The text of a rule: the condition in front, the probability behind."""
+    """The text of a rule: the condition in front, the probability at the end."""
     condition = "" if rule.condition is None else f"({styled_text(rule.condition, STYLE)})"
     left, right = joined_word(map(module_text, rule.left)), joined_word(map(module_text, rule.right))
     probability = "" if rule.probability is None else f"?{styled_text(rule.probability, STYLE)}"
@@ -78,7 +78,7 @@ def system_text(system: LSystem) -> str:
 
 
 def _settings(system: LSystem) -> Iterator[str]:
-    """The lines that set what is not as usual."""
+    """The lines of settings that differ from the defaults."""
     if system.turtle != "grogra":
         yield f"\\set turtle {system.turtle}"
     for directive, value, usual in (("\\angle", system.angle, 90), ("\\set heading", system.heading, 90),
@@ -95,7 +95,7 @@ def _constant(constant: Constant) -> str:
 
 
 def _value_text(value: Expression) -> str:
-    """A value as it stands in a line of its own: in parentheses, if it is calculated."""
+    """A value on a line of its own: in parentheses, if it is calculated."""
     text = styled_text(value, STYLE)
     return text if isinstance(value, Name) or re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text) else f"({text})"
 

@@ -1,8 +1,8 @@
 """Text to a map L-system. The grammar is `grammar.lark`.
 
-Map systems are no strings: what reads as a branch in an L-system, `A -> B[-A][+A]B`, is here a wall that becomes two walls,
-with a marker on either side. No text can say by itself which of both is meant, so that a map has a reader of its own; as the
-kit writes them, maps begin with `map:`, and `read` refuses them with a word about this one.
+Map systems do not rewrite strings: what reads as a branch in an L-system, `A -> B[-A][+A]B`, is here a wall that becomes two
+walls, with a marker on either side. A text alone does not say which of the two is meant, so maps have a reader of their own.
+As the kit writes them, they begin with `map:`, and `read` refers such texts to this reader.
 """
 
 from __future__ import annotations

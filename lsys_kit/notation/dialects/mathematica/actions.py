@@ -23,12 +23,12 @@ from lsys_kit.notation.syntax.actions import ActionError, Expressions, check_nam
 
 WordDefinition: TypeAlias = tuple[Pattern, ...]
 SYMBOL_PATTERN = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
-"""What may stand between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
+"""What is possible between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
 
 
 @dataclass(frozen=True)
 class RequiredArgument:
-    """What stands in the brackets of a module that a rule asks for: the name of a parameter, or a value; and its condition."""
+    """An argument of a pattern: the name of a parameter, or a value that must match; and its condition."""
 
     value: Expression
     named: bool = False
@@ -37,30 +37,30 @@ class RequiredArgument:
 
 @dataclass(frozen=True)
 class PatternDefinition:
-    """A module that a rule asks for, with the condition behind it."""
+    """A pattern of a rule, with the condition after it."""
 
     symbol: Token
-    asked: tuple[RequiredArgument, ...]
+    arguments: tuple[RequiredArgument, ...]
     condition: Expression | None = None
 
     @property
     def conditions(self) -> Iterator[Expression]:
         """All its conditions, in the order written."""
-        yield from (condition for condition in (*(one.condition for one in self.asked), self.condition) if condition)
+        yield from (condition for condition in (*(one.condition for one in self.arguments), self.condition) if condition)
 
 
 @dataclass(frozen=True)
 class RuleDefinition:
-    """A production, with what its patterns ask for, and where it stood."""
+    """A production, with the arguments of its patterns, and its place."""
 
     production: Production
-    asked: tuple[RequiredArgument, ...]
+    arguments: tuple[RequiredArgument, ...]
     at: tuple[int, int]
 
 
 @dataclass(frozen=True)
 class RuleList:
-    """The members of LRULES: rules, or names of rules; and whether a comma stands behind the last."""
+    """The members of LRULES: rules, or names of rules; and whether a comma follows the last."""
 
     members: tuple[RuleDefinition | Token, ...] = ()
     comma: bool = False
@@ -126,18 +126,18 @@ class _MathematicaStatements(MathematicaExpressions):
                           'Separate symbols by commas, as in \'F, "+", F\'.')
         return token.update(value=text)
 
-    def pattern(self, symbol: Token, *asked: RequiredArgument) -> PatternDefinition:
-        return PatternDefinition(symbol, asked)
+    def pattern(self, symbol: Token, *arguments: RequiredArgument) -> PatternDefinition:
+        return PatternDefinition(symbol, arguments)
 
     def parameter(self, blank: Token, *condition: Expression) -> RequiredArgument:
         name = blank[:-1]
         if name.endswith("_"):
-            raise ActionError(ModelSyntaxError, f'"{blank}" stands for a row of values', place_of(blank),
-                          f'A parameter stands for one: type "{name.rstrip("_")}_".')
+            raise ActionError(ModelSyntaxError, f'"{blank}" matches a row of values', place_of(blank),
+                          f'A parameter matches one: type "{name.rstrip("_")}_".')
         check_name(_check_plain_name(blank.update(value=name), "A parameter"))
         return RequiredArgument(Name(name, place_of(blank)), True, *condition)
 
-    def asked(self, value: Expression, *condition: Expression) -> RequiredArgument:
+    def argument(self, value: Expression, *condition: Expression) -> RequiredArgument:
         if condition:
             raise ActionError(ModelSyntaxError, 'A parameter is named with "_" after it', value.at,
                           f'Type "{value}_ /; ...".' if isinstance(value, Name) else None)
@@ -248,13 +248,13 @@ def _rule_of(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, ri
     numbers = count(1)
     modules = tuple(_module_of(one, numbers) for one in every)
     production = Production(modules[len(left)], successor, condition, modules[:len(left)], modules[len(left) + 1:])
-    return RuleDefinition(production, tuple(asked for one in every for asked in one.asked), at)
+    return RuleDefinition(production, tuple(argument for one in every for argument in one.arguments), at)
 
 
 def _module_of(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
     """The module of a pattern; a parameter that is only "_" is named by the next number."""
-    arguments = tuple(Name(f"_{next(numbers)}", asked.value.at) if asked.value == Name("") else asked.value
-                      for asked in pattern.asked)
+    arguments = tuple(Name(f"_{next(numbers)}", required.value.at) if required.value == Name("") else required.value
+                      for required in pattern.arguments)
     return Pattern(str(pattern.symbol), arguments, place_of(pattern.symbol, *arguments))
 
 

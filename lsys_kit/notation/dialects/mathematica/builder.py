@@ -50,7 +50,7 @@ def _system(draft: Draft, definitions: Definitions) -> LSystem:
     for rule in rules_in(definitions, system):
         _check_names(rule, names, draft.source)
         draft.add("production", rule.production, rule.at)
-    _set(draft, definitions)
+    _add_settings(draft, definitions)
     draft.notes += _notes(draft, definitions)
     whole = build_system(draft)
     return segment_with_notes(whole) if system.printed else whole
@@ -92,21 +92,21 @@ def _check_constants(constants: Iterable[Constant]) -> None:
 
 
 def _check_names(rule: RuleDefinition, constants: Collection[str], source: str) -> None:
-    """A parameter has a name of its own, and every value that is asked for is known."""
-    for asked in rule.asked:
-        value = asked.value
-        if asked.named and str(value) in constants:
+    """A parameter has a name of its own, and every value in a pattern is known."""
+    for argument in rule.arguments:
+        value = argument.value
+        if argument.named and str(value) in constants:
             raise ModelNameError(f'"{value}" is already a constant', source, *span(value),
                                  f'Give the parameter another name; or type "{value}" to match the constant\'s value.')
-        strange = () if asked.named else sorted(names_in(value) - set(constants))
+        strange = () if argument.named else sorted(names_in(value) - set(constants))
         if strange:
             name = re.sub(r"_(Integer|Real|Rational|Symbol|String|List)$", "", strange[0])
             hint = suggestion(strange[0], constants, 0.8) or f'A parameter is named with "_" after it: "{name}_".'
             raise ModelNameError(f'No constant has the name "{strange[0]}"', source, *span(value), hint)
 
 
-def _set(draft: Draft, definitions: Definitions) -> None:
-    """What is set, with numbers in place of calculations."""
+def _add_settings(draft: Draft, definitions: Definitions) -> None:
+    """Take in the settings, with numbers in place of calculations."""
     values: dict[str, Value] = {}
     for constant in draft.constants:
         values[constant.name] = value_of(constant.value, values)
@@ -119,7 +119,7 @@ def _set(draft: Draft, definitions: Definitions) -> None:
 
 
 def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
-    """What is worth telling."""
+    """Notes on definitions that are not used."""
     yield from definitions.notes
     unused = {constant.name for constant in draft.constants} - _used_names(draft, definitions)
     for constant in draft.constants:
@@ -128,7 +128,7 @@ def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
     defined = definitions.axioms | definitions.rules | definitions.single | definitions.systems | definitions.constants
     others = [*definitions.others, *(name for name in map(str, definitions.alone) if name not in defined)]
     if others:
-        yield f"Passed over, for the kit prints and draws by itself: {', '.join(others)}."
+        yield f"Ignored, because the kit prints and draws by itself: {', '.join(others)}."
 
 
 def _used_names(draft: Draft, definitions: Definitions) -> set[str]:

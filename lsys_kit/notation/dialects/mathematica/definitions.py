@@ -27,22 +27,22 @@ _HINTS = {
 
 @dataclass
 class Definitions:
-    """What the definitions read so far say, each kind by name; what has no name stands under its number.
+    """The definitions read so far, each kind by name; what has no name is kept under its number.
 
     Attributes
     ----------
     source
         The text.
     single
-        Rules that stand outside of LRULES.
+        Rules outside of LRULES.
     run
         The last run.
     alone, title
-        The names that stand alone, and the last of them: it names a system that is printed below it.
+        The names on a line of their own, and the last of them: it is the name of a system that is printed below it.
     printed
-        Under which name the system stands whose printed form is being read.
+        The name of the system whose printed form is being read.
     notes, others
-        What is worth telling, and what is passed over: in order, each once.
+        Notes, and the statements that are ignored: in order, each once.
     """
 
     source: str
@@ -108,7 +108,7 @@ class Definitions:
 
 
 def main_system(definitions: Definitions) -> SystemDefinition:
-    """The system that a text is about: the last that is run, else the last that is defined, else what stands by itself."""
+    """The system of a text: the last that is run, else the last that is defined, else what is defined without a system."""
     found, run = definitions, definitions.run
     only = len(found.systems) < 2 and all(name.isdigit() for name in found.systems)
     if run is None or (isinstance(run.system, Token) and only):
@@ -130,7 +130,7 @@ def axiom_in(definitions: Definitions, system: SystemDefinition) -> WordDefiniti
 
 
 def rules_in(definitions: Definitions, system: SystemDefinition) -> Iterator[RuleDefinition]:
-    """The rules of a system, or the last LRULES of the text, or the rules that stand by themselves."""
+    """The rules of a system, or the last LRULES of the text, or the rules outside of both."""
     alone = [rule for name, rule in definitions.single.items() if name.isdigit()]
     rules = system.rules or next(reversed(definitions.rules.values()), None)
     if rules is None:

@@ -1,4 +1,4 @@
-"""Mathematica's notation, after C. Jacob (seed 000): definitions of an axiom, of rules and of an L-system; its grammar is
+"""Mathematica's notation, after Jacob: definitions of an axiom, of rules and of an L-system; its grammar is
 `grammar.lark`."""
 
 from __future__ import annotations

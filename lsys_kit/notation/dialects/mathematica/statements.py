@@ -62,7 +62,7 @@ def _statement_ends(bare: str) -> Iterator[int]:
 
 
 def _continues(bare: str, begun: int, start: int, end: int) -> bool:
-    """Whether a statement goes on behind the blanks between two offsets, with a line end among them."""
+    """Whether a statement continues after the blanks between two offsets, which contain a line end."""
     return start > begun and bool(_CONTINUES.search(bare, max(begun, start - 3), start) or _CONTINUATION.match(bare, end))
 
 

@@ -18,7 +18,7 @@ _PLAIN_NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null
 
 
 def symbol_text(symbol: str) -> str:
-    """A symbol, in quotation marks where it is no name.
+    """A symbol, in quotation marks unless it is a name.
 
     >>> symbol_text("aR"), symbol_text("+")
     ('aR', '"+"')
@@ -97,7 +97,7 @@ def _rule(production: Production, constants: Collection[str]) -> str:
 
 
 def _pattern(module: Pattern, constants: Collection[str], condition: Expression | None) -> str:
-    """A module that is asked for, with its condition: inside, where it is about the only parameter, else behind."""
+    """A pattern with its condition: inside, where it is about the only parameter, else after it."""
     parameters = _parameters(module, constants)
     texts = [f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _argument_text(argument)
              for argument in module.arguments]
@@ -113,8 +113,8 @@ def _parameters(module: Pattern, constants: Collection[str]) -> list[str]:
 
 
 def _conditions(production: Production, constants: Collection[str]) -> dict[int, Expression]:
-    """With which of a production's modules the parts of its condition are written, so that they are joined again as they
-    were: each with the last module on whose side all its parameters stand, or with the predecessor."""
+    """The parts of a production's condition by the module with which they are written, so that reading joins them again: each
+    with the last module on the side of its parameters, or with the predecessor."""
     if production.condition is None:
         return {}
     own, found = len(production.left), dict[int, list[Expression]]()

@@ -1,4 +1,4 @@
-"""Plant strings (seed 004): symbols of one letter, both kinds of brackets as branches; the grammar is `grammar.lark`."""
+"""Plant strings (the applet's lesson): symbols of one letter, both kinds of brackets as branches; see `grammar.lark`."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def _lacking(system: LSystem) -> str | None:
 
 
 def _likely(text: str) -> int:
-    """How much shows a plant string: nothing where a line cannot stand in one."""
+    """How likely a text is a plant string: 0 where a line is not possible in one."""
     try:
         lines = [line for line in without_comments(text).splitlines() if line.strip()]
     except ModelSyntaxError:
@@ -83,7 +83,7 @@ def _likely(text: str) -> int:
 
 
 def _branches(words: Iterable[str]) -> int:
-    """2 where round brackets hold symbols that stand outside of them too; 1 where they hold other capitals, perhaps values."""
+    """2 where round brackets hold symbols that also occur outside of them; 1 where they hold other capitals, perhaps values."""
     texts = [*words]
     if not any(re.search(r"\([A-Za-z\[(]", text) for text in texts):
         return 0
