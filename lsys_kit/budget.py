@@ -1,6 +1,6 @@
-"""How much a model may ask for: nothing a person types may run away with the machine.
+"""Limits: nothing that a person types may exhaust the machine.
 
-Stands beside `errors`, above all rooms, because every room has something to bound. Limits are set for a stretch of code:
+Like `errors`, this is above all rooms, because every room has something to limit. Limits are set for a block of code:
 
 >>> with limits(modules=1000):
 ...     current().modules
@@ -83,7 +83,7 @@ def limits(**changes: float) -> Iterator[Limits]:
     Raises
     ------
     ModelNameError
-        A keyword is no limit.
+        A keyword is not a limit.
     ModelValueError
         A limit is not a positive number.
     """

@@ -1,6 +1,6 @@
 """What went wrong, where it went wrong, and what to try.
 
-Every mistake that a person can make in a model, an answer or a command ends in one of the classes below. Their text is
+Every mistake in a model, an answer or a command is reported by one of the classes below. Their text is
 written for the person who made the mistake: it names the place (line and column, counted from 1), shows the line with a
 caret under the place, and suggests what to try. Faults of the kit itself are never wrapped in these classes.
 """
@@ -19,16 +19,16 @@ class LSystemError(Exception):
     message
         What is wrong, one sentence without its full stop.
     source
-        The text in which the mistake stands, if there is one.
+        The text that has the mistake, if there is one.
     start, end
-        The offsets in `source` between which the mistake stands.
+        The offsets in `source` between which the mistake is.
     hint
         What to try, whole sentences.
 
     Attributes
     ----------
     line, column, end
-        The place, counted from 1; `end` is the column behind the mistake. None where no text is at fault.
+        The place, counted from 1; `end` is the column after the mistake. None where no text is at fault.
 
     Examples
     --------
@@ -40,8 +40,8 @@ class LSystemError(Exception):
 
     def __init__(self, message: str, source: str | None = None, start: int | None = None, end: int | None = None,
                  hint: str | None = None) -> None:
-        self.message = _plain(message)
-        self.hint = None if hint is None else _plain(hint)
+        self.message = _printable_text(message)
+        self.hint = None if hint is None else _printable_text(hint)
         self._locate(source, start, end)
         super().__init__(self._text())
 
@@ -68,14 +68,14 @@ class LSystemError(Exception):
 
     def with_hint(self, hint: str) -> Self:
         """The same error with another hint."""
-        self.hint = _plain(hint)
+        self.hint = _printable_text(hint)
         self.args = (self._text(),)
         return self
 
     def _text(self) -> str:
         where = f" (line {self.line}, column {self.column})" if self.line else ""
-        said = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
-        return said + self._quotation()
+        text = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
+        return text + self._quotation()
 
     def _quotation(self) -> str:
         """The line at fault with a caret under the place; a window of it where the line is long."""
@@ -97,11 +97,11 @@ class ModelSyntaxError(LSystemError):
 
 
 class ModelNameError(LSystemError):
-    """A name stands for nothing: no parameter, constant, function, system or option has it."""
+    """A name is unknown: no parameter, constant, function, system or option has it."""
 
 
 class ModelValueError(LSystemError):
-    """A value cannot be what the model makes of it: a number where a truth is asked for, a division by zero."""
+    """A value is not possible: a number where a truth is needed, a division by zero."""
 
 
 class ModelLimitError(LSystemError):
@@ -123,11 +123,11 @@ class ModelLimitError(LSystemError):
 
 
 class ModelFileError(LSystemError):
-    """A file is not there, cannot be read, or may not be written."""
+    """A file does not exist, cannot be read, or may not be written."""
 
 
 def printable(character: str) -> str:
-    """The character, or a blank or question mark for one that would not show or would turn the text around.
+    """The character, or a blank or question mark for one that is invisible or reverses the text.
 
     >>> printable("a"), printable("\\u202e"), printable("\\t")
     ('a', '?', ' ')
@@ -137,8 +137,8 @@ def printable(character: str) -> str:
     return character if character.isprintable() else "?"
 
 
-def _plain(text: str) -> str:
-    """A text with its lines, whatever a person's text in it may hold that would not show or would turn it around."""
+def _printable_text(text: str) -> str:
+    """A text with its lines, without characters that are invisible or reverse it."""
     return "\n".join("".join(map(printable, line)) for line in text.split("\n"))
 
 
@@ -152,7 +152,7 @@ def quotable(name: str) -> str:
 
 
 def named(character: str) -> str:
-    """A character as a message quotes it: itself where it shows, and its Unicode name where it may mislead.
+    """A character as a message quotes it: itself where it is visible, with its Unicode name where it may mislead.
 
     >>> named("x"), named("\\u0445"), named("\\u202e")
     ('"x"', '"х" (CYRILLIC SMALL LETTER HA)', 'RIGHT-TO-LEFT OVERRIDE')

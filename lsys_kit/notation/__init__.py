@@ -1,4 +1,4 @@
-"""Text to records and back. Knows no numbers' meaning, no pictures, no files.
+"""Text to records and back. Knows nothing of derivations, pictures or files.
 
 The registry is loaded first, so that a system can print itself, in whichever notation it was read.
 """

@@ -1,13 +1,13 @@
 """Text to records: a system, a word or an expression, read in one of the notations.
 
-A text is cut into statements, each is parsed by the grammar of its notation, and the records are checked. The grammars stand
-in `dialects`, one for each notation; `expressions.lark` in `syntax` is what they share.
+A text is cut into statements, each is parsed by the grammar of its notation, and the records are checked. The grammars are
+in `dialects`, one for each notation; they share `expressions.lark` in `syntax`.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from lsys_kit.budget import current
@@ -25,6 +25,7 @@ from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_word
 from lsys_kit.notation.syntax.statements import ARROW, bounded, check_text
+from lsys_kit.notation.syntax.wording import notes, reporting
 
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
@@ -38,16 +39,16 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     text
         The model: constants, axiom, productions, one a line. `/* ... */` is a comment.
     notation
-        Its name; by default the notation of which the text shows most marks, and the first note of the system says which, if it
-        is not the kit's own.
+        Its name; by default the notation whose features the text shows most. Unless that is the kit's own, the first note of
+        the system names it.
     name
         Which system, where a text holds several with names, as files of Fractint's do.
 
     Raises
     ------
     ModelSyntaxError, ModelNameError, ModelValueError
-        The text makes no sense; the error has the place and a hint, which may be that another notation fits. Or it is not said
-        which of several systems is meant.
+        The text makes no sense; the error gives the place and a hint, perhaps that another notation fits. Or the text holds
+        several systems, and none is named.
     ModelLimitError
         The text is too long.
 
@@ -71,7 +72,7 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     """
     check_text(text)
     if _MAP.match(text):
-        raise ModelValueError("Here a map system begins, and no L-system", text, len(text) - len(text.lstrip()), None,
+        raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
         return _read_in(dialect_named(notation), text, name)
@@ -87,7 +88,7 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
 
 
 def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
-    """The other notations of which a text shows a mark, if it is short enough to be read again."""
+    """The other notations that a text may be in, if it is short enough to be read again."""
     if len(text) <= current().expression:
         yield from (notation for notation in DIALECTS.values() if notation is not chosen and notation.likely(text) > 0)
 
@@ -108,44 +109,59 @@ def _read_in(notation: Dialect, text: str, name: str | None) -> LSystem:
         system = _built(notation, transcript.text)
     except LSystemError as error:
         raise transcript.relocated(error) from None
-    return replace(system, notes=(*transcript.notes, *system.notes, *unused_productions(system)))
+    return replace(system, notes=(*transcript.notes, *system.notes, *notes(unused_productions(system), notation.spelling)))
 
 
 def _built(notation: Dialect, text: str) -> LSystem:
     """The system of a text that is written as its notation's grammar has it."""
     draft = Draft(text, notation.name, notation.turtle)
-    for start, end in bounded(notation.statements(text), text):
-        kind, record = parse(notation, "statement", text, start, end)
-        draft.add(kind, record, (start, end))
-    system = notation.finish(draft)
-    check_decomposition(system)
+    with reporting(text, notation.spelling):
+        for start, end in bounded(notation.statements(text), text):
+            kind, record = parse(notation, "statement", text, start, end)
+            draft.add(kind, record, (start, end))
+        system = notation.finish(draft)
+        check_decomposition(system)
     return system
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:
-    """Read a word whose arguments are numbers; with a system, letters written together are parted as in its rules.
+    """Read a word whose arguments are numbers; with a system, letters written together are divided as in its rules.
 
     >>> [str(module) for module in read_word("A(1/2)[B]")]
     ['A(0.5)', '[', 'B', ']']
     """
     if not text.strip() or text.strip() in ("ε", "*"):
         return ()
-    word = parse(dialect_named(notation), "word", text, 0, len(text))
-    check_word(word, (), text)
-    if system is not None and notation == "abop":
-        word = segment_word(word, system)
-    if notation == "abop":
-        check_digits(flat(word), system.alphabet if system else (), text)
-    return tuple(Module(part.symbol, tuple(value_of(a, text) for a in part.arguments), part.at) for part in flat(word))
+    dialect = dialect_named(notation)
+    word = parse(dialect, "word", text, 0, len(text))
+    with reporting(text, dialect.spelling):
+        check_word(word, ())
+        if system is not None and notation == "abop":
+            word = segment_word(word, system)
+        if notation == "abop":
+            check_digits(flat(word), system.alphabet if system else ())
+        return tuple(Module(part.symbol, tuple(map(value_of, part.arguments)), part.at) for part in flat(word))
 
 
 def read_expression(text: str) -> Expression:
-    """Read an expression; its names are checked by whoever knows them.
+    """Read an expression; its names are not checked.
 
     >>> print(read_expression("2*(t+1)"))
     2 * (t + 1)
     """
     return parse(ABOP, "expression", text, 0, len(text))  # type: ignore[no-any-return]
+
+
+def checked_expression(text: str, names: Collection[str], wanted: str = "number") -> Expression:
+    """Read an expression that uses some names and is a "number" or a "truth".
+
+    >>> print(checked_expression("t < 5", ["t"], "truth"))
+    t < 5
+    """
+    expression = read_expression(text)
+    with reporting(text):
+        check_expression(expression, names, wanted)
+    return expression
 
 
 def read_number(text: str) -> Value:
@@ -154,6 +170,6 @@ def read_number(text: str) -> Value:
     >>> read_number("14/10")
     Fraction(7, 5)
     """
-    expression = read_expression(text)
-    check_expression(expression, (), text)
-    return value_of(expression, text)
+    expression = checked_expression(text, ())
+    with reporting(text):
+        return value_of(expression)

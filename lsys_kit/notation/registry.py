@@ -37,10 +37,10 @@ def dialect_named(name: str) -> Dialect:
 
 
 def recognise(text: str) -> Dialect:
-    """The notation of which a text shows most marks; the kit's own where it shows none.
+    """The notation whose features a text shows most; the kit's own where it shows none.
 
     >>> recognise("axiom: A").name
     'abop'
     """
-    said = "\n".join(line for line in text.split("\n") if not line.isspace() and line)  # a pattern may look again at each blank
-    return max(DIALECTS.values(), key=lambda notation: notation.likely(said))
+    lines = "\n".join(line for line in text.split("\n") if line.strip())  # a pattern may look again at each blank
+    return max(DIALECTS.values(), key=lambda notation: notation.likely(lines))

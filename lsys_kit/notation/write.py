@@ -40,7 +40,7 @@ def write(system: LSystem, notation: str | None = None) -> str:
 
 
 def as_written(system: LSystem, part: Any) -> str:
-    """A production, a condition or a pattern of a system as its text has it; in the kit's own notation where it has no text.
+    """A production, condition or pattern of a system as in its text; in the kit's own notation where there is no text.
 
     >>> from lsys_kit.notation.read import read
     >>> system = read("* # F a,\\n(t<6)  k(t) # k(t+1)", "grogra")

@@ -86,7 +86,7 @@ def test_each_kind_of_system_is_asked_for_by_its_own_name() -> None:
 def test_where_a_map_cannot_be_shown_it_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "cells.txt").write_text(str(map_system("K28")))
     for name, said in (("K28", 'K28 is a map system, and no L-system. map_system("K28") gives it.'),
-                       (str(tmp_path / "cells.txt"), "Here a map system begins, and no L-system (line 1, column 1). "
+                       (str(tmp_path / "cells.txt"), "This is a map system, not an L-system (line 1, column 1). "
                                                      "Maps are read by read_map(text).")):
         assert main(["derive", name, "-n", "2"]) == 2
         assert said in capsys.readouterr().err

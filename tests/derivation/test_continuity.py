@@ -303,7 +303,7 @@ def test_a_jump_that_no_value_mends_is_named() -> None:
     ({"L R": "1 +"}, ModelSyntaxError, "A value is missing here (line 1, column 4)"),
     ({"L R": "1 +\n  )"}, ModelSyntaxError, "(line 2, column 3)"),
     ({"L R": "t < 1"}, ModelValueError, '"t < 1" is true or false, but a number is needed here (line 1, column 1)'),
-    ({"L R": "uniform(0, 1)"}, ModelValueError, "is another number at every use"),
+    ({"L R": "uniform(0, 1)"}, ModelValueError, "draws a new number at every use"),
     ({"L R": "1 + if(t < 1, t, 2)"}, ModelValueError, '"if(t < 1, t, 2)" may jump, which no length does (line 1, column 5)'),
     ({"L R": "floor(t)"}, ModelValueError, "may jump"),
     ({"L R": 5}, ModelValueError, "A growth function is a text"),

@@ -68,8 +68,8 @@ FRAGMENTS = {
 }
 """Rules that make no system: an axiom with which they do, and what they are in the kit's own spelling."""
 REFUSED = {
-    "001-anabaena.abop.txt": ("This is no arrow", 1, 4),
-    "001-koch.abop.txt": ("This dash is no minus sign", 1, 15),
+    "001-anabaena.abop.txt": ("This is not an arrow", 1, 4),
+    "001-koch.abop.txt": ("This dash is not a minus sign", 1, 15),
 }
 """Listings that cannot be read as printed: what is said, the line and the column."""
 

@@ -41,7 +41,7 @@ def slip(text: str) -> LSystemError:
     ("axiom: " + "[" * 10_001 + "]" * 10_001, "More than 10,000 brackets are open at once"),
     ("axiom: A" + " B" * 30_000, "This line has 60,008 characters; the limit is 50,000"),
     ("axiom: A" + "\nA -> B" * 1_001, "The model has more than 1,000 productions"),
-    ("c = 1\n" * 2_001, "The model has more than 2,000 lines that say something"),
+    ("c = 1\n" * 2_001, "The model has more than 2,000 lines that are not blank"),
     ("axiom: A" + ("\nA -> " + "B " * 100) * 700, "The model has more than 64,000 characters, without blanks and comments"),
     ("axiom: A" + " " * 1_000_000, "The text has 1,000,008 characters; the limit is 1,000,000"),
 ])

@@ -224,7 +224,7 @@ def test_every_operator_can_be_shown_as_mathematics() -> None:
     for operator, entry in OPERATORS.items():
         operands = tuple(truths[i % 2] if entry.wanted(i) == "truth" else (t, x)[i % 2] for i in range(entry.arity[0]))
         if entry.random:
-            with pytest.raises(ModelValueError, match="is drawn anew at every use: no formula stands for it"):
+            with pytest.raises(ModelValueError, match="is drawn anew at every use: no formula can replace it"):
                 to_sympy(Apply(operator, operands))
             continue
         names = {name for operand in operands for name in names_in(operand)}

@@ -101,7 +101,7 @@ def test_indented_lines_go_on_unless_they_have_an_arrow_of_their_own() -> None:
 def test_prose_behind_a_successor_is_pointed_out() -> None:
     system = read("Lsystem: 1\nAxiom: F\nF --> FF // doubles", "cpfg")
     assert len(system.productions[0].successor) == 11
-    assert system.notes == ('"// doubles" is read as symbols, two rolls first; a comment stands between "/*" and "*/".',)
+    assert system.notes == ('"// doubles" is read as symbols, two rolls first; a comment is written between "/*" and "*/".',)
 
 
 def test_numbers_are_those_of_c() -> None:

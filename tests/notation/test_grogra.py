@@ -144,7 +144,7 @@ def test_what_only_the_slides_spell_so_is_told() -> None:
     text = "a \\rightarrow F [RU45 b] a,\n(x \\geq 17) b(x) → \\dots\nStartwort a"
     assert grogra(text).notes[:2] == (
         'Read as in GROGRA: "\\rightarrow" as "#", "\\geq" as ">=", "→" as "#", "Startwort" as "\\axiom".',
-        '"\\dots" stands for what is not printed: it is left out.')
+        '"\\dots" marks something that is not printed: it is left out.')
     assert grogra("a # b /* → */, \\axiom a").notes == ()
 
 
@@ -192,7 +192,7 @@ def test_a_function_asks_for_what_the_turtle_sees() -> None:
     system = grogra((LISTINGS / "003-sensitive-dichotomy.grogra.txt").read_text(encoding="utf-8"))
     assert str(system.productions[0].condition) == "sensed(2, 1) > 60"
     assert str(derive(system, 0)[0]) == "a"
-    with pytest.raises(ModelValueError, match="function 2 asks for what the turtle sees, and words alone do not tell") as no:
+    with pytest.raises(ModelValueError, match="function 2 depends on what the turtle sees, which a word alone does") as no:
         derive(system, 1)
     assert (no.value.line, "(f(1) > 60) a →" in str(no.value)) == (4, True)
 

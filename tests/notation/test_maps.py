@@ -16,13 +16,13 @@ from lsys_kit.notation.read import read
 from tests.derivation.random_maps import map_systems
 
 MARKER = 'A marker reads "[-A]" or "[+A]": the side of the wall, the letter of a wall to come.'
-PRODUCTION = 'A production reads "A -> B[-A][+A]B": a wall, an arrow, the walls that it becomes, with markers between them.'
+PRODUCTION = 'A production reads "A -> B[-A][+A]B": a wall, an arrow, the walls that it becomes, with markers between.'
 FIRST = 'Give the walls of the first cell, one after another, clockwise, as in "map: ABAB".'
 LETTERS = "Walls are letters, perhaps with a digit and an arrow: A, A1, A>."
-BETWEEN = 'Markers stand between two parts of a wall, as in "A -> B[-A]B".'
+BETWEEN = 'Markers belong between two parts of a wall, as in "A -> B[-A]B".'
 PROPAGATING = "A map is propagating: every wall becomes one wall or several."
 SIDES = "Left of the wall is +, right is -, seen in its direction."
-POINTS = "A wall points one way, and its arrow stands behind its letter: A> or A<."
+POINTS = "A wall points one way, and its arrow comes after its letter: A> or A<."
 
 
 @given(map_systems())
@@ -58,24 +58,24 @@ UNREADABLE = [
     ("A -> B", "There is no first cell", 1, 7, 'Give its walls, one after another, clockwise, as in "map: ABAB".'),
     ("map:", "The first cell has no walls", 1, 1, FIRST),
     ("axiom", "The first cell has no walls", 1, 1, FIRST),
-    ("map ABAB", 'A ":" is missing behind "map"', 1, 1, 'Type "map: ABAB".'),
-    ("map = ABAB", 'A ":" is missing behind "map"', 1, 1, 'Type "map: ABAB".'),
+    ("map ABAB", 'A ":" is missing after "map"', 1, 1, 'Type "map: ABAB".'),
+    ("map = ABAB", 'A ":" is missing after "map"', 1, 1, 'Type "map: ABAB".'),
     ("start: ABAB", 'A map system has no "start:"', 1, 1, 'It has "map:", "steps:" and productions.'),
-    ("map: A, B, C", 'A "," is not needed here', 1, 7, "Walls stand side by side, with or without blanks between them."),
-    ("map: AB[+A]B", "A marker stands here", 1, 8, "Markers stand behind the arrow of a production."),
+    ("map: A, B, C", 'A "," is not needed here', 1, 7, "Walls are written side by side, with or without blanks between them."),
+    ("map: AB[+A]B", "A marker is not possible here", 1, 8, "Markers come after the arrow of a production."),
     ("map: A(2)BC", "A wall has no values", 1, 7, LETTERS),
-    ("map: ABC -> D", "An arrow cannot stand here", 1, 10, PRODUCTION),
-    ("map: ABC\nmap: ABC", "A second first cell stands here", 2, 1, "A map begins with one cell."),
-    ("map: ABC\nsteps: 2\nsteps: 3", '"steps:" stands here a second time', 3, 1, "A system has one of it."),
-    ("map: ABC\nsteps: many", 'Behind "steps:" a whole number is needed', 2, 1, 'Type "steps: 4".'),
+    ("map: ABC -> D", "An arrow is not possible here", 1, 10, PRODUCTION),
+    ("map: ABC\nmap: ABC", "This is a second first cell", 2, 1, "A map begins with one cell."),
+    ("map: ABC\nsteps: 2\nsteps: 3", '"steps:" is set a second time', 3, 1, "Keep one of the two lines."),
+    ("map: ABC\nsteps: many", 'After "steps:" a whole number is needed', 2, 1, 'Type "steps: 4".'),
     ("map: ABC\nsteps: 1234567890", "This number is too large", 2, 8, None),
     ("map: ABC\nangle: 90", 'A map system has no "angle:"', 2, 1, 'It has "map:", "steps:" and productions.'),
     ("map: ABC\nA B", "An arrow is missing here", 2, 3, PRODUCTION),
-    ("map: ABC\nA => B", "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
-    ("map: ABC\nA - > B", "This is no arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
-    ("map: ABC\nA -> B -> C", "A second arrow stands in this production", 2, 8, "Write one production a line."),
-    ("-> B", "Nothing stands before the arrow", 1, 1, PRODUCTION),
-    ("map: ABC\nA ->", "Nothing stands behind the arrow", 2, 3, "Walls are never erased: write what this one becomes."),
+    ("map: ABC\nA => B", "This is not an arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("map: ABC\nA - > B", "This is not an arrow", 2, 3, 'An arrow is typed "->", in one piece.'),
+    ("map: ABC\nA -> B -> C", "This is a second arrow in one production", 2, 8, "Write one production per line."),
+    ("-> B", "There is nothing before the arrow", 1, 1, PRODUCTION),
+    ("map: ABC\nA ->", "There is nothing after the arrow", 2, 3, "Walls are never erased: write what this one becomes."),
     ("map: ABC\nA -> ε", "A wall cannot be erased", 2, 6, PROPAGATING),
     ("map: ABC\nA -> *", "A wall cannot be erased", 2, 6, PROPAGATING),
     ("map: ABC\nAB -> C", "Only one wall can be replaced", 2, 2, "Maps have no contexts. Write a production for each wall."),
@@ -83,21 +83,21 @@ UNREADABLE = [
      "Maps have no contexts. Write a production for each wall."),
     ("map: ABC\nA(t) -> B", "A wall has no values", 2, 2, LETTERS),
     ("map: ABC\nA : 1 < 2 -> B", "A wall has no condition", 2, 3, PRODUCTION),
-    ("map: ABC\nA_1 -> B", "A letter has no subscript here", 2, 2, "Write the number behind the letter, as in A1."),
-    ("map: ABC\nA>> -> B", 'A second ">" stands here', 2, 3, POINTS),
-    ("map: ABC\nA -> > B", 'No wall stands before this ">"', 2, 6, POINTS),
-    ("map: ABC\nA -> 1", "A number stands alone here", 2, 6, "Walls are letters, perhaps with a digit behind: A, A1."),
-    ("map: ABC\nA -> B; C", 'A ";" is not needed here', 2, 7, "Write one production a line."),
+    ("map: ABC\nA_1 -> B", "A letter has no subscript here", 2, 2, "Write the number after the letter, as in A1."),
+    ("map: ABC\nA>> -> B", 'This is a second ">"', 2, 3, POINTS),
+    ("map: ABC\nA -> > B", 'There is no wall before this ">"', 2, 6, POINTS),
+    ("map: ABC\nA -> 1", "A number is not a wall", 2, 6, "Walls are letters, perhaps with a digit after them: A, A1."),
+    ("map: ABC\nA -> B; C", 'A ";" is not needed here', 2, 7, "Write one production per line."),
     ("map: ABC\nA -> B[-A", 'This "[" is never closed', 2, 7, MARKER),
     ("map: ABC\nA -> B]B", 'This "]" closes nothing', 2, 7, MARKER),
-    ("map: ABC\nA -> B[A]B", "This marker does not say on which side it stands", 2, 8, SIDES),
-    ("map: ABC\nA -> B[~A]B", "This marker does not say on which side it stands", 2, 8, SIDES),
+    ("map: ABC\nA -> B[A]B", "This marker does not say on which side it is", 2, 8, SIDES),
+    ("map: ABC\nA -> B[~A]B", "This marker does not say on which side it is", 2, 8, SIDES),
     ("map: ABC\nA -> B[-]B", "This marker has no letter", 2, 9, MARKER),
     ("map: ABC\nA -> B[-AB]B", "A marker has one letter", 2, 10, 'Write a marker for each: "[-A][-B]".'),
-    ("map: ABC\nA -> B[+-A]B", "A marker stands on one side", 2, 9, 'For both sides write two: "[-A][+A]".'),
-    ("map: ABC\nA -> B[[-A]]B", "A marker stands inside a marker", 2, 8, MARKER),
-    ("map: ABC\nA -> B-A]B", 'This "-" stands outside of a marker', 2, 7, MARKER),
-    ("map: ABC\n# a cell", "This is no production", 2, 1, 'A comment stands between "/*" and "*/".'),
+    ("map: ABC\nA -> B[+-A]B", "A marker is on one side", 2, 9, 'For both sides write two: "[-A][+A]".'),
+    ("map: ABC\nA -> B[[-A]]B", "A marker inside a marker is not possible", 2, 8, MARKER),
+    ("map: ABC\nA -> B-A]B", 'This "-" is outside of a marker', 2, 7, MARKER),
+    ("map: ABC\n# a cell", "This is not a production", 2, 1, 'A comment is written between "/*" and "*/".'),
     ("map: ABC\n/* a cell", "This comment is never closed", 2, 1, 'A comment ends with "*/".'),
     ("map: ABC\n\u0410 -> B", 'I cannot read the character "А" (CYRILLIC CAPITAL LETTER A)', 2, 1,
      "Walls are letters from A to Z."),
@@ -107,11 +107,11 @@ SENSELESS = [
     ("map: A>", "The first cell has only 1 wall", 1, 6, 'A cell has three walls or more, as in "map: AAA".'),
     ("map: ABC\nA< -> B", "A production is written in the direction of its wall", 2, 1,
      'Write "A> -> ...": what becomes of the wall, from its beginning to its end.'),
-    ("map: ABC\nA -> B\nA -> C", "A second production of A stands here", 3, 1,
-     "A wall has one production at most. With an arrow and without, walls are different ones."),
+    ("map: ABC\nA -> B\nA -> C", "This is a second production for A", 3, 1,
+     "A wall has at most one production. With an arrow and without, walls are different ones."),
     ("map: ABC\nA -> [-A]", "Nothing is left of the wall A", 2, 7, "Walls are never erased: write the letter of a wall too."),
-    ("map: ABC\nA> -> [-A]B", "This marker stands at the end of the wall", 2, 8, BETWEEN),
-    ("map: ABC\nA> -> B[-A]", "This marker stands at the end of the wall", 2, 9, BETWEEN),
+    ("map: ABC\nA> -> [-A]B", "This marker is at the end of the wall", 2, 8, BETWEEN),
+    ("map: ABC\nA> -> B[-A]", "This marker is at the end of the wall", 2, 9, BETWEEN),
     ("map: ABC\nA -> B[-A]C", "The neutral wall A would become something else from its other end", 2, 6,
      'Read backwards, where left is right, this is "C[+A]B", and a wall without an arrow has no beginning. '
      'Make both the same, or give the wall an arrow: "A> -> ...".'),
@@ -177,7 +177,7 @@ def test_any_text_is_a_map_system_or_a_slip_that_is_explained(text: str) -> None
 def test_a_map_is_no_l_system() -> None:
     written = str(read_map("map: ABAB\nA -> B[-A][+A]B"))
     for notation in (None, "abop", "grogra", "cpfg", "mathematica", "plant-string"):
-        with pytest.raises(ModelValueError, match="Here a map system begins") as caught:
+        with pytest.raises(ModelValueError, match="This is a map system") as caught:
             read(f"\n{written}", notation)
         assert (caught.value.line, caught.value.column, caught.value.hint) == (2, 1, "Maps are read by read_map(text).")
     with pytest.raises(ModelNameError, match="Maps are no L-systems"):

@@ -22,7 +22,7 @@ from lsys_kit.notation.write import write
 LISTINGS = Path(__file__).parents[1] / "listings"
 TABLE = {listing["file"]: listing for listing in tomllib.loads((LISTINGS / "listings.toml").read_text("utf-8"))["listing"]}
 SYSTEMS = [file for file, listing in TABLE.items() if listing["notation"] == "mathematica" and listing["kind"] == "system"]
-PASSED_OVER = "Passed over, for the kit prints and draws by itself: "
+PASSED_OVER = "Ignored, because the kit prints and draws by itself: "
 
 
 def printed(file: str) -> str:
@@ -108,7 +108,7 @@ def test_a_run_says_how_many_steps(file: str, steps: int) -> None:
 
 
 @pytest.mark.parametrize(("file", "note"), [
-    ("000-anabaena", "The comma behind the last LRule is passed over."),
+    ("000-anabaena", "The comma after the last LRule is ignored."),
     ("000-ILSystem1", '"baaaaaad" is read as b a a a a a a d.'),
     ("000-ILSystem2", PASSED_OVER + "ColumnForm."),
     ("000-ILSystem3", PASSED_OVER + "postProcessingFunction, ColumnForm."),
@@ -283,7 +283,7 @@ def test_of_several_systems_the_last_that_is_run_is_read(runs: str, axiom: str, 
 
 @pytest.mark.parametrize(("text", "note"), [
     ("axiom = AXIOM[a]; run[lsystem, 3]", '"lsystem" is not defined: what the text defines is run.'),
-    ("AXIOM[a]; LRule[LEFT[], PRED[a], RIGHT[], SUCC[]]; LRULES[]", "A rule that stands outside of LRULES is not used."),
+    ("AXIOM[a]; LRule[LEFT[], PRED[a], RIGHT[], SUCC[]]; LRULES[]", "A rule outside of LRULES is not used."),
     ("axiom = AXIOM[a]; axiom", None), ("axiom = AXIOM[a]; growth", PASSED_OVER + "growth."),
     ("w = 3; axiom = AXIOM[a]", 'The constant "w" is used nowhere.'),
 ])

@@ -104,7 +104,7 @@ def test_other_prints_are_read_as_they_are_meant(text: str, expected: str) -> No
 
 @pytest.mark.parametrize("text", ["axiom: A\nA -> 2 B", "axiom: A 1\nA -> B", "axiom: A\n1 < A -> B"])
 def test_a_digit_that_nothing_rewrites_is_no_symbol(text: str) -> None:
-    with pytest.raises(LSystemError, match="A number stands alone in a word"):
+    with pytest.raises(LSystemError, match="A number is not a module"):
         read(text)
 
 

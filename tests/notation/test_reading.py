@@ -161,7 +161,7 @@ def test_a_long_expression_is_refused() -> None:
 def test_limits_of_a_model_can_be_set() -> None:
     with limits(rules=1):
         assert read("axiom: A\nA -> B")
-        with pytest.raises(ModelLimitError, match="The model has more than 2 lines that say something"):
+        with pytest.raises(ModelLimitError, match="The model has more than 2 lines that are not blank"):
             read("axiom: A\nA -> B\nB -> A")
     with limits(brackets=2), pytest.raises(ModelSyntaxError, match="More than 2 brackets are open at once"):
         read("axiom: [[[A]]]")

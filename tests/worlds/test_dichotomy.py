@@ -127,7 +127,7 @@ def test_the_explanation_tells_what_was_seen() -> None:
 
 
 def test_words_alone_do_not_tell_what_is_seen() -> None:
-    with pytest.raises(ModelValueError, match="function 2 asks for what the turtle sees"):
+    with pytest.raises(ModelValueError, match="function 2 depends on what the turtle sees"):
         words_alone(dichotomy(), 1)
     with pytest.raises(ModelValueError, match="context-free systems"):
         growth(dichotomy())

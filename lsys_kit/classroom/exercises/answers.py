@@ -20,12 +20,12 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelNameError, ModelValueError
-from lsys_kit.notation.analysis.checks import check_expression, span, suggestion
+from lsys_kit.notation.analysis.checks import span, suggestion
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Expression, expression_type
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.notation.read import read, read_expression, read_word
+from lsys_kit.notation.read import checked_expression, read, read_expression, read_word
 from lsys_kit.worlds.derive import derive
 
 
@@ -214,9 +214,7 @@ def _reply_to_system(_: Exercise, derivation: Derivation, solution: Derivation) 
 
 def _read_expression(exercise: Exercise, answer: object) -> Expression:
     text = _text(answer, "An expression", '"t + 1"')
-    expression = read_expression(text)
-    check_expression(expression, exercise.values, text, expression_type(read_expression(exercise.solution)))
-    return expression
+    return checked_expression(text, exercise.values, expression_type(read_expression(exercise.solution)))
 
 
 def _asked_values(exercise: Exercise) -> Iterator[Valuations]:

@@ -13,6 +13,7 @@ from lsys_kit.notation.analysis.checks import check_expression, span, suggestion
 from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in, to_sympy
 from lsys_kit.notation.read import read_expression
+from lsys_kit.notation.syntax.wording import reporting
 
 if TYPE_CHECKING:
     import sympy
@@ -74,7 +75,8 @@ def _read(text: object) -> Expression:
     if len(text) > MOST_TEXT:
         raise ModelLimitError(f"A growth function has at most {MOST_TEXT} characters", limit=MOST_TEXT, needed=len(text))
     tree = read_expression(text)
-    check_expression(tree, names_in(tree), text)
+    with reporting(text):
+        check_expression(tree, names_in(tree))
     if _towers(tree, text) > MOST_TOWERS:
         raise ModelLimitError("The powers here are too large", limit=MOST_TOWERS, source=text, start=0, end=len(text))
     return tree

@@ -1,5 +1,5 @@
-"""Does a text that can be read also make sense? Names that stand for something, truths where truths are asked for,
-brackets that close, sliders whose values are in their range. Each check raises the error that a student can act on."""
+"""Does a text that can be read also make sense? Every name must be known, operators must get the types they take, brackets must
+close, and sliders must hold their value. Each check raises the first problem that it finds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from types import MappingProxyType
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.arithmetic import Value, finite, reason_of
 from lsys_kit.notation.model.expressions import (
     OPERATORS,
@@ -24,193 +24,184 @@ from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
 
 
-def span(thing: object) -> tuple[int | None, int | None]:
-    """Where a record stood in its text."""
-    return getattr(thing, "at", None) or (None, None)
+def span(record: object) -> tuple[int | None, int | None]:
+    """The offsets between which a record was read."""
+    return getattr(record, "at", None) or (None, None)
+
+
+def closest(name: str, known: Collection[str], likeness: float = 0.6) -> str | None:
+    """The known name that a name resembles most.
+
+    >>> closest("lifetimeA", ["lifeTimeA", "dt"])
+    'lifeTimeA'
+    """
+    close = (get_close_matches(name, sorted(known), 1, likeness)
+             or get_close_matches(name.lower(), sorted(known), 1, likeness))
+    return close[0] if close else None
 
 
 def suggestion(name: str, known: Collection[str], likeness: float = 0.6) -> str | None:
-    """A hint that names what was probably meant.
+    """A hint that gives the name that was probably meant.
 
     >>> suggestion("lifetimeA", ["lifeTimeA", "dt"])
     'Did you mean "lifeTimeA"?'
     """
-    close = (get_close_matches(name, sorted(known), 1, likeness)
-             or get_close_matches(name.lower(), sorted(known), 1, likeness))
-    return f'Did you mean "{close[0]}"?' if close else None
+    name_meant = closest(name, known, likeness)
+    return f'Did you mean "{name_meant}"?' if name_meant else None
 
 
-_NO_NAMES = 'A parameter is named before the arrow, as in "A(t) -> A(t+1)"; a constant on a line before, as in "dt = 0.5".'
-_RANDOM = 'Random numbers stand behind the arrow of a production, as in "A -> F(uniform(1, 2))".'
 SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))
-"""What is set with a colon and is no constant."""
+"""Keywords that are followed by a colon, so that no constant can have their name."""
 
 
-def value_of(expression: Expression, source: str, values: Mapping[str, Value] = MappingProxyType({})) -> Value:
-    """What an expression comes to, given the values of its names.
+def value_of(expression: Expression, values: Mapping[str, Value] = MappingProxyType({})) -> Value:
+    """The value of an expression, given the values of its names.
 
-    >>> value_of(Apply("+", (Name("dt"), Name("dt"))), "", {"dt": 2})
+    >>> value_of(Apply("+", (Name("dt"), Name("dt"))), {"dt": 2})
     4
     """
     order = {name: index for index, name in enumerate(values)}
     try:
         return finite(function_of(expression, order)(tuple(values.values())))
     except (ArithmeticError, ValueError) as fault:
-        raise ModelValueError(f'"{expression}" has no value: {reason_of(fault)}', source, *span(expression)) from None
+        raise problem("no value", expression.at, expression=expression, reason=reason_of(fault)) from None
 
 
-def check_expression(expression: Expression, names: Collection[str], source: str, wanted: str = "number",
-                     chance: bool = False) -> None:
-    """Every name is known, every operator gets what it takes, nothing is random where chance has no place, and the whole is
-    what is wanted of it."""
+def check_expression(expression: Expression, names: Collection[str], wanted: str = "number", chance: bool = False) -> None:
+    """Every name is known, every operator gets the types it takes, random numbers occur only where they may, and the whole is a
+    "number" or a "truth" as wanted."""
     if isinstance(expression, Name) and expression.name not in names:
         known = ", ".join(f'"{name}"' for name in sorted(names))
-        hint = suggestion(expression.name, names) or (f"Known here: {known}." if known else _NO_NAMES)
-        raise ModelNameError(f'I do not know the name "{expression.name}"', source, *span(expression), hint)
+        raise problem("unknown name" if known else "name among none", expression.at, closest(expression.name, names),
+                    name=expression.name, known=known)
     if isinstance(expression, Apply):
         operator = OPERATORS[expression.operator]
         if operator.random and not chance:
-            raise ModelValueError(f'"{expression}" is another number at every use, which cannot be here', source,
-                                  *span(expression), _RANDOM)
+            raise problem("random number", expression.at, expression=expression)
         for index, operand in enumerate(expression.operands):
-            check_expression(operand, names, source, operator.wanted(index), chance)
+            check_expression(operand, names, operator.wanted(index), chance)
     if expression_type(expression) != wanted:
-        if wanted == "truth":
-            raise ModelValueError(f'"{expression}" is a number, but something true or false is needed here', source,
-                                  *span(expression), f'Compare it with something, as in "{expression} > 0".')
-        raise ModelValueError(f'"{expression}" is true or false, but a number is needed here', source, *span(expression))
+        raise problem("number for truth" if wanted == "truth" else "truth for number", expression.at, expression=expression)
 
 
-def check_constants(constants: Iterable[Constant], source: str) -> None:
+def check_constants(constants: Iterable[Constant]) -> None:
     """Every constant is declared once, from those before it, with a value in the range of its slider."""
     values: dict[str, Value] = {}
     for constant in constants:
         if constant.name in values:
-            raise ModelNameError(f'The constant "{constant.name}" is declared twice', source, *span(constant),
-                                 "Keep one of the two lines.")
+            raise problem("constant twice", constant.at, name=constant.name)
         if constant.name in SETTINGS:
-            raise ModelNameError(f'"{constant.name}" is no constant', source, *span(constant),
-                                 f'Type "{constant.name.lower()}: {constant.value}".')
+            raise problem("setting as constant", constant.at, name=constant.name, keyword=constant.name.lower(),
+                        value=constant.value)
         if isinstance(constant.value, Name) and constant.value.name not in values:
-            hint = suggestion(constant.value.name, values) or f'A production reads "{constant.name} -> {constant.value}".'
-            raise ModelNameError(f'I do not know the name "{constant.value}"', source, *span(constant.value), hint)
+            raise problem("name as constant", constant.value.at, closest(constant.value.name, values), name=constant.value,
+                        constant=constant.name)
         for expression in (constant.value, *(constant.range or ())):
-            check_expression(expression, values.keys(), source)
-        check_range(constant, values, source)
-        values[constant.name] = value_of(constant.value, source, values)
+            check_expression(expression, values.keys())
+        check_range(constant, values)
+        values[constant.name] = value_of(constant.value, values)
 
 
-def check_range(constant: Constant, values: Mapping[str, Value], source: str) -> None:
-    """The value lies between the ends of its slider, which has a step that leads from one to the other."""
+def check_range(constant: Constant, values: Mapping[str, Value]) -> None:
+    """The value lies between the ends of its slider, whose step is positive."""
     if constant.range is None:
         return
-    low, high, step = (value_of(part, source, values) for part in constant.range)
-    shown = f"{constant.range[0]} .. {constant.range[1]}"
+    low, high, step = (value_of(part, values) for part in constant.range)
+    first, last, by = constant.range
     if low > high:
-        raise ModelValueError(f'The range of "{constant.name}" is upside down', source, *span(constant.range[0]),
-                              f'Write the smaller end first: "in {constant.range[1]} .. {constant.range[0]}".')
+        raise problem("range upside down", first.at, name=constant.name, low=first, high=last, step=by)
     if step <= 0:
-        raise ModelValueError(f'The step of "{constant.name}" must be greater than 0', source, *span(constant.range[2]),
-                              'It says how far one move of the slider goes, as in "by 0.1".')
-    if not low <= value_of(constant.value, source, values) <= high:
-        raise ModelValueError(f'"{constant.name}" is {constant.value}, which is not in its range {shown}', source,
-                              *span(constant.value), "Choose a value in the range, or a wider range.")
+        raise problem("step of range", by.at, name=constant.name)
+    if not low <= value_of(constant.value, values) <= high:
+        raise problem("value outside range", constant.value.at, name=constant.name, value=constant.value, low=first, high=last)
 
 
-def check_production(production: Production, constants: Collection[str], source: str, section: str = "productions") -> None:
+def check_production(production: Production, constants: Collection[str], section: str = "productions") -> None:
     """Parameters are distinct, names known, the condition a truth, the brackets closed, contexts where they are possible."""
-    names = {*check_parameters(production.parameters, constants, source), *constants}
+    names = {*check_parameters(production.parameters, constants), *constants}
     if section != "productions" and (production.left or production.right):
-        raise ModelSyntaxError(f"A rule of the {section} has no context", source, *span(production),
-                               "It is applied to one module at a time.")
+        raise problem(f"context in {section}", production.at)
     bracket = next((module for module in (*production.left, production.predecessor) if module.symbol in "[]()"), None)
     if bracket is not None:
-        raise ModelSyntaxError("A bracket cannot stand here", source, *span(bracket),
-                               "A right context may name branches; a left context passes them.")
-    check_word(production.right, constants, source, arguments=False)
+        raise problem("bracket before arrow", bracket.at)
+    check_word(production.right, constants, arguments=False)
     if production.condition is not None:
-        check_expression(production.condition, names, source, "truth")
-    check_probability(production, names, source, section)
-    check_word(production.successor, names, source, chance=section != "interpretation")
+        check_expression(production.condition, names, "truth")
+    check_probability(production, names, section)
+    check_word(production.successor, names, chance=section != "interpretation")
 
 
-def check_probability(production: Production, names: Collection[str], source: str, section: str) -> None:
-    """A probability is a number, and stands where something is left to chance."""
+def check_probability(production: Production, names: Collection[str], section: str) -> None:
+    """A probability is a number that is not negative, in a section where chance plays a part."""
     probability = production.probability
     if probability is None:
         return
     if section == "interpretation":
-        raise ModelValueError("A rule of the interpretation has no probability", source, *span(probability),
-                              "A word is always drawn alike; what is left to chance stands in the productions.")
+        raise problem("probability in interpretation", probability.at)
     if expression_type(probability) == "truth":
-        raise ModelValueError(f'A probability stands behind the successor, but "{probability}" is true or false', source,
-                              *span(probability), 'A condition stands before the arrow, as in "A(t) : t < 5 -> B".')
-    check_expression(probability, names, source)
+        raise problem("truth as probability", probability.at, expression=probability)
+    check_expression(probability, names)
     if isinstance(probability, Number) and probability.value < 0:
-        raise ModelValueError("A probability is not negative", source, *span(probability))
+        raise problem("negative probability", probability.at)
 
 
-def check_repeat(repeat: Repeat, names: Collection[str], source: str, chance: bool) -> None:
-    """The count is a number, whole and not too great where it is written out; the name that counts is new."""
-    check_expression(repeat.count, names, source, chance=chance)
+def check_repeat(repeat: Repeat, names: Collection[str], chance: bool) -> None:
+    """The count is a number, whole and not too large where it is a literal; the name of the index is new."""
+    check_expression(repeat.count, names, chance=chance)
     if repeat.index in names:
-        raise ModelNameError(f'The name "{repeat.index}" is already used', source, *span(repeat),
-                             "Give what counts the repetitions a name of its own.")
+        raise problem("index taken", repeat.at, name=repeat.index)
     if isinstance(repeat.count, Number) and not (isinstance(repeat.count.value, int)
                                                  and 0 <= repeat.count.value <= current().repetitions):
-        raise ModelValueError(f'"{repeat.count}" is no number of repetitions', source, *span(repeat.count),
-                              f"Repetitions are counted from 0 up to {current().repetitions:,}.")
-    check_word(repeat.body, {*names, repeat.index} - {""}, source, chance=chance)
+        raise problem("number of repetitions", repeat.count.at, expression=repeat.count, most=current().repetitions)
+    check_word(repeat.body, {*names, repeat.index} - {""}, chance=chance)
 
 
-def check_meta(rule: MetaRule, constants: Collection[str], source: str) -> None:
-    """A meta-rule makes a word shorter, and knows its names."""
-    names = {*check_parameters(rule.predecessors, constants, source), *constants}
+def check_meta(rule: MetaRule, constants: Collection[str]) -> None:
+    """A meta-rule makes a word shorter, and all its names are known."""
+    names = {*check_parameters(rule.predecessors, constants), *constants}
     if rule.condition is not None:
-        check_expression(rule.condition, names, source, "truth")
-    check_word(rule.successor, names, source)
+        check_expression(rule.condition, names, "truth")
+    check_word(rule.successor, names)
     if any(isinstance(item, Repeat) for item in rule.successor) or len(rule.successor) >= len(rule.predecessors):
-        raise ModelSyntaxError("A meta-rule must make the word shorter", source, *span(rule),
-                               "Let fewer modules stand behind the arrow than before it.")
+        raise problem("meta-rule not shorter", rule.at)
 
 
-def check_parameters(modules: Iterable[Pattern], constants: Collection[str], source: str) -> list[str]:
-    """The parameters that some modules name: each once, each alone."""
+def check_parameters(modules: Iterable[Pattern], constants: Collection[str]) -> list[str]:
+    """The parameters that some modules name, each once and not as part of a calculation."""
     parameters: list[str] = []
     for argument in (argument for module in modules for argument in module.arguments):
         if isinstance(argument, Name) and argument.name not in constants:
             if argument.name in parameters:
-                raise ModelNameError(f'The parameter "{argument.name}" is named twice', source, *span(argument),
-                                     "Give each parameter a name of its own.")
+                raise problem("parameter twice", argument.at, name=argument.name)
             parameters.append(argument.name)
         elif isinstance(argument, Apply):
             strange = sorted(names_in(argument) - set(constants))
             if strange:
-                raise ModelNameError(f'Before the arrow a parameter stands alone, not as "{argument}"', source, *span(argument),
-                                     f'Write "{strange[0]}" there, and the calculation behind the arrow.')
-            check_expression(argument, constants, source)
+                raise problem("calculated parameter", argument.at, expression=argument, name=strange[0])
+            check_expression(argument, constants)
     return parameters
 
 
-def check_word(word: Iterable[Item], names: Collection[str], source: str, arguments: bool = True, chance: bool = False) -> None:
+_OPENS = {"]": "[", ")": "("}
+_CLOSES = {"[": "]", "(": ")"}
+
+
+def check_word(word: Iterable[Item], names: Collection[str], arguments: bool = True, chance: bool = False) -> None:
     """The arguments are numbers, not too many, and the brackets close."""
     opened: list[Pattern] = []
-    closing = {"]": "[", ")": "("}
     for module in word:
         if isinstance(module, Repeat):
-            check_repeat(module, names, source, chance)
+            check_repeat(module, names, chance)
             continue
         if len(module.arguments) > current().parameters:
-            raise ModelSyntaxError(f'"{module.symbol}" has more than {current().parameters} parameters', source, *span(module))
+            raise problem("too many parameters", module.at, symbol=module.symbol, most=current().parameters)
         for argument in module.arguments if arguments else ():
-            check_expression(argument, names, source, chance=chance)
-        if module.symbol in closing.values():
+            check_expression(argument, names, chance=chance)
+        if module.symbol in _CLOSES:
             opened.append(module)
             if len(opened) > current().brackets:
-                raise ModelSyntaxError(f"More than {current().brackets:,} brackets are open at once", source, *span(module))
-        elif module.symbol in closing and (not opened or opened.pop().symbol != closing[module.symbol]):
-            raise ModelSyntaxError(f'This "{module.symbol}" closes nothing', source, *span(module),
-                                   f'Every branch begins with "{closing[module.symbol]}".')
+                raise problem("too many brackets", module.at, most=current().brackets)
+        elif module.symbol in _OPENS and (not opened or opened.pop().symbol != _OPENS[module.symbol]):
+            raise problem("bracket closes nothing", module.at, bracket=module.symbol, other=_OPENS[module.symbol])
     if opened:
-        raise ModelSyntaxError(f'This "{opened[-1].symbol}" is never closed', source, *span(opened[-1]),
-                               f'Every branch ends with "{"]" if opened[-1].symbol == "[" else ")"}".')
+        raise problem("bracket never closed", opened[-1].at, bracket=opened[-1].symbol, other=_CLOSES[opened[-1].symbol])

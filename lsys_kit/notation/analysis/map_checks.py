@@ -1,12 +1,12 @@
-"""Does a map system that can be read also make sense? Cells have walls all around, neutral walls look alike from both ends."""
+"""Does a map system that can be read also make sense? Cells need walls all around, neutral walls are symmetric."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
 
-from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.analysis.checks import span
+from lsys_kit.notation.analysis.problems import Problem, problem
+from lsys_kit.notation.model.expressions import TextSpan
 from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 
 LEAST_WALLS = 3
@@ -14,101 +14,94 @@ LEAST_WALLS = 3
 
 
 def check_map(system: MapSystem) -> None:
-    """The first cell has an inside, and each wall one production at most, which can be applied from either of its ends."""
+    """The first cell has an inside, and each wall has at most one production, which can be applied from either of its ends."""
     if len(system.axiom) < LEAST_WALLS:
-        walls = "1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls"
-        raise ModelValueError(f"The first cell has only {walls}", system.source, *_around(system.axiom),
-                              'A cell has three walls or more, as in "map: AAA".')
+        raise problem("cell without inside", _row_span(system.axiom),
+                    walls="1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls")
     met: set[Edge] = set()
     for production in system.productions:
-        _check_predecessor(production, met, system.source)
-        _check_markers(production, system.source)
-        _check_neutral(production, system.source)
+        _check_predecessor(production, met)
+        _check_markers(production)
+        _check_neutral(production)
         met.add(production.predecessor)
 
 
-def _check_predecessor(production: EdgeProduction, met: set[Edge], source: str) -> None:
+def _check_predecessor(production: EdgeProduction, met: set[Edge]) -> None:
     edge = production.predecessor
     if edge.arrow == "<":
-        raise ModelValueError("A production is written in the direction of its wall", source, *span(edge),
-                              f'Write "{edge.turned} -> ...": what becomes of the wall, from its beginning to its end.')
+        raise problem("wall against its direction", edge.at, turned=edge.turned)
     if edge in met:
-        raise ModelValueError(f"A second production of {edge} stands here", source, *span(edge),
-                              "A wall has one production at most. With an arrow and without, walls are different ones.")
+        raise problem("second production of wall", edge.at, wall=edge)
 
 
-def _check_markers(production: EdgeProduction, source: str) -> None:
-    """A marker stands where a wall is parted, not at its ends, where it would touch other walls."""
+def _check_markers(production: EdgeProduction) -> None:
+    """Markers belong between two parts of a wall, not at its ends, where they would touch other walls."""
     parts = production.successor
     if not production.walls:
-        raise ModelValueError(f"Nothing is left of the wall {production.predecessor}", source, *_around(parts),
-                              "Walls are never erased: write the letter of a wall too.")
+        raise problem("wall erased", _row_span(parts), wall=production.predecessor)
     end = next((part for part in (parts[0], parts[-1]) if isinstance(part, Marker)), None)
     if end is not None:
-        raise ModelValueError("This marker stands at the end of the wall", source, *span(end),
-                              'Markers stand between two parts of a wall, as in "A -> B[-A]B".')
+        raise problem("marker at end", end.at)
 
 
-def _check_neutral(production: EdgeProduction, source: str) -> None:
+def _check_neutral(production: EdgeProduction) -> None:
     """A wall without direction may be read from either end, so what it becomes must be the same from both."""
     if production.predecessor.arrow or places(production.successor) == places(production.turned):
         return
-    backwards = "".join(map(str, production.turned))
-    raise ModelValueError(
-        f"The neutral wall {production.predecessor} would become something else from its other end", source,
-        *_around(production.successor), f'Read backwards, where left is right, this is "{backwards}", and a wall without an '
-        f'arrow has no beginning. Make both the same, or give the wall an arrow: "{production.predecessor}> -> ...".')
+    raise problem("neutral wall not symmetric", _row_span(production.successor), wall=production.predecessor,
+                backwards="".join(map(str, production.turned)))
 
 
 def places(parts: tuple[SuccessorPart, ...]) -> list[Edge | tuple[tuple[Edge, ...], ...]]:
-    """The walls of a successor, and between them what is marked on the left and on the right.
+    """The walls of a successor, and between them the markers on the left and on the right.
 
-    Two markers on different sides of one place may be written in any order.
+    Two markers at one place on different sides may be written in any order.
     """
-    found: list[Edge | tuple[tuple[Edge, ...], ...]] = []
+    sides: list[Edge | tuple[tuple[Edge, ...], ...]] = []
     for marked, group in groupby(parts, lambda part: isinstance(part, Marker)):
         some = [*group]
         if marked:
             markers = [part for part in some if isinstance(part, Marker)]
-            found.append(tuple(tuple(marker.edge for marker in markers if marker.side == side) for side in (LEFT, RIGHT)))
+            sides.append(tuple(tuple(marker.edge for marker in markers if marker.side == side) for side in (LEFT, RIGHT)))
         else:
-            found += [part for part in some if isinstance(part, Edge)]
-    return found
+            sides += [part for part in some if isinstance(part, Edge)]
+    return sides
 
 
-def _around(parts: tuple[SuccessorPart, ...]) -> tuple[int | None, int | None]:
-    """Where a row of parts stood in its text."""
-    return span(parts[0])[0], span(parts[-1])[1]
+def _row_span(parts: tuple[SuccessorPart, ...]) -> TextSpan:
+    """The offsets of a row of parts."""
+    first, last = parts[0].at, parts[-1].at
+    return (first[0], last[1]) if first and last else None
 
 
-def unused_parts(system: MapSystem) -> Iterator[str]:
-    """What can never take part: productions of walls that never occur, markers that never find another half.
+def unused_parts(system: MapSystem) -> Iterator[Problem]:
+    """Productions of walls that never occur, and markers that never find another half.
 
     >>> from lsys_kit.notation.model.maps import EdgeProduction
-    >>> [*unused_parts(MapSystem((Edge("A"),) * 3, (EdgeProduction(Edge("C"), (Edge("A"),)),)))]
-    ['The production C -> A is never used: no wall C occurs.']
+    >>> [problem.code for problem in unused_parts(MapSystem((Edge("A"),) * 3, (EdgeProduction(Edge("C"), (Edge("A"),)),)))]
+    ['wall never occurs']
     """
     occurring = _occurring(system)
     for production in system.productions:
         if production.predecessor not in occurring:
-            yield f"The production {production} is never used: no wall {production.predecessor} occurs."
+            yield Problem("wall never occurs", production.at, {"production": production, "wall": production.predecessor})
     markers = {marker.edge for marker in system.markers}
     for edge in dict.fromkeys(marker.edge for marker in system.markers):
         if edge.turned not in markers:
-            yield f"Markers of {edge} divide no cell: they need markers of {edge.turned}, and there are none."
+            yield Problem("marker without partner", None, {"wall": edge, "partner": edge.turned})
 
 
 def _occurring(system: MapSystem) -> set[Edge]:
     """The walls that can occur, each in its own direction."""
     successors = {production.predecessor: production for production in system.productions}
-    found: set[Edge] = set()
+    occurring: set[Edge] = set()
     waiting = [*system.axiom]
     while waiting:
         edge = waiting.pop()
         edge = edge.turned if edge.arrow == "<" else edge
-        if edge in found:
+        if edge in occurring:
             continue
-        found.add(edge)
+        occurring.add(edge)
         if edge in successors:
             waiting += (part if isinstance(part, Edge) else part.edge for part in successors[edge].successor)
-    return found
+    return occurring

@@ -1,7 +1,7 @@
 """Arithmetic as the papers mean it: exact where that is possible.
 
-Sums, differences, products, quotients and whole powers of rational numbers stay rational; what leaves the rational numbers
-(`sqrt(2)`, `2^0.5`, `exp(1)`) is a double from there on. Nothing here grows without end: a result that is too long is refused.
+Sums, differences, products, quotients and whole powers of rational numbers stay rational; results that are not rational
+(`sqrt(2)`, `2^0.5`, `exp(1)`) are doubles. A result that is too long is refused.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from lsys_kit.budget import current
 Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""
 SMALL = 2**63
-"""Whole numbers below this are exact, sound and short without further ado."""
+"""Whole numbers below this need no check of their size."""
 
 
 SHORT = 40
-"""So many places behind the point are easier to read than a quotient."""
+"""A decimal with at most so many places is easier to read than a quotient."""
 
 
 def number_text(value: Value) -> str:
@@ -65,12 +65,12 @@ def _decimal(value: Fraction, places: int) -> str:
 
 
 def is_symbolic(value: object) -> bool:
-    """Whether a value holds a constant that is not known: a sympy expression, as `derive(system, 3, dt="dt")` gives."""
+    """Whether a value contains an unknown constant: a sympy expression, as in `derive(system, 3, dt="dt")`."""
     return not isinstance(value, int | Fraction | float)
 
 
 def equal_values(left: Value, right: Value) -> bool:
-    """Whether two values are equal; where an unknown constant decides that, the question has no answer yet.
+    """Whether two values are equal; undecided where that depends on an unknown constant.
 
     >>> equal_values(Fraction(4, 2), 2)
     True
@@ -114,7 +114,7 @@ def short_text(value: Value) -> str:
 
 
 def normalised(value: Value) -> Value:
-    """A rational number that is whole, as a whole number.
+    """A whole rational number as an int.
 
     >>> normalised(Fraction(4, 2))
     2
@@ -123,7 +123,7 @@ def normalised(value: Value) -> Value:
 
 
 def bounded_exact(value: Value) -> Value:
-    """What an operation gave, tidy; an exact result that is too long is refused."""
+    """The result of an operation in its simplest form; an exact result that is too long is refused."""
     if value.__class__ is int and -SMALL < value < SMALL:
         return value
     if isinstance(value, float) or is_symbolic(value):
@@ -134,7 +134,7 @@ def bounded_exact(value: Value) -> Value:
 
 
 def finite(value: Value) -> Value:
-    """The value, if it is one: neither past what a double holds nor "not a number"."""
+    """The value, unless it is too large for a double or not a number."""
     if is_symbolic(value) or math.isfinite(value):  # an OverflowError by itself, where a rational number is past that
         return value
     raise ValueError("the result is not a number") if math.isnan(value) else OverflowError
@@ -173,7 +173,7 @@ def rounding(function: Callable[[Value], int]) -> Callable[[Value], Value]:
 
 
 def partial_function(name: str, function: Callable[[Value], Value]) -> Callable[[Value], Value]:
-    """A function that not every number has a value of; where it has none, the fault says so in a student's words."""
+    """A function that is not defined everywhere; where it is not, the error says so in plain words."""
 
     def value(x: Value) -> Value:
         try:

@@ -1,8 +1,7 @@
 """Arithmetic expressions: trees that are read from text, printed, run as functions and shown by sympy.
 
 An expression is a number, a name, or an operator applied to expressions. The table `OPERATORS` says what each operator is;
-everything here walks the tree. Nothing is ever compiled from text: a function is put together from the functions of its
-operands.
+everything here walks the tree. Nothing is ever compiled from text: a function is composed of the functions of its operands.
 
 Decimal literals are rational numbers, and arithmetic is exact (see `arithmetic`).
 """
@@ -82,9 +81,9 @@ class Style:
     Attributes
     ----------
     spellings
-        Operators and functions that are spelt otherwise than in `OPERATORS`.
+        Operators and functions that are not spelt as in `OPERATORS`.
     brackets
-        What stands around a function's operands.
+        The brackets around a function's operands.
     """
 
     spellings: Mapping[str, str] = field(default_factory=dict)
@@ -92,7 +91,7 @@ class Style:
 
 
 PLAIN_STYLE = Style()
-"""The kit's own: that of C, with `^` for powers."""
+"""The kit's own style: that of C, with `^` for powers."""
 
 
 def styled_text(expression: Expression, style: Style = PLAIN_STYLE) -> str:
@@ -108,14 +107,14 @@ def styled_text(expression: Expression, style: Style = PLAIN_STYLE) -> str:
         return spelt + style.brackets[0] + ", ".join(styled_text(o, style) for o in expression.operands) + style.brackets[1]
     if len(expression.operands) == 1:
         tightly = 7 if expression.operator == "!" else operator.precedence  # !(t < 5): without parentheses C negates t
-        return spelt[0] + _within(expression.operands[0], tightly, style)
+        return spelt[0] + _operand_text(expression.operands[0], tightly, style)
     left, right = expression.operands
     power = expression.operator == "^"
-    return (_within(left, operator.precedence + power, style) + operator.spelling(spelt)
-            + _within(right, operator.precedence + (not power), style))
+    return (_operand_text(left, operator.precedence + power, style) + operator.spelling(spelt)
+            + _operand_text(right, operator.precedence + (not power), style))
 
 
-def _within(expression: Expression, precedence: int, style: Style) -> str:
+def _operand_text(expression: Expression, precedence: int, style: Style) -> str:
     """The operand's text, in parentheses where it binds less tightly than its surroundings."""
     own, text = None, styled_text(expression, style)
     if isinstance(expression, Apply):
@@ -144,7 +143,7 @@ def names_in(expression: Expression) -> frozenset[str]:
 
 
 def is_random(expression: Expression) -> bool:
-    """Whether an expression draws a number, so that it may have another value at every use.
+    """Whether an expression draws a random number, so that it may have a different value at every use.
 
     >>> is_random(Apply("+", (Name("t"), Apply("uniform", (Number(0), Number(1))))))
     True
@@ -154,9 +153,9 @@ def is_random(expression: Expression) -> bool:
 
 
 def sensed_in(expression: Expression) -> Iterator[Apply]:
-    """What an expression asks of the turtle.
+    """The sensitive functions in an expression, which ask what the turtle sees.
 
-    >>> [str(question) for question in sensed_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
+    >>> [str(call) for call in sensed_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
     ['sensed(2, 1)']
     """
     if isinstance(expression, Apply):
@@ -167,7 +166,7 @@ def sensed_in(expression: Expression) -> Iterator[Apply]:
 
 
 def function_of(expression: Expression, order: Mapping[str, int], arithmetic: str = "exact") -> Function:
-    """The function that an expression stands for.
+    """The function that computes an expression.
 
     Parameters
     ----------
@@ -175,8 +174,8 @@ def function_of(expression: Expression, order: Mapping[str, int], arithmetic: st
         Any expression whose names are all in `order`.
     order
         For each name its index in the tuple of values that the function takes. Where the expression is random, the last
-        element of that tuple is what draws the numbers: it has the methods `uniform`, `normal`, and so on; where it asks
-        for what the turtle sees, that element has the attribute `sees`.
+        element of that tuple draws the numbers: it has the methods `uniform`, `normal`, and so on; where the expression is
+        sensitive, it has the attribute `sees`.
     arithmetic
         "exact", or "float" to compute in doubles throughout, as cpfg and L-Py do.
 
@@ -202,7 +201,7 @@ def to_sympy(expression: Expression) -> sympy.Basic:
     Raises
     ------
     ModelValueError
-        The expression is random: no formula stands for it.
+        The expression is random: no formula can replace it.
 
     Examples
     --------
@@ -218,7 +217,7 @@ def to_sympy(expression: Expression) -> sympy.Basic:
     if isinstance(expression, Name):
         return sympy.Symbol(expression.name)
     if OPERATORS[expression.operator].random:
-        raise ModelValueError(f'"{expression}" is drawn anew at every use: no formula stands for it')
+        raise ModelValueError(f'"{expression}" is drawn anew at every use: no formula can replace it')
     return _sympy_table()[expression.operator](*map(to_sympy, expression.operands))
 
 

@@ -13,7 +13,7 @@ from typing import TypeAlias
 from lsys_kit.notation.model.expressions import TextSpan
 
 TURNED = {"": "", ">": "<", "<": ">"}
-"""The arrow of a wall, seen from its other end."""
+"""The arrow of a wall, as seen from its other end."""
 OTHER_SIDE = {"+": "-", "-": "+"}
 """The side of a wall, seen from its other end."""
 LEFT, RIGHT = "+", "-"
@@ -58,7 +58,7 @@ class Marker:
     Attributes
     ----------
     side
-        "+" where it stands left of the wall that is replaced, "-" right.
+        "+" to the left of the wall that is replaced, "-" to the right.
     edge
         The letter of the wall to come, and where it points: ">" away from the wall that is replaced, "<" toward it.
     """
@@ -72,7 +72,7 @@ class Marker:
 
 
 SuccessorPart: TypeAlias = Edge | Marker
-"""What stands in a successor."""
+"""A part of a successor."""
 
 
 @dataclass(frozen=True)
@@ -114,13 +114,13 @@ class MapSystem:
     Attributes
     ----------
     axiom
-        The walls of the first cell, clockwise: inside lies on the right hand of who walks along them.
+        The walls of the first cell, clockwise: the inside is to the right.
     productions
-        One for a wall at most; a wall that has none stays as it is.
+        At most one per wall; a wall without one stays as it is.
     steps
-        How many steps the model asks for, or None.
+        The number of steps that the model sets, or None.
     source, notes
-        The text it was read from, and what the reader found worth telling. Equality ignores them.
+        The text it was read from, and notes on how it was read. Equality ignores them.
     """
 
     axiom: tuple[Edge, ...]

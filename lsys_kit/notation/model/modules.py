@@ -10,16 +10,16 @@ from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Expression, TextSpan
 
 OPENING, CLOSING = frozenset("[("), frozenset("])")
-"""The brackets of branches; round ones stand in plant strings only."""
+"""The brackets of branches; round ones occur in plant strings only."""
 END = "ε"
-"""What a right context has before the closing bracket of a branch of which it names all modules: the branch ends there."""
+"""In a right context, before a closing bracket: the branch ends there, with no further modules."""
 
 CELLS = {"L": -1, "R": 1, "O": 0}
 """The cells of a filament, and where they point: `L(length, width, shade)` left and `R(length, width, shade)` right, the
-modules that seed 002 (L-system 7, section 7) assumes to be predefined, and `O(length, width, shade)` nowhere; the shade of age,
-0 to 1, is that of seed 000's figures."""
+modules that Prusinkiewicz (section 7, L-system 7) assumes to be predefined, and `O(length, width, shade)` nowhere; the shade,
+0 to 1, shows age as in Jacob's figures."""
 WALL = "W"
-"""A wall between two cells, `W(age, shade)`, as in seed 002's figure 8; the shade, 0 to 1, may be left out."""
+"""A wall between two cells, `W(age, shade)`, as in Prusinkiewicz, figure 8; the shade, 0 to 1, is optional."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class Module:
 class Pattern:
     """A module as an axiom or a rule writes it: a symbol with expressions.
 
-    Before the arrow a `Name` that is no constant is a parameter, and any other expression is a value that the module must have;
-    in a successor an expression computes a value.
+    Before the arrow a `Name` that is not a constant is a parameter, and any other expression is a value that the module must
+    have; in a successor an expression computes a value.
 
     >>> from lsys_kit.notation.model.expressions import Apply, Name, Number
     >>> print(Pattern("M", (Apply("+", (Name("t"), Number(1))),)))
@@ -59,8 +59,8 @@ class Pattern:
 
 
 def joined(texts: Iterable[str]) -> str:
-    """The texts of modules as one word, with a blank only where two would run together: two names, or a name behind a roll or
-    an @, which might be taken for a macro of LaTeX or for one symbol.
+    """The texts of modules as one word, with a blank only where two would run together: two names, or a name after a roll or an
+    @, which might be taken for a macro of LaTeX or for one symbol.
 
     >>> joined(["A(1)", "[", "al", "br", "]", "C", "\\\\", "vec", "@", "o"])
     'A(1)[al br]C\\\\ vec@ o'
@@ -74,7 +74,7 @@ def joined(texts: Iterable[str]) -> str:
 
 
 def _runs_on(last: str, name: str) -> bool:
-    """Whether a name directly behind a module would be read together with it."""
+    """Whether a name directly after a module would be read together with it."""
     return (_word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower())
             or (last == "." and name[:1].isdigit()))
 
@@ -85,7 +85,7 @@ def _word_like(character: str) -> bool:
 
 @dataclass(frozen=True)
 class Repeat:
-    """A part of a successor that is written several times (GROGRA's `&(n) < ... >`).
+    """A repeated part of a successor (GROGRA's `&(n) < ... >`).
 
     >>> from lsys_kit.notation.model.expressions import Name
     >>> print(Repeat(Name("n"), (Pattern("F"), Pattern("B", (Name("i"),))), "i"))
@@ -96,9 +96,9 @@ class Repeat:
     count
         How many times.
     body
-        What is written.
+        What is repeated.
     index
-        The name that counts 0, 1, 2, ... in the body; empty where nothing counts.
+        The name that counts 0, 1, 2, ... in the body; empty where there is none.
     """
 
     count: Expression
@@ -117,11 +117,11 @@ class Repeat:
 
 
 Item: TypeAlias = Pattern | Repeat
-"""What stands in a successor."""
+"""A part of a successor."""
 
 
 def flat(items: Iterable[Item]) -> Iterator[Pattern]:
-    """The modules of a successor, those of repeated parts once.
+    """The modules of a successor, with those of repeated parts once.
 
     >>> from lsys_kit.notation.model.expressions import Number
     >>> [str(module) for module in flat((Pattern("A"), Repeat(Number(2), (Pattern("B"),))))]

@@ -1,8 +1,8 @@
 """The operators and functions of expressions: one table, `OPERATORS`, that says of each how it is written, what it computes,
-and whether it deals in numbers or in truths.
+and whether it takes and gives numbers or truths.
 
 Angles are in degrees, as plant modellers write them and as the turtle turns; where the sine of a rational number of degrees
-is rational, it is exact. Random functions draw a new number at every use, from whoever calls them.
+is rational, it is exact. Random functions draw a new number at every use.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from lsys_kit.notation.model.arithmetic import (
 )
 
 Function: TypeAlias = Callable[[tuple[Any, ...]], Any]
-"""What an expression is run as: from the values of its names, in a fixed order, to its own value. Behind the values of the
-names stands, where something is random, what draws the numbers (see `chance` in the derivation room)."""
+"""A compiled expression: from the values of its names, in a fixed order, to its own value. After the values of the names, a
+random expression needs a source of random numbers (`derivation.core.chance`)."""
 
 _HALF = Fraction(1, 2)
 _SINES: Mapping[Value, Value] = {-90: -1, -30: -_HALF, 0: 0, 30: _HALF, 90: 1, 150: _HALF, 180: 0, 210: -_HALF}
@@ -37,7 +37,7 @@ _TANGENTS: Mapping[Value, Value] = {-45: -1, 0: 0, 45: 1}
 
 @dataclass(frozen=True)
 class Operator:
-    """How an operator runs, binds and what it deals in.
+    """How an operator is computed, how tightly it binds, and which types it takes and gives.
 
     Attributes
     ----------
@@ -49,12 +49,12 @@ class Operator:
         "number" or "truth".
     arity
         The least and the greatest number of operands.
-    asks
+    conditional
         Whether its first operand is a truth, whatever the others are.
     random
-        Whether it gives another number at every use.
+        Whether it gives a new number at every use.
     looks
-        Whether it asks for what the turtle sees.
+        Whether it depends on what the turtle sees.
     """
 
     build: Callable[..., Function]
@@ -62,7 +62,7 @@ class Operator:
     takes: str = "number"
     gives: str = "number"
     arity: tuple[int, int] = (2, 2)
-    asks: bool = False
+    conditional: bool = False
     random: bool = False
     looks: bool = False
 
@@ -71,11 +71,11 @@ class Operator:
 
     def wanted(self, index: int) -> str:
         """What the operand with an index must be: a "number" or a "truth"."""
-        return "truth" if self.asks and index == 0 else self.takes
+        return "truth" if self.conditional and index == 0 else self.takes
 
 
 def _strict(function: Callable[..., Any]) -> Callable[..., Function]:
-    """An operator that needs all its operands: run them, then it."""
+    """An operator that evaluates all its operands first."""
 
     def build(*operands: Function) -> Function:
         if len(operands) == 2:
@@ -102,7 +102,7 @@ def _if(condition: Function, left: Function, right: Function) -> Function:
 
 
 def _drawn(method: str) -> Callable[..., Function]:
-    """A random function: its operands are run, then the number is drawn by what stands behind the values."""
+    """A random function: its operands are evaluated, then the number is drawn by the source after the values."""
 
     def build(*operands: Function) -> Function:
         return lambda v: getattr(v[-1], method)(*[operand(v) for operand in operands])
@@ -111,16 +111,16 @@ def _drawn(method: str) -> Callable[..., Function]:
 
 
 def _sensed(number: Function, *operands: Function) -> Function:
-    """A sensitive function of GROGRA, chosen by its number: what stands behind the values may have somebody who sees."""
+    """A sensitive function of GROGRA, given by its number; the source after the values may see what the turtle sees."""
 
-    def asked(v: tuple[Any, ...]) -> Any:
+    def evaluate(v: tuple[Any, ...]) -> Any:
         sees = getattr(v[-1], "sees", None) if v else None
         if sees is None:
-            raise ValueError(f"function {short_text(number(v))} asks for what the turtle sees, and words alone do not "
-                             "tell that")
+            raise ValueError(f"function {short_text(number(v))} depends on what the turtle sees, which a word "
+                             "alone does not tell")
         return sees(number(v), *[operand(v) for operand in operands])
 
-    return asked
+    return evaluate
 
 
 def _sine(angle: Value) -> Value:
@@ -140,7 +140,7 @@ def _tangent(angle: Value) -> Value:
 
 
 def _like(given: Value, value: Value) -> Value:
-    """A value in the arithmetic of what it was computed from."""
+    """A value in the arithmetic of the value it was computed from."""
     return float(value) if isinstance(given, float) else value
 
 
@@ -155,7 +155,7 @@ _ARCTANGENTS: Mapping[Value, Value] = {-1: -45, 0: 0, 1: 45}
 
 
 def _function(name: str, function: Callable[[Value], Value]) -> Operator:
-    """A function of one number that may have no value."""
+    """A function of one number that is not defined everywhere."""
     return Operator(_strict(partial_function(name, function)), None, arity=(1, 1))
 
 
@@ -181,7 +181,7 @@ OPERATORS: Mapping[str, Operator] = {
     "min": Operator(_strict(min), None, arity=(2, 16)),
     "max": Operator(_strict(max), None, arity=(2, 16)),
     "mod": Operator(_strict(lambda x, y: bounded_exact(x % y)), None),
-    "if": Operator(_if, None, arity=(3, 3), asks=True),
+    "if": Operator(_if, None, arity=(3, 3), conditional=True),
     "sqrt": _function("sqrt", math.sqrt),
     "exp": _function("exp", math.exp),
     "log": _function("log", math.log),

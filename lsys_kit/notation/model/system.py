@@ -1,7 +1,7 @@
-"""The records of a model: modules, productions, constants, and the L-system that they make.
+"""The records of a model: productions, constants, and the L-system that they make.
 
-Records are frozen and do nothing. What is optional in the field is an optional part here, not another class: a production
-may have a condition or none. `str` of a record is its text in the kit's own notation, which reads back as the same record.
+Records are frozen and do nothing. An optional part is an optional attribute, not another class: a production may have a
+condition or none. `str` of a record is its text in the kit's own notation, which reads back as the same record.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ class Production:
     Attributes
     ----------
     predecessor
-        The strict predecessor. A parameter is a `Name`; any other expression asks for just that value.
+        The strict predecessor. A parameter is a `Name`; any other expression matches that value alone.
     successor
         The modules that replace it; none erases it.
     condition
-        A truth that must hold, or None.
+        A condition that must hold, or None.
     left, right
-        The modules that must stand to its left and right; a right context may name branches, with their brackets.
+        The modules that must be to its left and right; a right context may name branches, with their brackets.
     probability
-        How likely it is chosen among the productions with a probability that match; None where nothing is left to chance.
+        Its weight among the matching productions with a probability; None for a production without chance.
     """
 
     predecessor: Pattern
@@ -64,7 +64,7 @@ class Production:
 
 @dataclass(frozen=True)
 class MetaRule:
-    """A rule that shortens a word after a step: neighbouring modules and what stands for them (seed 003, on movement).
+    """A rule that shortens a word after a step: neighbouring modules, and what replaces them (Kurth, on movement).
 
     >>> from lsys_kit.notation.model.expressions import Apply, Name
     >>> print(MetaRule((Pattern("f", (Name("a"),)), Pattern("f", (Name("b"),))),
@@ -128,20 +128,19 @@ class LSystem:
     angle, heading
         Degrees: by how much `+` and `-` turn, and in which direction the turtle starts (90 is up).
     length
-        How far one segment goes where it does not say so itself; None where that is left to the turtle.
+        The default length of a segment; None where that is left to the turtle.
     turtle
         Whose turtle commands the symbols are: "abop", "grogra", "plant-string" or "fractint".
     steps, seed
-        How many steps the model asks for, and where its chance begins; or None.
+        The number of steps and the seed of the random numbers that the model sets, or None.
     alphabet
-        Names of several letters that a reader might mistake for a row of symbols. No part of what the system is: equality
-        ignores it.
+        Names of several letters that could be taken for a row of symbols. Equality ignores it.
     cells
         How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses". Equality ignores it.
     notation
-        In which notation it was read and prints itself. Not a part of what the system is: equality ignores it.
+        The notation in which it was read and prints itself. Equality ignores it.
     source, notes
-        The text it was read from, and what the reader found worth telling. Equality ignores them too.
+        The text it was read from, and notes on how it was read. Equality ignores them too.
     """
 
     axiom: tuple[Pattern, ...]
@@ -183,7 +182,7 @@ class LSystem:
         >>> LSystem((Pattern("F"),), (Production(Pattern("F"), (Pattern("F"), Pattern("F"))),)).picture(3)
         8 segments, width 0, height 8
         """
-        return import_module("lsys_kit").draw(self, n, **choices)  # asked for by name: this room knows no pictures
+        return import_module("lsys_kit").draw(self, n, **choices)  # imported late: this room knows no pictures
 
     @property
     def rules(self) -> tuple[Production, ...]:
@@ -201,7 +200,7 @@ class LSystem:
 
 
 WRITERS: dict[str, Callable[[LSystem], str]] = {}
-"""How each notation writes a system: the registry of the notations fills this table, for the records know none of them."""
+"""How each notation writes a system. The registry of the notations fills this table: the records know no notation."""
 
 
 def symbols(system: LSystem) -> tuple[str, ...]:

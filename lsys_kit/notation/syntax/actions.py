@@ -1,11 +1,12 @@
-"""What the grammars name, as records: a method for each name.
+"""Records of what the grammars name: a method for each name.
 
-The parser calls these methods while it reads, so that there is no tree in between.
+The parser calls these methods while it reads, so that no tree is built in between.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 from sys import float_info
 from typing import Any
@@ -13,12 +14,13 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelNameError, ModelSyntaxError
-from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.analysis.checks import closest
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
+from lsys_kit.notation.syntax.spelling import ModelError
 
 _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
               "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}
@@ -26,15 +28,15 @@ _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
 
 
-class Misread(Exception):
-    """A record that cannot be made, before the text it came from is known."""
+class ActionError(Exception):
+    """A mistake that only one dialect knows and words itself, before the text it was made in is known."""
 
-    def __init__(self, kind: type[Any], message: str, at: TextSpan, hint: str | None = None) -> None:
+    def __init__(self, kind: type[ModelError], message: str, at: TextSpan, hint: str | None = None) -> None:
         self.kind, self.message, self.at, self.hint = kind, message, at, hint
         super().__init__(message)
 
 
-def _around(*parts: Any) -> TextSpan:
+def place_of(*parts: Any) -> TextSpan:
     """The offsets from the first to the last of some tokens or records."""
     first, last = parts[0], parts[-1]
     start: int = first.start_pos if isinstance(first, Token) else first.at[0]  # type: ignore[assignment]
@@ -42,14 +44,14 @@ def _around(*parts: Any) -> TextSpan:
     return start, end
 
 
-def _check_name(token: Token) -> None:
+def check_name(token: Token) -> None:
     if len(token) > current().name:
-        raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", _around(token))
+        raise problem("name too long", place_of(token), most=current().name)
 
 
 def _symbol(token: Token) -> str:
     """A symbol as the kit spells it: with an arrow over it in print, the letter and where the arrow points, L_r or L_l."""
-    _check_name(token)
+    check_name(token)
     if token.type != "PRINTED":
         return _SPELLINGS.get(token, str(token))
     letters = re.sub(r"^\\[a-z]+|\W", "", token)
@@ -61,14 +63,22 @@ def _symbol(token: Token) -> str:
 def _number(token: Token) -> Number:
     exponent = re.search(r"[eE]([+-]?\d+)$", token)
     if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
-        raise Misread(ModelSyntaxError, "This number is too long", _around(token), "Numbers go up to about 10^308.")
+        raise problem("number too long", place_of(token))
     value = normalised(Fraction(str(token)))
     if value > float_info.max:
-        raise Misread(ModelSyntaxError, "This number is too large", _around(token), "Numbers go up to about 10^308.")
-    return Number(value, _around(token))
+        raise problem("number too large", place_of(token))
+    return Number(value, place_of(token))
 
 
-def _named(part: Any) -> bool:
+def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> None:
+    """A function gets as many values as it takes."""
+    least, most = OPERATORS[operator].arity
+    if not least <= len(operands) <= most:
+        wanted = f"{least if least == most else f'{least} or more'} value{'s' * (most > 1)}"
+        raise problem("number of arguments", place_of(name), name=name, wanted=wanted, given=len(operands))
+
+
+def _is_named(part: Any) -> bool:
     """Whether a part of a statement comes with its name."""
     return isinstance(part, tuple) and len(part) == 2 and isinstance(part[0], str)
 
@@ -81,39 +91,35 @@ class Expressions(Transformer[Any, Any]):
         return _number(token)
 
     def name(self, token: Token) -> Name:
-        _check_name(token)
-        return Name(str(token), _around(token))
+        check_name(token)
+        return Name(str(token), place_of(token))
 
     def unary(self, sign: Token, operand: Expression) -> Expression:
         operator = _SPELLINGS.get(sign, str(sign))
         if operator == "+":
             return operand
         if operator == "-" and isinstance(operand, Number):
-            return Number(-operand.value, _around(sign, operand))
-        return self._applied("-x" if operator == "-" else operator, (operand,), _around(sign, operand))
+            return Number(-operand.value, place_of(sign, operand))
+        return self._applied("-x" if operator == "-" else operator, (operand,), place_of(sign, operand))
 
     def binary(self, left: Expression, sign: Token, right: Expression) -> Expression:
-        return self._applied(_SPELLINGS.get(sign, str(sign)), (left, right), _around(left, right))
+        return self._applied(_SPELLINGS.get(sign, str(sign)), (left, right), place_of(left, right))
 
     def call(self, name: Token, *operands: Expression) -> Expression:
         operator = OPERATORS.get(name)
         functions = [known for known, entry in OPERATORS.items() if entry.precedence is None]
         if operator is None or name not in functions:
-            raise Misread(ModelNameError, f'I do not know the function "{name}"', _around(name),
-                          suggestion(name, functions, 0.7) or f"Functions are: {', '.join(sorted(functions))}.")
-        least, most = operator.arity
-        if not least <= len(operands) <= most:
-            raise Misread(ModelSyntaxError, f"{name}(...) takes {least if least == most else f'{least} or more'} "
-                          f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
-        return self._applied(str(name), operands, _around(name, operands[-1]))
+            raise problem("unknown function", place_of(name), closest(name, functions, 0.7), name=name,
+                        known=", ".join(sorted(functions)))
+        check_arity(name, str(name), operands)
+        return self._applied(str(name), operands, place_of(name, operands[-1]))
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
         applied = Apply(operator, operands, at)
         if applied.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"This expression is nested more than {current().depth} deep", at,
-                          'Give a part of it a name, on a line such as "c = ...".')
+            raise problem("expression too deep", at, most=current().depth)
         if at and at[1] - at[0] > current().expression:
-            raise Misread(ModelSyntaxError, f"This expression has more than {current().expression:,} characters", at)
+            raise problem("expression too long", at, most=current().expression)
         return applied
 
 
@@ -122,7 +128,7 @@ class Statements(Transformer[Any, Any]):
     """What the grammars of the notations name."""
 
     def module(self, symbol: Token, *arguments: Any) -> Pattern:
-        at = _around(symbol, *arguments)
+        at = place_of(symbol, *arguments)
         if symbol.type == "TIMED":
             symbol, arguments = arguments[0], arguments[1:]
         return Pattern(_symbol(symbol), arguments, at)
@@ -152,44 +158,43 @@ class Statements(Transformer[Any, Any]):
         return "condition", None
 
     def repeat(self, keyword: Token, count: Expression, *rest: Any) -> Repeat:
-        repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", _around(keyword, rest[-1][-1]))
+        repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", place_of(keyword, rest[-1][-1]))
         if repeat.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"Repetitions are nested more than {current().depth} deep", _around(keyword))
+            raise problem("repetitions too deep", place_of(keyword), most=current().depth)
         return repeat
 
     def production(self, *parts: Any) -> tuple[str, Production]:
         modules = [part for part in parts if isinstance(part, Pattern)]
-        successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
-        return "production", Production(modules[0], successor, **dict(part for part in parts if _named(part)))
+        successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
+        return "production", Production(modules[0], successor, **dict(part for part in parts if _is_named(part)))
 
     def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Any) -> tuple[str, MetaRule]:
-        successor = next(part for part in parts if isinstance(part, tuple) and not _named(part))
-        return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _named(part)))
+        successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
+        return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _is_named(part)))
 
     def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         bracket = next((name for name in names if name in "[]"), None)
         if bracket is not None:
-            raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
-                          "Contexts follow the branches in any case.")
+            raise problem("bracket in list", place_of(bracket))
         return keyword.rstrip(": \t").lower(), tuple(dict.fromkeys(map(_symbol, names)))
 
     def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "axiom", word
 
     def plain_axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
-        return "more", ("axiom", word)
+        return "deferred", ("axiom", word)
 
     def delta(self, _: Token, value: Expression, *sign: Token) -> tuple[str, Any]:
-        return "more", ("angle", value)
+        return "deferred", ("angle", value)
 
     def vocabulary(self, _: Token, *letters: Token) -> tuple[str, tuple[str, ...]]:
-        """Only names of several letters might be mistaken."""
+        """Only names of several letters could be taken for a row of symbols."""
         return "alphabet", tuple(letter for letter in map(_symbol, letters) if letter[0].isalpha() and len(letter) > 1)
 
     def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:
         ends = [part for part in rest if not isinstance(part, Token)]
         step = ends[2] if len(ends) == 3 else Number(1)
-        _check_name(name)
+        check_name(name)
         return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
 
     def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
@@ -209,10 +214,10 @@ class Statements(Transformer[Any, Any]):
         return "section", keyword.rstrip(": \t").lower()
 
     def heading(self, _: Token) -> tuple[str, Any]:
-        return "more", ("heading", None)
+        return "deferred", ("heading", None)
 
     def how_many(self, _: Token, number: Token) -> tuple[str, Any]:
-        return "more", ("how many", _number(number))
+        return "deferred", ("how many", _number(number))
 
     def stage(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
-        return "more", ("stage", word)
+        return "deferred", ("stage", word)

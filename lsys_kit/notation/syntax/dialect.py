@@ -1,4 +1,4 @@
-"""What a notation is made of: how its text is cut, parsed and put together, and how a system is written in it.
+"""What a notation consists of: how its text is cut, parsed and completed, and how a system is written in it.
 
 Each notation has a file of its own, with its grammar beside it; `registry` has them all.
 """
@@ -14,6 +14,7 @@ from lark import Transformer
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.spelling import KIT_SPELLING, Spelling
 from lsys_kit.notation.syntax.transcription import Transcript, as_typed
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def whole(text: str, name: str | None) -> str:
 
 
 Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
-"""Something to ask about the place where a parser stumbled; an answer is what the person is told."""
+"""Looks at the place where a parser failed; the error says what is wrong, None that this diagnostic does not apply."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,18 +40,21 @@ class Grammar:
     ----------
     name
         What the notation is called.
-    records
-        What its grammar names, as records.
+    transformer
+        What makes records of what its grammar names.
     diagnostics
-        What is asked about a slip, the most telling first.
+        What may be wrong where the parser fails, the most specific first.
     starts
         What can be parsed: a statement, and perhaps a word or an expression alone.
+    spelling
+        How messages spell what they quote.
     """
 
     name: str
-    records: Callable[[], Transformer[Any, Any]]
+    transformer: Callable[[], Transformer[Any, Any]]
     diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
+    spelling: Spelling = KIT_SPELLING
 
     @property
     def file(self) -> str:
@@ -83,7 +87,7 @@ class Dialect(Grammar):
     turtle
         Whose turtle commands its symbols are, if the text says nothing.
     likely
-        How likely a text is in this notation: the number of its marks that are found there.
+        How likely a text is in this notation: a count of its distinctive features.
     """
 
     statements: Callable[[str], Iterator[tuple[int, int]]]

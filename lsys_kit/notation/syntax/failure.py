@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from lsys_kit.errors import ModelSyntaxError, named, printable
+from lsys_kit.notation.syntax.spelling import Spelling
 from lsys_kit.notation.syntax.statements import ARROW, without_comments
 
-_WORDS = {
+_TOKEN_NAMES = {
     "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',
     "COMMA": '","', "COLON": '":"', "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
 }
@@ -28,6 +29,8 @@ class ParseFailure:
         The offset, and the text there: none at the end of the statement.
     accepted
         The kinds of tokens with which it could have gone on.
+    spelling
+        How the dialect spells what messages quote.
     """
 
     text: str
@@ -37,6 +40,12 @@ class ParseFailure:
     at: int
     found: str
     accepted: frozenset[str]
+    spelling: Spelling
+
+    @property
+    def statement(self) -> str:
+        """The whole statement."""
+        return self.text[self.start:self.end]
 
     @property
     def before(self) -> str:
@@ -55,20 +64,20 @@ class ParseFailure:
         return ModelSyntaxError(message, self.source, at, at + (length or max(1, len(self.found))), hint)
 
 
-def parse_failure(slip: UnexpectedInput, source: str, start: int, end: int) -> ParseFailure:
-    """What a parser says of the statement between two offsets, as a failure."""
-    at, found = _found(slip, source, start, end)
-    parser = getattr(slip, "interactive_parser", None)
+def parse_failure(unexpected: UnexpectedInput, source: str, start: int, end: int, spelling: Spelling) -> ParseFailure:
+    """What a parser reports about the statement between two offsets, as a failure."""
+    at, found = _unexpected_text(unexpected, source, start, end)
+    parser = getattr(unexpected, "interactive_parser", None)
     accepted = frozenset(kind.split("__")[-1] for kind in parser.accepts()) if parser else frozenset()
-    return ParseFailure(without_comments(source), source, start, end, at, found, accepted)
+    return ParseFailure(without_comments(source), source, start, end, at, found, accepted, spelling)
 
 
-def _found(slip: UnexpectedInput, source: str, start: int, end: int) -> tuple[int, str]:
-    """The offset of the slip and the text there; an arrow is found whole, wherever in it the parser stumbled."""
-    if isinstance(slip, UnexpectedToken) and slip.token.type != "$END":
-        at, found = slip.token.start_pos or 0, str(slip.token)
-    elif isinstance(slip, UnexpectedCharacters):
-        at, found = slip.pos_in_stream or 0, slip.char
+def _unexpected_text(unexpected: UnexpectedInput, source: str, start: int, end: int) -> tuple[int, str]:
+    """The offset of what was not expected and the text there; an arrow is taken whole, wherever in it the parser failed."""
+    if isinstance(unexpected, UnexpectedToken) and unexpected.token.type != "$END":
+        at, found = unexpected.token.start_pos or 0, str(unexpected.token)
+    elif isinstance(unexpected, UnexpectedCharacters):
+        at, found = unexpected.pos_in_stream or 0, unexpected.char
     else:
         return end, ""
     for arrow in ARROW.finditer(source, max(start, at - 2), min(end, at + 16)):
@@ -89,7 +98,7 @@ def unclosed_bracket(text: str, pair: str = "()") -> int | None:
 
 
 def blank_parentheses(text: str) -> str:
-    """The text with parentheses, and what stands in them, blanked.
+    """The text with parentheses, and what they contain, blanked.
 
     >>> blank_parentheses("A(max(1, 2)) < B")
     'A            < B'
@@ -113,8 +122,8 @@ def excerpt(text: str) -> str:
 
 
 def expected_hint(accepted: frozenset[str]) -> str | None:
-    """A hint that says what could stand at the place, if that is not too much."""
-    words = sorted({_WORDS[name] for name in accepted if name in _WORDS})
+    """A hint that lists what is possible at the place, if that is not too much."""
+    words = sorted({_TOKEN_NAMES[name] for name in accepted if name in _TOKEN_NAMES})
     if not words or len(words) > 4:
         return None
     return "Possible here: " + " or ".join((", ".join(words[:-1]), words[-1]) if len(words) > 1 else words) + "."

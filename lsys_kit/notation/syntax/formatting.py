@@ -9,11 +9,11 @@ from lsys_kit.notation.model.modules import Repeat
 from lsys_kit.notation.model.system import LSystem
 
 OWN_NOTATION = "abop"
-"""The tradition of turtle commands that is meant where nothing is said."""
+"""The tradition of turtle commands that is the default."""
 
 
 def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
-    """The lines that set something, given whose turtle commands the notation itself has."""
+    """The lines of settings, given the notation's own tradition of turtle commands."""
     if system.alphabet:
         yield "alphabet: " + " ".join(system.alphabet)
     if system.turtle != turtle:

@@ -1,4 +1,4 @@
-"""One statement, word or expression parsed by the grammar of its notation; what went wrong, as an error with its place."""
+"""A statement, word or expression parsed by the grammar of its notation; a failure becomes an error with its place."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from lark.exceptions import UnexpectedInput
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.syntax.actions import Misread
+from lsys_kit.notation.analysis.problems import ProblemFound
+from lsys_kit.notation.syntax.actions import ActionError
 from lsys_kit.notation.syntax.diagnostics import diagnose
 from lsys_kit.notation.syntax.dialect import Grammar
+from lsys_kit.notation.syntax.wording import error_of
 
 _SYNTAX = Path(__file__).parent
-"""Where `expressions.lark` stands, which the grammars share."""
+"""The folder of `expressions.lark`, which the grammars share."""
 
 
 def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
@@ -26,13 +28,16 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
                               limit=current().line, needed=end - start, source=text, start=start)
     try:
         return _parser(notation).parse(TextSlice(text, start, end), start=rule)
-    except UnexpectedInput as slip:
-        raise diagnose(slip, text, start, end, notation) from None
-    except Misread as misread:
-        raise misread.kind(misread.message, text, *(misread.at or (None, None)), misread.hint) from None
+    except UnexpectedInput as unexpected:
+        raise diagnose(unexpected, text, start, end, notation) from None
+    except ProblemFound as error:
+        raise error_of(error.problem, text, notation.spelling) from None
+    except ActionError as error:
+        first, last = error.at or (None, None)
+        raise error.kind(error.message, text, first, last, error.hint) from None
 
 
 @cache
 def _parser(notation: Grammar) -> Lark:
     return Lark.open(str(_SYNTAX.parent / "dialects" / notation.file), import_paths=[str(_SYNTAX)], parser="lalr",
-                     start=[*notation.starts], maybe_placeholders=False, transformer=notation.records())
+                     start=[*notation.starts], maybe_placeholders=False, transformer=notation.transformer())

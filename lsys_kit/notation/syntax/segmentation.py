@@ -1,7 +1,7 @@
 """Letters written together: `F -> FF` means two segments, `ar -> al br` means two cells of two letters each.
 
 Books glue one-letter symbols together; the kit's notation has symbols of several letters. A name of several letters that
-no production rewrites, and that can be parted in just one way into symbols that the system has, is read as those symbols; so
+no production rewrites, and that can be divided in just one way into symbols that the system has, is read as those symbols; so
 is a row of capital letters, one of which a production rewrites: in `A -> BA` the B is new. An `alphabet:` line keeps a name
 whole.
 """
@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import replace
 from typing import Any
 
-from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -21,52 +21,50 @@ _ALWAYS = frozenset("Ff")
 
 
 def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
-    """A word with its glued names parted as in a system.
+    """A word with its glued names divided as in a system.
 
     >>> from lsys_kit.notation.read import read
     >>> [str(module) for module in segment_word(read("axiom: ba").axiom, read("axiom: a\\na -> ab\\nb -> a"))]
     ['b', 'a']
     """
     word = tuple(word)
-    return _parted(word, _glued(flat(word), *_symbols(system)))
+    return _segmented(word, _glued(flat(word), *_whole_and_parts(system)))
 
 
 def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
-    """A system with its glued names parted, and what each of them is made of.
+    """A system with its glued names divided, and the symbols of each.
 
-    The symbols of which one name is made may part another: names are parted until none is left.
+    The symbols of one name may divide another: names are divided until none is left.
 
     >>> from lsys_kit.notation.read import read
     >>> segment_system(replace(read("axiom: F\\nF -> F J J"), axiom=(Pattern("JF"),)))[1]
     {'JF': ['J', 'F']}
     """
     made: dict[str, list[str]] = {}
-    while found := _glued(_modules(system), *_symbols(system)):
+    while found := _glued(_divisible_modules(system), *_whole_and_parts(system)):
         made |= found
-        system = replace(system, axiom=_parted(system.axiom, found), productions=_parted_rules(system.productions, found),
-                         decomposition=_parted_rules(system.decomposition, found),
-                         interpretation=_parted_rules(system.interpretation, found),
-                         meta=tuple(replace(rule, successor=_parted(rule.successor, found)) for rule in system.meta))
+        system = replace(system, axiom=_segmented(system.axiom, found), productions=_segmented_rules(system.productions, found),
+                         decomposition=_segmented_rules(system.decomposition, found),
+                         interpretation=_segmented_rules(system.interpretation, found),
+                         meta=tuple(replace(rule, successor=_segmented(rule.successor, found)) for rule in system.meta))
     return system, made
 
 
 def segment_with_notes(system: LSystem) -> LSystem:
-    """What `segment_system` makes of a system, with a note for each name that was parted."""
-    parted, made = segment_system(system)
+    """What `segment_system` makes of a system, with a note for each name that was divided."""
+    segmented, made = segment_system(system)
     notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
-    return replace(parted, notes=(*system.notes, *notes)) if made else system
+    return replace(segmented, notes=(*system.notes, *notes)) if made else system
 
 
-def check_digits(word: Iterable[Pattern], alphabet: Collection[str], source: str) -> None:
-    """A digit is a symbol where the alphabet has it; elsewhere it is a value that belongs to nothing."""
+def check_digits(word: Iterable[Pattern], alphabet: Collection[str]) -> None:
+    """Refuse digits that are not declared as symbols: they are values outside of parentheses."""
     alone = next((module for module in word if module.symbol.isdigit() and module.symbol not in alphabet), None)
     if alone:
-        start, end = alone.at or (None, None)
-        raise ModelSyntaxError("A number stands alone in a word", source, start, end,
-                               'Values stand in parentheses behind a symbol, as in "A(2)".')
+        raise problem("number in word", alone.at)
 
 
-def _modules(system: LSystem) -> Iterable[Pattern]:
+def _divisible_modules(system: LSystem) -> Iterable[Pattern]:
     """The modules that may be glued: a predecessor is what it is."""
     yield from system.axiom
     for rule in system.rules:
@@ -75,17 +73,17 @@ def _modules(system: LSystem) -> Iterable[Pattern]:
         yield from flat(meta.successor)
 
 
-def _parted_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
-    return tuple(replace(rule, left=_parted(rule.left, made), right=_parted(rule.right, made),
-                         successor=_parted(rule.successor, made)) for rule in rules)
+def _segmented_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
+    return tuple(replace(rule, left=_segmented(rule.left, made), right=_segmented(rule.right, made),
+                         successor=_segmented(rule.successor, made)) for rule in rules)
 
 
-def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
-    """The word with its glued names parted; what a name has in parentheses goes to its last symbol."""
+def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
+    """The word with its glued names divided; the arguments of a name go to its last symbol."""
     result: list[Item] = []
     for module in word:
         if isinstance(module, Repeat):
-            result.append(replace(module, body=_parted(module.body, made)))
+            result.append(replace(module, body=_segmented(module.body, made)))
         elif pieces := made.get(module.symbol):
             result += [Pattern(symbol, at=module.at) for symbol in pieces[:-1]]
             result.append(replace(module, symbol=pieces[-1]))
@@ -97,10 +95,10 @@ def _parted(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]
 def _glued(modules: Iterable[Pattern], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
     """The glued names among some modules, and the symbols of which each is made."""
     names = dict.fromkeys(module.symbol for module in modules if len(module.symbol) > 1 and module.symbol not in whole)
-    return {name: pieces for name in names if (pieces := _pieces(name, whole, parts))}
+    return {name: pieces for name in names if (pieces := _symbols_of_name(name, whole, parts))}
 
 
-def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
+def _whole_and_parts(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     """The names that stay whole, and the symbols of which a name may be made."""
     rewritten = {rule.predecessor.symbol for rule in system.rules}
     rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
@@ -109,14 +107,14 @@ def _symbols(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
 
 
-def _pieces(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
-    """The symbols that a name stands for; nothing where it is a symbol of its own."""
+def _symbols_of_name(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
+    """The symbols that make a name; none where it is a symbol of its own."""
     capitals = name.isalpha() and name.isupper() and not whole.isdisjoint(name)
-    return _partings(name, parts) or (list(name) if capitals else [])
+    return _unique_split(name, parts) or (list(name) if capitals else [])
 
 
-def _partings(name: str, parts: frozenset[str]) -> list[str]:
-    """The one way to part a name into symbols, or nothing where there is none or more than one."""
+def _unique_split(name: str, parts: frozenset[str]) -> list[str]:
+    """The one way to divide a name into symbols; nothing where there is none or more than one."""
     ways: list[list[list[str]]] = [[[]]]
     for end in range(1, len(name) + 1):
         found = [[*way, name[start:end]] for start in range(max(0, end - 64), end) if name[start:end] in parts

@@ -1,4 +1,4 @@
-"""A text cut into statements: a line, with the lines that go on with it."""
+"""A text cut into statements: a line, with the lines that continue it."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
 _STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
-_GOES_ON = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
+_CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
 PER_RULE = 64
-"""How many characters there may be for each production that a model may have, blanks and comments not counted."""
+"""The greatest number of characters per production of the limit, without blanks and comments."""
 
 
 def statements(text: str) -> Iterator[tuple[int, int]]:
     """The offsets of the statements.
 
-    A line goes on with the one before it where it begins with an arrow, where it is indented and the one before cannot end
-    there, or where it is indented and begins nothing of its own.
+    A line continues the one before it where it begins with an arrow, where it is indented and the one before cannot end there,
+    or where it is indented and begins nothing of its own.
 
     >>> text = "A(t) : t < 5\\n  -> B\\nC -> D"
     >>> [text[start:end] for start, end in statements(text)]
@@ -33,7 +33,7 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     end, last = 0, ""
     for offset, line in lines:
         indented = len(line) - len(line.lstrip()) > base
-        goes_on = ARROW.match(line.lstrip()) or (indented and (_GOES_ON.search(last) or not _STARTS.search(line)))
+        goes_on = ARROW.match(line.lstrip()) or (indented and (_CONTINUES.search(last) or not _STARTS.search(line)))
         if start is not None and not goes_on:
             yield start, end
         if start is None or not goes_on:
@@ -62,7 +62,7 @@ def without_comments(text: str) -> str:
 
 
 def check_text(text: str) -> None:
-    """Refuse what is no text, or too long a one."""
+    """Refuse anything but text, and text that is too long."""
     if not isinstance(text, str):
         raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
     if len(text) > current().text:
@@ -75,12 +75,12 @@ def bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int,
     lines, most = 2 * current().rules, max(current().line, PER_RULE * current().rules)
     found = [*islice(statements, lines + 1)]
     if len(found) > lines:
-        raise ModelLimitError(f"The model has more than {lines:,} lines that say something", limit=lines, source=text,
+        raise ModelLimitError(f"The model has more than {lines:,} lines that are not blank", limit=lines, source=text,
                               start=found[-1][0])
-    said = 0
+    characters = 0
     for start, end in found:
-        said += len("".join(text[start:end].split()))
-        if said > most:
+        characters += len("".join(text[start:end].split()))
+        if characters > most:
             raise ModelLimitError(f"The model has more than {most:,} characters, without blanks and comments", limit=most,
                                   source=text, start=start)
     return found

@@ -28,14 +28,14 @@ _SYMBOL = re.compile(r"[A-Za-z_]\w*|\d|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A
 _EDGE = re.compile(r"F_\w+")
 
 
-def _records() -> Transformer[Any, Any]:
+def _transformer() -> Transformer[Any, Any]:
     return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
-def _settle(draft: Draft) -> None:
-    """Take in what the mathematical form says otherwise than the kit: an axiom beside a set, the angle δ, the length d."""
+def _resolve_deferred(draft: Draft) -> None:
+    """Take in what the mathematical form writes differently: an axiom beside a set, the angle δ, the length d."""
     plain = without_comments(draft.source)
-    for kind, record, at in draft.more:
+    for kind, record, at in draft.deferred:
         if kind == "axiom" and not IN_A_SET.search(plain):
             raise missing_keyword_colon(draft.source, at[0], draft.source[at[0]:at[0] + 5], draft.source[at[0] + 5:at[1]])
         draft.add(kind, record, at)
@@ -46,7 +46,7 @@ def _settle(draft: Draft) -> None:
         draft.notes.append('"d" is read as the length of a segment.')
 
 
-def _made(draft: Draft) -> set[str]:
+def _occurring_symbols(draft: Draft) -> set[str]:
     """The symbols that can occur in words."""
     productions = [rule.successor for rules in draft.sections.values() for rule in rules]
     words = (draft.axiom or (), *productions, *(rule.successor for rule in draft.meta))
@@ -54,11 +54,11 @@ def _made(draft: Draft) -> set[str]:
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system with letters that were written together parted, and a note that says so."""
-    _settle(draft)
-    missing_colon(draft.sections["productions"], _made(draft), draft.source)
+    """The system with names segmented into letters where they were written together, with a note on each."""
+    _resolve_deferred(draft)
+    missing_colon(draft.sections["productions"], _occurring_symbols(draft))
     system = _with_edges(segment_with_notes(build_system(draft)))
-    check_digits(system.modules, system.alphabet, draft.source)
+    check_digits(system.modules, system.alphabet)
     return system
 
 
@@ -94,5 +94,5 @@ def _lacking(system: LSystem) -> str | None:
 
 
 ABOP = Dialect(
-    name="abop", statements=printed_statements, records=_records, finish=_finish, diagnostics=DIAGNOSTICS, module=str,
+    name="abop", statements=printed_statements, transformer=_transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=str,
     joined=joined, write=_write, lacking=_lacking, likely=likely, transcribe=transcribe)

@@ -13,32 +13,31 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
-from lsys_kit.notation.dialects.cpfg.wording import in_cpfg
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import Expressions, Misread, Statements
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
 
 _SPELLINGS = {"<>": "!=", "%": "mod"}
-"""Operators that the kit spells otherwise."""
+"""Operators, and how the kit spells them."""
 SYMBOL_PATTERN = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
 """A symbol: a character, or "@" or "?" with a letter."""
-_SECTIONS = {"production": "productions", "homomorphism": "interpretation"}
-"""Sections that the kit calls otherwise."""
+_SECTION_NAMES = {"production": "productions", "homomorphism": "interpretation"}
+"""Sections, and what the kit calls them."""
 
 
-def _around(first: Expression, last: Expression | None = None) -> tuple[int, int]:
+def _expression_span(first: Expression, last: Expression | None = None) -> tuple[int, int]:
     """The offsets from the first to the last of some expressions."""
     return (first.at or (0, 0))[0], ((last or first).at or (0, 0))[1]
 
 
 @cache
-def _plain(symbol: str) -> Pattern:
+def _bare_module(symbol: str) -> Pattern:
     """A module without values."""
     return Pattern("-" if symbol == "−" else symbol)
 
 
-def _flat(parts: Iterable[Any]) -> Iterator[Any]:
+def _flattened(parts: Iterable[Any]) -> Iterator[Any]:
     """The parts of a word, one after another."""
     for part in parts:
         if isinstance(part, tuple):
@@ -48,7 +47,7 @@ def _flat(parts: Iterable[Any]) -> Iterator[Any]:
 
 
 def _as_block(part: Block | Assignment | Choice) -> Block:
-    """What stands behind "if" or "else", with braces or without."""
+    """The block after "if" or "else", with braces or without."""
     return part if isinstance(part, tuple) else (part,)
 
 
@@ -57,36 +56,32 @@ def _is_block(part: Any) -> bool:
     return isinstance(part, tuple) and part[:1] in (("before",), ("after",))
 
 
-def _misplaced(token: Token) -> Misread:
-    return Misread(ModelSyntaxError, 'This "=" stands for the rest of no branch', (token.start_pos or 0, token.end_pos or 0),
-                   'It stands before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".')
+def _misplaced_equals(token: Token) -> ActionError:
+    return ActionError(ModelSyntaxError, 'This "=" is not at the end of a branch', (token.start_pos or 0, token.end_pos or 0),
+                       'It is written before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".')
 
 
 @v_args(inline=True)
-class _Expressions(Expressions):
+class _CpfgExpressions(Expressions):
     """C's truths are numbers, and its numbers truths."""
 
     def binary(self, left: Expression, sign: Token, right: Expression) -> Expression:
         return super().binary(left, sign.update(value=_SPELLINGS.get(sign, str(sign))), right)
 
     def either(self, condition: Expression, then: Expression, otherwise: Expression) -> Expression:
-        return self._applied("if", (condition, then, otherwise), _around(condition, otherwise))
+        return self._applied("if", (condition, then, otherwise), _expression_span(condition, otherwise))
 
     def call(self, name: Token, *operands: Expression) -> Expression:
-        at = name.start_pos or 0, _around(operands[-1])[1]
+        at = name.start_pos or 0, _expression_span(operands[-1])[1]
         made = resolve_call(str(name), operands, at)
         return self._applied(made.operator, made.operands, at)
 
     def _applied(self, operator: str, operands: tuple[Expression, ...], at: Any) -> Apply:
-        try:
-            return simplified(super()._applied(operator, wanted(operator, operands), at))
-        except Misread as misread:
-            misread.hint = misread.hint and in_cpfg(misread.hint)
-            raise
+        return simplified(super()._applied(operator, wanted(operator, operands), at))
 
 
 @v_args(inline=True)
-class Records(_Expressions, Statements):
+class CpfgStatements(_CpfgExpressions, Statements):
     """What `grammar.lark` names."""
 
     def module(self, symbol: Token, *arguments: Expression) -> Pattern:
@@ -97,12 +92,13 @@ class Records(_Expressions, Statements):
         found: list[Pattern] = []
         at = token.start_pos or 0
         for piece in re.split(r"([\[\]])", token):
-            found += (Pattern(piece, at=(at, at + 1)),) if piece in ("[", "]") else map(_plain, SYMBOL_PATTERN.findall(piece))
+            bracket = piece in ("[", "]")
+            found += [Pattern(piece, at=(at, at + 1))] if bracket else map(_bare_module, SYMBOL_PATTERN.findall(piece))
             at += len(piece)
         return tuple(found)
 
     def word(self, *parts: Pattern | tuple[Pattern, ...]) -> tuple[Pattern, ...]:
-        return tuple(_flat(parts))
+        return tuple(_flattened(parts))
 
     def constant(self, name: Token, value: Expression, *rest: Expression) -> tuple[str, Constant]:
         return super().constant(name, as_number(value), *rest)
@@ -111,17 +107,17 @@ class Records(_Expressions, Statements):
         return super().setting(keyword, as_number(value))
 
     def count(self, keyword: Token, value: Expression) -> tuple[str, Any]:
-        return "more", ("count", (" ".join(keyword.rstrip(": \t").lower().split()), as_number(value)))
+        return "deferred", ("count", (" ".join(keyword.rstrip(": \t").lower().split()), as_number(value)))
 
     def mark(self, *_: Token) -> tuple[str, Any]:
-        return "more", ("mark", None)
+        return "deferred", ("mark", None)
 
     def section(self, keyword: Token) -> tuple[str, Any]:
         name = keyword.split()[0].rstrip(":").lower()
-        return "more", ("section", _SECTIONS.get(name, name))
+        return "deferred", ("section", _SECTION_NAMES.get(name, name))
 
     def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
-        """Brackets may stand among the symbols that contexts see: they follow the branches in any case."""
+        """Brackets are possible among the symbols that contexts see: contexts follow the branches in any case."""
         others = [name for name in names if name not in "[]"]
         consider = keyword.lower().startswith("consider") and others
         return super().symbols(keyword, *(others if consider else names))
@@ -132,13 +128,13 @@ class Records(_Expressions, Statements):
         return "condition", None if always else as_truth(expression)
 
     def pattern(self, *parts: Pattern | Token | tuple[Pattern, ...]) -> tuple[Pattern, ...]:
-        """A right context, in which a branch ends at its bracket unless "=" stands for the rest of it."""
+        """A right context, in which a branch ends at its bracket unless "=" is written there."""
         found: list[Pattern] = []
-        modules = tuple(_flat(parts))
+        modules = tuple(_flattened(parts))
         for index, module in enumerate(modules):
             if isinstance(module, Token):
                 if index + 1 == len(modules) or str(modules[index + 1]) != "]":
-                    raise _misplaced(module)
+                    raise _misplaced_equals(module)
                 continue
             if module.symbol == "]" and not isinstance(modules[index - 1], Token):
                 found.append(Pattern(END))
@@ -160,10 +156,11 @@ class Records(_Expressions, Statements):
     def choice(self, condition: Expression, then: Any, otherwise: Any = ()) -> Choice:
         choice = Choice(as_truth(condition), _as_block(then), _as_block(otherwise))
         if choice.depth > current().depth:
-            raise Misread(ModelSyntaxError, f"Choices are nested more than {current().depth} deep", _around(condition))
+            raise ActionError(ModelSyntaxError, f"Choices are nested more than {current().depth} deep",
+                              _expression_span(condition))
         return choice
 
     def production(self, *parts: Any) -> tuple[str, Any]:
         blocks = dict(filter(_is_block, parts))
         _, production = super().production(*(part for part in parts if not _is_block(part)))
-        return "more", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))
+        return "deferred", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))

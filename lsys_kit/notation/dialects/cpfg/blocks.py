@@ -14,14 +14,14 @@ from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Production
 
 Bindings: TypeAlias = Mapping[str, Expression]
-"""What names stand for at some place of a rule."""
+"""The expressions of names at some place of a rule."""
 MOST_OPERATORS = 1_000
-"""So many operators may an expression have, with all that is put into it."""
+"""The greatest number of operators in an expression, after substitution."""
 
 
 @dataclass(frozen=True)
 class Assignment:
-    """A name and what it stands for from there on."""
+    """A name and its expression from there on."""
 
     name: Name
     value: Expression
@@ -29,7 +29,7 @@ class Assignment:
 
 @dataclass(frozen=True)
 class Choice:
-    """What is computed where a condition is true, and what else."""
+    """The blocks for a condition that is true, and that is false."""
 
     condition: Expression
     then: Block
@@ -46,7 +46,7 @@ Block: TypeAlias = tuple[Assignment | Choice, ...]
 
 
 def substitute(production: Production, before: Block, after: Block, constants: Collection[str], source: str) -> Production:
-    """A rule with what its blocks compute: one before its condition, one behind it.
+    """A rule with what its blocks compute: one before its condition, one after it.
 
     >>> x, doubled = Name("x"), Apply("+", (Name("t"), Name("t")))
     >>> rule = Production(Pattern("M", (Name("t"),)), (Pattern("I", (x,)),))
@@ -62,13 +62,13 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     condition, probability = production.condition, production.probability
     done = replace(
         production, condition=None if condition is None else rule.replaced(condition, first),
-        successor=tuple(_module(rule, module, last) for module in flat(production.successor)),
+        successor=tuple(_substituted_module(rule, module, last) for module in flat(production.successor)),
         probability=None if probability is None else rule.replaced(probability, last))
     _check_draws(done, (*before, *after), source)
     return done
 
 
-def _module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
+def _substituted_module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
     return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))
 
 
@@ -81,7 +81,7 @@ class _Rule:
     source: str
 
     def computed(self, block: Block, values: Bindings) -> Bindings:
-        """What names stand for behind a block."""
+        """The bindings after a block."""
         for statement in block:
             if isinstance(statement, Choice):
                 values = self._chosen(statement, values)
@@ -93,7 +93,7 @@ class _Rule:
         return values
 
     def _chosen(self, choice: Choice, values: Bindings) -> Bindings:
-        """What names stand for behind a choice."""
+        """The bindings after a choice."""
         condition = self.replaced(choice.condition, values)
         then, otherwise = self.computed(choice.then, values), self.computed(choice.otherwise, values)
         changed = [name for name in {**then, **otherwise} if then.get(name) is not otherwise.get(name)]
@@ -101,33 +101,33 @@ class _Rule:
                                                 self._value(name, otherwise, choice, "true"))) for name in changed}}
 
     def _value(self, name: str, values: Bindings, choice: Choice, truth: str) -> Expression:
-        """What a name stands for in one of the two cases."""
+        """The expression of a name in one of the two cases."""
         if name in values or name in self.parameters:
             return values.get(name, Name(name))
         raise ModelNameError(f'"{name}" has a value only where this condition is {truth}', self.source, *span(choice.condition),
                              f'Give it one in the other case, too: "else {{{name} = 0;}}".')
 
     def replaced(self, expression: Expression, values: Bindings) -> Expression:
-        """An expression with what its names stand for."""
-        result = _replaced(expression, values)
+        """An expression with its names replaced."""
+        result = _with_values(expression, values)
         if getattr(result, "depth", 0) > current().depth or _long(result):
             raise ModelSyntaxError("What is computed here becomes too long an expression", self.source, *span(expression),
                                    "Compute less in one rule, and the rest in the next step.")
         return result
 
 
-def _replaced(expression: Expression, values: Bindings) -> Expression:
+def _with_values(expression: Expression, values: Bindings) -> Expression:
     if isinstance(expression, Name):
         return values.get(expression.name, expression)
     if not isinstance(expression, Apply):
         return expression
-    operands = tuple(_replaced(operand, values) for operand in expression.operands)
+    operands = tuple(_with_values(operand, values) for operand in expression.operands)
     same = all(new is old for new, old in zip(operands, expression.operands, strict=True))
     return expression if same else replace(expression, operands=operands)
 
 
 def _operators(expression: Expression | None) -> Iterator[Apply]:
-    """The operators of an expression with their operands; what stands in two places comes twice."""
+    """The operators of an expression with their operands; what occurs twice comes twice."""
     if isinstance(expression, Apply):
         yield expression
         for operand in expression.operands:
@@ -158,7 +158,7 @@ def _check_draws(production: Production, block: Block, source: str) -> None:
 
 
 def _drawn_twice(draw: Apply, block: Block, source: str) -> ModelValueError:
-    """The random number that is used twice, by the name that stands for it, if there is one."""
+    """The error for a random number that is used twice, with its name, if it has one."""
     owner = next((a for a in _assignments(block) if any(applied is draw for applied in _operators(a.value))), None)
     what = f'The random number "{owner.name}"' if owner else "This random number"
     return ModelValueError(f"{what} would be drawn anew at each of its uses", source, *span(owner.name if owner else draw),

@@ -1,4 +1,4 @@
-"""What is asked about a slip in a cpfg text."""
+"""Diagnostics of a cpfg text."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.cpfg.wording import reworded
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS as SHARED_DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted, unclosed_bracket
@@ -21,26 +20,26 @@ MISSING_FEATURES: Sequence[tuple[str, str, str]] = (
     (r"define[ \t]*:", "arrays", _CONSTANTS),
     (r"#[ \t]*include\b", "included files", "Put the text of the file in place of this line."),
     (r"#[ \t]*(if\w*|el\w+|endif|undef)\b", "lines that are read on a condition", "Keep the lines that are meant."),
-    (r"#[ \t]*define[ \t]+\w+\(", "macros with parameters", "Write what it stands for wherever it stands."),
+    (r"#[ \t]*define[ \t]+\w+\(", "macros with parameters", "Write its text wherever it is used."),
     (r"ring[ \t]+lsystem", "words whose ends are joined", "Without this line a word has two ends."),
 )
-"""What cpfg has and the kit has not: how a statement begins, what it is, and what to do instead."""
+"""Features of cpfg that the kit lacks: how a statement begins, what it is, and what to do instead."""
 _BEHIND_A_NAME = {"(": "statements that call a function", "[": "arrays", "{": "loops"}
-"""What stands in a block, to judge by what follows a name."""
+"""What a statement in a block is, by the character that follows its first name."""
 
 CPFG_KEYWORDS: Mapping[str, str] = {
     "Axiom": "A", "Lsystem": "1", "derivation length": "9", "maximum depth": "2", "seed": "3", "ignore": "+-", "consider": "AB",
     "angle": "30", "heading": "90", "length": "1", "decomposition": "", "homomorphism": "", "endlsystem": ""}
-"""The keywords, each with something that may stand behind its colon."""
-_ALSO = {"steps": "derivation length", "derivation": "derivation length", "depth": "maximum depth", "start": "Axiom",
+"""The keywords, each with an example of what follows its colon."""
+_SYNONYMS = {"steps": "derivation length", "derivation": "derivation length", "depth": "maximum depth", "start": "Axiom",
          "initiator": "Axiom", "interpretations": "homomorphism", "end lsystem": "endlsystem"}
-"""What others say for a keyword."""
+"""Other words for a keyword."""
 _MACRO = re.compile(r"#[ \t]*define\b[ \t]*(\w+)?[ \t]*")
 
 
 def _feature(failure: ParseFailure) -> ModelSyntaxError | None:
-    """Something that cpfg has and the kit has not."""
-    statement = failure.text[failure.start:failure.end]
+    """A feature of cpfg that the kit lacks."""
+    statement = failure.statement
     for pattern, what, instead in MISSING_FEATURES:
         if found := re.match(pattern, statement, re.IGNORECASE):
             return failure.error(f"The kit has no {what}", instead, failure.start, found.end())
@@ -51,7 +50,7 @@ def _feature(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A statement that is no assignment and no choice, or an element of an array."""
+    """A statement that is neither an assignment nor a choice, or an element of an array."""
     name, what = re.search(r"\w+$", failure.before), _BEHIND_A_NAME.get(failure.found[:1])
     behind = failure.accepted == {"EQUAL"} or (what == "arrays" and "TIMES" in failure.accepted)
     if name is None or what is None or not behind:
@@ -74,9 +73,9 @@ def _end_of_block(failure: ParseFailure) -> ModelSyntaxError | None:
     return None
 
 
-def _macro(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A constant without a name or a value, or with a value that is no number."""
-    statement = failure.text[failure.start:failure.end]
+def _macro_definition(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A constant without a name or a value, or with a value that is not a number."""
+    statement = failure.statement
     defined = _MACRO.match(statement)
     if not defined:
         return None
@@ -84,53 +83,42 @@ def _macro(failure: ParseFailure) -> ModelSyntaxError | None:
     if not defined[1]:
         return failure.error("A name is missing here", _CONSTANTS, at)
     if not value:
-        return failure.error(f'The macro "{defined[1]}" stands for nothing', f'Give it a number: "#define {defined[1]} 1".',
+        return failure.error(f'The macro "{defined[1]}" has no value', f'Give it a number: "#define {defined[1]} 1".',
                              failure.start)
     if value[0] == "=":
         return failure.error('This "=" is not needed', f'Type "#define {defined[1]} {excerpt(value[1:].strip())}".', at, 1)
     if re.match(r"-?[\d.(]|[A-Za-z_]\w*[ \t]*[(*/+%^-]", value):
-        found = next(filter(None, (question(failure) for question in SHARED_DIAGNOSTICS[1:])), None)
-        return found or failure.error(f"I did not expect {quoted(failure.found)} here" if failure.found else
+        shared = next(filter(None, (diagnostic(failure) for diagnostic in SHARED_DIAGNOSTICS[1:])), None)
+        return shared or failure.error(f"I did not expect {quoted(failure.found)} here" if failure.found else
                                       "The line ends too early", _CONSTANTS)
-    return failure.error(f'The macro "{defined[1]}" stands for no number',
-                         f'Write {excerpt(value)} itself wherever "{defined[1]}" stands.', at, len(value))
+    return failure.error(f'The macro "{defined[1]}" is not a number',
+                         f'Write {excerpt(value)} itself wherever "{defined[1]}" is used.', at, len(value))
 
 
 def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A keyword that is misspelt, or stands without its colon or what belongs behind it."""
-    statement = failure.text[failure.start:failure.end]
+    """A keyword that is misspelt, or without its colon or its value."""
+    statement = failure.statement
     word = re.match(r"([A-Za-z]{3,}(?:[ \t]+[A-Za-z]{3,})?)[ \t]*(:?)[ \t]*", statement)
     if not word or ARROW.search(statement):
         return None
     name, rest = " ".join(word[1].lower().split()), excerpt(statement[word.end():].strip())
-    meant = _ALSO.get(name) or _like(name)
-    if meant is None:
+    keyword = _SYNONYMS.get(name) or _similar_keyword(name)
+    if keyword is None:
         return None
-    at, length, known, example = failure.start, len(word[1]), name == meant.lower(), CPFG_KEYWORDS[meant]
+    at, length, known, example = failure.start, len(word[1]), name == keyword.lower(), CPFG_KEYWORDS[keyword]
     if known and word[2]:
-        reads = f'It reads "{meant}: {example}".'
-        return None if rest else failure.error(f'Nothing stands behind "{word[1]}:"', reads, at, length)
+        reads = f'It reads "{keyword}: {example}".'
+        return None if rest else failure.error(f'There is nothing after "{word[1]}:"', reads, at, length)
     if word[2] or not (rest or known):
-        return failure.error(f'I do not know "{word[1]}{word[2]}"', f'Did you mean "{meant}{word[2]}"?', at, length)
-    return failure.error(f'A ":" is missing behind "{word[1]}"', f'Type "{meant}: {rest or example}".', at, length)
+        return failure.error(f'I do not know "{word[1]}{word[2]}"', f'Did you mean "{keyword}{word[2]}"?', at, length)
+    return failure.error(f'A ":" is missing after "{word[1]}"', f'Type "{keyword}: {rest or example}".', at, length)
 
 
-def _like(name: str) -> str | None:
+def _similar_keyword(name: str) -> str | None:
     """The keyword that a name resembles."""
     close = get_close_matches(name, [keyword.lower() for keyword in CPFG_KEYWORDS], 1, 0.75)
     return next((keyword for keyword in CPFG_KEYWORDS if keyword.lower() in close), None)
 
 
-def _worded(question: Diagnostic) -> Diagnostic:
-    """A question of the kit's own notation, whose answer is given in cpfg's words."""
-
-    def asked(failure: ParseFailure) -> ModelSyntaxError | None:
-        answer = question(failure)
-        return None if answer is None else reworded(answer)
-
-    return asked
-
-
-DIAGNOSTICS: Sequence[Diagnostic] = (_feature, _in_a_block, _end_of_block, _macro, _keyword,
-                                     *map(_worded, SHARED_DIAGNOSTICS))
-"""What is asked about a slip in a cpfg text, the most telling first."""
+DIAGNOSTICS: Sequence[Diagnostic] = (_feature, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
+"""The diagnostics of a cpfg text, the most specific first."""

@@ -1,4 +1,4 @@
-"""cpfg's notation (seed 002), the language of the Virtual Laboratory; its grammar is `grammar.lark`."""
+"""cpfg's notation (Prusinkiewicz), the language of the Virtual Laboratory; its grammar is `grammar.lark`."""
 
 from __future__ import annotations
 
@@ -6,16 +6,14 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from lark import Transformer
-
-from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
+from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
-from lsys_kit.notation.dialects.cpfg.actions import Records
+from lsys_kit.notation.dialects.cpfg.actions import CpfgStatements
 from lsys_kit.notation.dialects.cpfg.blocks import substitute
 from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
 from lsys_kit.notation.dialects.cpfg.statements import statements
-from lsys_kit.notation.dialects.cpfg.wording import reworded
-from lsys_kit.notation.dialects.cpfg.writer import joined, missing_feature, module_text, system_text
+from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system
@@ -26,30 +24,23 @@ from lsys_kit.notation.syntax.statements import ARROW, without_comments
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
     re.MULTILINE | re.IGNORECASE)
-_AXIOM = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
+_AXIOM_MARK = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
 _DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
 _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*")
 
 
-def _records() -> Transformer[Any, Any]:
-    return Records()
-
-
 def _finish(draft: Draft) -> LSystem:
-    """The system, with errors in cpfg's words."""
-    try:
-        _check_macros(draft)
-        _put_together(draft)
-        draft.notes += _notes(draft)
-        return build_system(draft)
-    except LSystemError as error:
-        raise reworded(error) from None
+    """The system of all statements."""
+    _check_macros(draft)
+    _resolve_deferred(draft)
+    draft.notes += _notes(draft)
+    return build_system(draft)
 
 
-def _put_together(draft: Draft) -> None:
-    """Takes in what is known only when all is read: the sections, and what the blocks of the rules compute."""
+def _resolve_deferred(draft: Draft) -> None:
+    """Take in what is known only when the whole text is read: the sections, and what the blocks of the rules compute."""
     section, constants = "productions", [constant.name for constant in draft.constants]
-    for kind, record, at in draft.more:
+    for kind, record, at in draft.deferred:
         if kind == "section":
             section = record
             draft.add(kind, record, at)
@@ -58,23 +49,23 @@ def _put_together(draft: Draft) -> None:
             draft.add("production", substitute(production, before, after, constants, draft.source), at)
         elif kind == "count":
             keyword, expression = record
-            _count(draft, section, keyword, expression, at)
+            _resolve_count(draft, section, keyword, expression, at)
 
 
-def _count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
-    """A number of steps or rounds, or a seed, which the constants may say."""
+def _resolve_count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
+    """Take in a number of steps or rounds, or a seed, which may be calculated from constants."""
     depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
     if keyword == "maximum depth" and section not in depths:
-        raise ModelSyntaxError('This "maximum depth:" stands in no section', draft.source, *at,
-                               'It stands below "decomposition" or below "homomorphism".')
+        raise ModelSyntaxError('This "maximum depth:" is in no section', draft.source, *at,
+                               'It belongs below "decomposition" or below "homomorphism".')
     name = depths[section] if keyword == "maximum depth" else "seed" if keyword == "seed" else "steps"
     if name in draft.settings:
-        raise ModelSyntaxError(f'"{keyword}:" stands here a second time', draft.source, *at, "Keep one of the two lines.")
+        raise ModelSyntaxError(f'"{keyword}:" is set a second time', draft.source, *at, "Keep one of the two lines.")
     values: dict[str, Any] = {}
     for constant in draft.constants:
-        values[constant.name] = value_of(constant.value, draft.source, values)
-    check_expression(expression, values.keys(), draft.source)
-    draft.add(name, Number(value_of(expression, draft.source, values), expression.at), at)
+        values[constant.name] = value_of(constant.value, values)
+    check_expression(expression, values.keys())
+    draft.add(name, Number(value_of(expression, values), expression.at), at)
 
 
 def _check_macros(draft: Draft) -> None:
@@ -88,14 +79,14 @@ def _check_macros(draft: Draft) -> None:
         if isinstance(value, Name) and value.name not in names[:index]:
             later = value.name in names
             raise ModelSyntaxError(
-                f'The macro "{value}" is defined only below' if later else f'The macro "{constant.name}" stands for no number',
+                f'The macro "{value}" is defined further down' if later else f'The macro "{constant.name}" is not a number',
                 draft.source, *span(value), 'Put its line before this one.' if later else
-                f'Write "{value}" itself wherever "{constant.name}" stands.')
-    check_constants(draft.constants, draft.source)
+                f'Write "{value}" itself wherever "{constant.name}" is used.')
+    check_constants(draft.constants)
 
 
 def _notes(draft: Draft) -> Iterator[str]:
-    """What cpfg would read otherwise, or a person may have meant otherwise."""
+    """Notes on what cpfg would read differently, or a person may have meant differently."""
     text = without_comments(draft.source)
     for constant in draft.constants:
         start, end = constant.at or (0, 0)
@@ -107,7 +98,7 @@ def _notes(draft: Draft) -> Iterator[str]:
         arrow = ARROW.search(text, start, end)
         prose = _PROSE.search(text, arrow.end(), end) if arrow else None
         if prose:
-            yield f'"{prose.group()}" is read as symbols, two rolls first; a comment stands between "/*" and "*/".'
+            yield f'"{prose.group()}" is read as symbols, two rolls first; a comment is written between "/*" and "*/".'
 
 
 def _infix(expression: Expression) -> bool:
@@ -117,14 +108,14 @@ def _infix(expression: Expression) -> bool:
 
 
 def _enclosed(value: str) -> bool:
-    """Whether one pair of parentheses stands around a text."""
+    """Whether one pair of parentheses encloses a text."""
     return value.startswith("(") and not blank_parentheses(value).strip()
 
 
 def _likely(text: str) -> int:
-    """Ten for each mark that only cpfg has; two for a capital "Axiom:" and long arrows behind single letters."""
+    """Ten for each mark that only cpfg has; two for a capital "Axiom:" and long arrows after single letters."""
     marks = len(_MARKS.findall(text))
-    if not marks and _AXIOM.search(text):
+    if not marks and _AXIOM_MARK.search(text):
         heads = [line[:arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"]
         single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", blank_parentheses(head).split(":")[0]))
         return 2 * (bool(heads) and single)
@@ -132,5 +123,5 @@ def _likely(text: str) -> int:
 
 
 CPFG = Dialect(
-    name="cpfg", statements=statements, records=_records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined, write=system_text, lacking=missing_feature, likely=_likely)
+    name="cpfg", statements=statements, transformer=CpfgStatements, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined=joined_word, write=system_text, lacking=missing_feature, likely=_likely, spelling=SPELLING)

@@ -22,12 +22,12 @@ from lsys_kit.notation.model.expressions import (
     is_random,
     styled_text,
 )
-from lsys_kit.notation.syntax.actions import Misread
+from lsys_kit.notation.syntax.actions import ActionError
 
 SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "floor", "ceil")
 """The functions that cpfg and the kit call alike."""
 RENAMED: Mapping[str, str] = {"fabs": "abs", "nran": "normal", "biran": "binomial"}
-"""Functions of cpfg that the kit calls otherwise."""
+"""Functions of cpfg that have another name in the kit."""
 ZERO, ONE = Number(0), Number(1)
 
 
@@ -44,7 +44,7 @@ def _sign(x: Expression, at: TextSpan) -> Apply:
 
 
 BUILT: Mapping[str, Callable[[Expression, TextSpan], Apply]] = {"ran": _uniform, "trunc": _truncated, "sign": _sign}
-"""Functions of one value that the kit has in other words."""
+"""Functions of one value that the kit expresses with other operators."""
 ALSO: Mapping[str, str] = {"abs": "abs", "pow": "^"}
 """Functions that C has and people type."""
 _FUNCTIONS: Mapping[str, str] = {**{name: name for name in SAME}, **RENAMED, **ALSO}
@@ -87,18 +87,18 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
     """
     place = at or (0, 0)
     if name in ABSENT:
-        raise Misread(ModelNameError, f"The kit has no {name}(...)", place)
+        raise ActionError(ModelNameError, f"The kit has no {name}(...)", place)
     if name not in _FUNCTIONS and name not in BUILT:
         known = (*SAME, *RENAMED, *BUILT)
-        raise Misread(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)
+        raise ActionError(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)
                       or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}.")
     count = 1 if name in BUILT else OPERATORS[_FUNCTIONS[name]].arity[0]
     if len(operands) != count:
-        raise Misread(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
+        raise ActionError(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
     if name not in BUILT:
         return Apply(_FUNCTIONS[name], wanted(_FUNCTIONS[name], operands), at)
     if name != "ran" and is_random(operands[0]):
-        raise Misread(ModelValueError, f"{name}(...) cannot be of a random number", place,
+        raise ActionError(ModelValueError, f"{name}(...) cannot be of a random number", place,
                       _ROUNDED if name == "trunc" else None)
     return BUILT[name](as_number(operands[0]), at)
 
@@ -121,29 +121,31 @@ def expression_text(expression: Expression) -> str:
     >>> expression_text(Apply("if", (Apply("<", (Name("t"), Apply("abs", (Name("x"),)))), Number(1), Name("t"))))
     '(t < fabs(x) ? 1 : t)'
     """
-    return styled_text(_spelt(expression), _STYLE)
+    return styled_text(_respelt(expression), _STYLE)
 
 
-def _spelt(expression: Expression) -> Expression:
-    """The expression in which a name stands for each part that cpfg writes otherwise than a style can say."""
+def _respelt(expression: Expression) -> Expression:
+    """The expression with a name in place of each part that a style cannot express in cpfg."""
     if not isinstance(expression, Apply):
         return expression
-    operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
+    operator, operands = expression.operator, tuple(map(_respelt, expression.operands))
     texts = [styled_text(operand, _STYLE) for operand in operands]
     if operator == "if":
         return Name("({} ? {} : {})".format(*texts))
     if operator in ("min", "max"):
         return Name(f"({texts[0]} {'<' if operator == 'min' else '>'} {texts[1]} ? {texts[0]} : {texts[1]})")
     if operator == "uniform":
-        return Name(f"ran({texts[1]})" if operands[0] == ZERO else f"({_apart(operands[0])} + ran({_between(expression)}))")
+        if operands[0] == ZERO:
+            return Name(f"ran({texts[1]})")
+        return Name(f"({_parenthesised(operands[0])} + ran({_between(expression)}))")
     if operator == "mod":
-        return Name(f"({_apart(operands[0])} % {_apart(operands[1])})")
-    if operator in ("-x", "^"):  # both bind otherwise in cpfg than in the kit
-        operands = (*operands[:-1], Name(_apart(operands[-1])))
+        return Name(f"({_parenthesised(operands[0])} % {_parenthesised(operands[1])})")
+    if operator in ("-x", "^"):  # both bind differently in cpfg and in the kit
+        operands = (*operands[:-1], Name(_parenthesised(operands[-1])))
     return Apply(operator, operands)
 
 
-def _apart(expression: Expression) -> str:
+def _parenthesised(expression: Expression) -> str:
     """The text of an operand, in parentheses where it is made with an operator or has a sign."""
     text = styled_text(expression, _STYLE)
     plain = isinstance(expression, Name) or (isinstance(expression, Number) and text[0] != "-" and "/" not in text)
@@ -158,7 +160,7 @@ def _between(uniform: Apply) -> str:
 
 
 def simplified(applied: Apply) -> Apply:
-    """What cpfg says with other operators and the kit with one: the lesser of two numbers, a number between two others.
+    """What cpfg writes with several operators and the kit with one: the lesser of two numbers, a random number from a range.
 
     >>> print(simplified(Apply("+", (Number(2), Apply("uniform", (ZERO, Apply("-", (Number(5), Number(2)))))))))
     uniform(2, 5)

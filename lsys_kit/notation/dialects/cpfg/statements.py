@@ -14,19 +14,19 @@ KEPT = re.compile(
     r"^[ \t]*/\*[ \t]*((?:angle|heading|length):[ \t]*-?\d[\d.]*(?:e[+-]?\d+)?(?:/\d+)?)[ \t]*\*/[ \t]*$", re.MULTILINE)
 """A comment in which a text keeps what cpfg has in another file: `/* angle: 25.7 */`, alone on its line."""
 _RANGED = re.compile(r"[ \t]*/\*[ \t]*-?[\d./]+[ \t]+\.\.[ \t]+-?[\d./]+([ \t]+by[ \t]+[\d./]+)?[ \t]*\*/")
-"""A comment behind a constant that is the range of its slider."""
+"""A comment after a constant that gives the range of its slider."""
 _KEYWORD = re.compile(
     r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider"
     r"|angle|heading|length)[ \t]*:|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
     re.IGNORECASE)
-_AXIOM = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
+_AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
 _END = re.compile(r"endlsystem\b", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
 class _Line:
-    """A line without its comments: where it begins and ends, apart from blanks, and how far to the right it stands."""
+    """A line without its comments: where it begins and ends, apart from blanks, and how far it is indented."""
 
     start: int
     end: int
@@ -37,9 +37,9 @@ class _Line:
 def statements(text: str) -> Iterator[tuple[int, int]]:
     r"""The offsets of the statements.
 
-    A production or an axiom goes on over the lines below that stand further to the right; but a line with an arrow of its own
-    goes on only with what has none. `//` begins a comment at the beginning of a line and behind a setting or a condition; in
-    a word it is two rolls.
+    A production or an axiom continues on the lines below that are indented further; a line with an arrow of its own continues
+    only a statement without one. `//` begins a comment at the beginning of a line and after a setting or a condition; in a
+    word it is two rolls.
 
     >>> text = "Axiom: F//F\nF : 1 // always\n    --> FF\n// the end"
     >>> [text[start:end] for start, end in statements(text)]
@@ -49,49 +49,49 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     for start, end in merge(_cut(text), (match.span(1) for match in KEPT.finditer(text))):
         begins = _BEGIN.match(text, start) is not None
         if begins and begun:
-            raise ModelSyntaxError("A second L-system begins here", text, start, end, "The kit has none inside another.")
+            raise ModelSyntaxError("A second L-system begins here", text, start, end, "The kit has no L-systems inside others.")
         if ended:
-            raise ModelSyntaxError('This stands behind "endlsystem"', text, start, end,
+            raise ModelSyntaxError('This comes after "endlsystem"', text, start, end,
                                    'An L-system ends there: put "endlsystem" last, or leave it out.')
         begun, ended = begun or begins, _END.match(text, start) is not None
         yield start, end
 
 
 def _cut(text: str) -> Iterator[tuple[int, int]]:
-    """The offsets of what is no comment."""
+    """The offsets of statements without comments."""
     first: _Line | None = None
     end, has_arrow = 0, False
-    for line in _lines(text):
-        if first is not None and not _goes_on(line, first, has_arrow):
+    for line in _nonblank_lines(text):
+        if first is not None and not _continues(line, first, has_arrow):
             yield first.start, end
             first = None
         if line.text.startswith("//") and (first is None or line.text[2:3].isspace()):
             continue
         if first is None:
-            first, has_arrow = line, _AXIOM.match(line.text) is not None
+            first, has_arrow = line, _AXIOM_START.match(line.text) is not None
         end, has_arrow = line.end, has_arrow or ARROW.search(line.text) is not None
     if first is not None:
         yield first.start, end
 
 
-def _goes_on(line: _Line, first: _Line, has_arrow: bool) -> bool:
-    """Whether a line goes on with a statement that begins with another; an axiom counts as having its arrow."""
-    if _KEYWORD.match(first.text) or _KEYWORD.match(line.text) or _AXIOM.match(line.text):
+def _continues(line: _Line, first: _Line, has_arrow: bool) -> bool:
+    """Whether a line continues a statement that begins with another; an axiom counts as having its arrow."""
+    if _KEYWORD.match(first.text) or _KEYWORD.match(line.text) or _AXIOM_START.match(line.text):
         return False
     if ARROW.match(line.text):
-        return not _AXIOM.match(first.text)
+        return not _AXIOM_START.match(first.text)
     return line.indent > first.indent and not (has_arrow and ARROW.search(line.text))
 
 
-def _lines(text: str) -> Iterator[_Line]:
-    """The lines in which something stands, without a comment behind a setting."""
+def _nonblank_lines(text: str) -> Iterator[_Line]:
+    """The lines that are not blank, without comments after settings."""
     for found in re.finditer(r"[^\n]+", without_comments(text)):
-        line, said = found.group(), found.group().strip()
-        if not said:
+        line, content = found.group(), found.group().strip()
+        if not content:
             continue
         blank = line[:len(line) - len(line.lstrip())]
         start = found.start() + len(blank)
-        if _KEYWORD.match(said):
-            said = said.split("//")[0].rstrip()
-        ranged = _RANGED.match(text, start + len(said)) if said.startswith("#") else None
-        yield _Line(start, ranged.end() if ranged else start + len(said), said, len(blank.expandtabs()))
+        if _KEYWORD.match(content):
+            content = content.split("//")[0].rstrip()
+        ranged = _RANGED.match(text, start + len(content)) if content.startswith("#") else None
+        yield _Line(start, ranged.end() if ranged else start + len(content), content, len(blank.expandtabs()))

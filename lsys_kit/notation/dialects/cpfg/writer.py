@@ -1,4 +1,4 @@
-"""A system as a cpfg text, and what cpfg has no words for."""
+"""A system as a cpfg text, and what cpfg lacks."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def module_text(module: Module | Pattern) -> str:
     return f"{module.symbol}({','.join(texts)})"
 
 
-def joined(texts: Iterable[str]) -> str:
-    """The texts of modules as one word: a blank only where "@T" would make a symbol with a letter behind it.
+def joined_word(texts: Iterable[str]) -> str:
+    """The texts of modules as one word: a blank only where "@T" would make a symbol with the letter after it.
 
-    >>> joined(["F", "@T", "s", "[", "+", "F", "]"])
+    >>> joined_word(["F", "@T", "s", "[", "+", "F", "]"])
     'F@T s[+F]'
     """
     return re.sub(r"@T(?=\0[a-z])", "@T ", "\0".join(texts)).replace("\0", "")
@@ -44,19 +44,19 @@ def system_text(system: LSystem) -> str:
 
 
 def _lines(system: LSystem) -> Iterator[str]:
-    yield from map(_macro, system.constants)
+    yield from map(_macro_line, system.constants)
     yield "Lsystem: 1"
     for keyword, number in (("seed", system.seed), ("derivation length", system.steps)):
         if number is not None:
             yield f"{keyword}: {number}"
     for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
         if symbols:
-            yield f"{keyword}: {joined(symbols)}"
+            yield f"{keyword}: {joined_word(symbols)}"
     for keyword, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90),
                                   ("length", system.length, None)):
         if value != usual and value is not None:
             yield f"/* {keyword}: {number_text(value)} */"
-    yield f"Axiom: {joined(map(module_text, system.axiom))}"
+    yield f"Axiom: {joined_word(map(module_text, system.axiom))}"
     yield from map(_rule, system.productions)
     yield from _section("decomposition", system.decomposition, system.decomposition_depth)
     yield from _section("homomorphism", system.interpretation, None if system.depth == 1 else system.depth)
@@ -71,8 +71,8 @@ def _section(keyword: str, rules: Iterable[Production], depth: int | None) -> It
     yield from map(_rule, rules)
 
 
-def _macro(constant: Constant) -> str:
-    """A constant, in parentheses where its parts could bind to what stands beside its name."""
+def _macro_line(constant: Constant) -> str:
+    """A constant, in parentheses where its parts could bind to the neighbours of its name."""
     value = expression_text(constant.value)
     apart = isinstance(constant.value, Apply) and OPERATORS[constant.value.operator].precedence is not None
     span = " /* {} .. {} by {} */".format(*constant.range) if constant.range else ""
@@ -80,15 +80,15 @@ def _macro(constant: Constant) -> str:
 
 
 def _rule(rule: Production) -> str:
-    left = f"{joined(map(module_text, rule.left))} < " if rule.left else ""
-    right = f" > {joined(_pattern(rule.right))}" if rule.right else ""
+    left = f"{joined_word(map(module_text, rule.left))} < " if rule.left else ""
+    right = f" > {joined_word(_right_context(rule.right))}" if rule.right else ""
     condition = f" : {expression_text(rule.condition)}" if rule.condition is not None else ""
     probability = f" : {expression_text(rule.probability)}" if rule.probability is not None else ""
-    successor = joined(map(module_text, flat(rule.successor))) or "*"
+    successor = joined_word(map(module_text, flat(rule.successor))) or "*"
     return f"{re.sub('^//', '/ /', left)}{module_text(rule.predecessor)}{right}{condition} --> {successor}{probability}"
 
 
-def _pattern(modules: Iterable[Pattern]) -> Iterator[str]:
+def _right_context(modules: Iterable[Pattern]) -> Iterator[str]:
     """A right context, with "=" for the rest of each branch whose end it does not name."""
     before = ""
     for module in modules:

@@ -32,9 +32,9 @@ SAMPLE = 50
 
 def _finish(draft: Draft) -> LSystem:
     """The system: of several angles or axioms the last counts, and the rules for a symbol are one."""
-    said = {kind: (record, at) for kind, record, at in draft.more if kind != "rule"}
+    said = {kind: (record, at) for kind, record, at in draft.deferred if kind != "rule"}
     for kind in said:
-        if sum(kind == other for other, *_ in draft.more) > 1:
+        if sum(kind == other for other, *_ in draft.deferred) > 1:
             draft.notes.append(f"The {kind} is given more than once: the last one counts.")
     if "axiom" in said:
         draft.axiom = said["axiom"][0]
@@ -50,14 +50,14 @@ def _check(draft: Draft, said: set[str]) -> None:
               "angle": ("There is no angle", 'Give the parts of a full turn on a line of its own, as in "Angle 6".')}
     for kind, (message, hint) in wanted.items():
         if kind not in said:
-            end = max((at[1] for _, _, at in draft.more), default=len(draft.source.rstrip()))
+            end = max((at[1] for _, _, at in draft.deferred), default=len(draft.source.rstrip()))
             raise ModelSyntaxError(message, draft.source, end, None, hint)
 
 
 def _joined(draft: Draft) -> list[Production]:
     """One rule for each symbol, the words of its rules one behind another."""
     rules: dict[str, list[tuple[Production, tuple[int, int]]]] = {}
-    for kind, rule, at in draft.more:
+    for kind, rule, at in draft.deferred:
         if kind == "rule":
             rules.setdefault(rule.predecessor.symbol, []).append((rule, at))
     return [_one(draft, parts) for parts in rules.values()]
@@ -82,5 +82,5 @@ def _likely(text: str) -> int:
 
 
 FRACTINT = Dialect(
-    name=NAME, statements=lines, records=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text, joined="".join,
-    write=system_text, lacking=lacking, likely=_likely, turtle=NAME, entry=chosen, starts=("statement", "word"))
+    name=NAME, statements=lines, transformer=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined="".join, write=system_text, lacking=lacking, likely=_likely, turtle=NAME, entry=chosen, starts=("statement", "word"))

@@ -14,8 +14,8 @@ from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Na
 from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
 
-_Function = tuple[int, int]
-"""A function of the turtle: its number, and how many values it is asked with."""
+_FunctionKey = tuple[int, int]
+"""A sensitive function: its number, and how many values it takes."""
 
 
 @dataclass(frozen=True)
@@ -31,12 +31,12 @@ class Declared:
     """
 
     draws: Mapping[Expression, str]
-    functions: Mapping[_Function, str]
+    functions: Mapping[_FunctionKey, str]
     levels: Mapping[str, int]
 
     @property
     def variables(self) -> Iterator[Variable]:
-        """What is to be declared."""
+        """The variables to declare."""
         for drawn, name in self.draws.items():
             yield replace(as_variable(drawn), name=name)
         for (number, values), name in self.functions.items():
@@ -54,16 +54,16 @@ def declarations(system: LSystem) -> Declared:
     [('x0', 'uniform'), ('i', 'index')]
     """
     taken = {name for expression in _expressions(system) for name in names_in(expression)}
-    asked = [found for expression in _expressions(system) for found in _asked(expression)]
-    draws = dict.fromkeys(found for found in asked if found.operator != "sensed")
-    functions = dict.fromkeys(_function(found) for found in asked if found.operator == "sensed")
+    calls = [call for expression in _expressions(system) for call in _draws_and_senses(expression)]
+    draws = dict.fromkeys(call for call in calls if call.operator != "sensed")
+    functions = dict.fromkeys(_function_key(call) for call in calls if call.operator == "sensed")
     levels = {repeat.index: level for repeat, level in _repeats(system) if repeat.index}
-    return Declared(dict(zip(draws, _free("x", taken), strict=False)), dict(zip(functions, _free("f", taken), strict=False)),
-                    levels)
+    return Declared(dict(zip(draws, _free_names("x", taken), strict=False)),
+                    dict(zip(functions, _free_names("f", taken), strict=False)), levels)
 
 
-def _free(letter: str, taken: Collection[str]) -> Iterator[str]:
-    """The letter with a number, those left out that have a meaning already."""
+def _free_names(letter: str, taken: Collection[str]) -> Iterator[str]:
+    """Names made of the letter and a number, without those that are taken."""
     return (name for name in (f"{letter}{number}" for number in count()) if name not in taken)
 
 
@@ -78,18 +78,18 @@ def _expressions(system: LSystem) -> Iterator[Expression]:
         yield from expressions_of(rule.successor)
 
 
-def _asked(expression: Expression) -> Iterator[Apply]:
-    """The draws and the questions to the turtle in an expression."""
+def _draws_and_senses(expression: Expression) -> Iterator[Apply]:
+    """The random and the sensitive calls in an expression."""
     if isinstance(expression, Apply):
         if expression.operator == "sensed" or OPERATORS[expression.operator].random:
             yield expression
         if not OPERATORS[expression.operator].random:
             for operand in expression.operands:
-                yield from _asked(operand)
+                yield from _draws_and_senses(operand)
 
 
-def _function(asked: Apply) -> _Function:
-    first, count = asked.operands[0], len(asked.operands) - 1
+def _function_key(call: Apply) -> _FunctionKey:
+    first, count = call.operands[0], len(call.operands) - 1
     number = first.value if isinstance(first, Number) else -1
     return (number if isinstance(number, int) else -1), count
 
@@ -120,11 +120,11 @@ def as_variable(drawn: Expression) -> Variable:
 
 
 def inexpressible(system: LSystem) -> str | None:
-    """What of a system's chance, repetitions and questions cannot be said with variables, in words."""
+    """The first random number, repetition or sensitive function of a system that variables cannot express, in words."""
     needed, constants = declarations(system), {constant.name for constant in system.constants}
     for drawn in needed.draws:
         values = as_variable(drawn).values
-        if any(names_in(value) - constants or any(_asked(value)) for value in values):
+        if any(names_in(value) - constants or any(_draws_and_senses(value)) for value in values):
             return "random numbers that depend on parameters"
         if random_call(as_variable(drawn)) != drawn:
             return f"random number like {drawn}"
@@ -139,7 +139,7 @@ def inexpressible(system: LSystem) -> str | None:
 
 
 def with_variables(expression: Expression, names: Declared) -> Expression:
-    """An expression in which variables stand for what is drawn or asked."""
+    """An expression with variables in place of random and sensitive calls."""
     if not isinstance(expression, Apply):
         return expression
     if expression in names.draws:
@@ -147,12 +147,12 @@ def with_variables(expression: Expression, names: Declared) -> Expression:
     operands = tuple(with_variables(operand, names) for operand in expression.operands)
     if expression.operator == "sensed":
         values = f"({', '.join(map(str, operands[1:]))})" if operands[1:] else ""
-        return Name(f"{names.functions[_function(expression)]}{values}")
+        return Name(f"{names.functions[_function_key(expression)]}{values}")
     return Apply(expression.operator, operands)
 
 
 def rule_with_variables(rule: Production, names: Declared) -> Production:
-    """A rule in which variables stand for what is drawn or asked."""
+    """A rule with variables in place of random and sensitive calls."""
     condition, probability = (part if part is None else with_variables(part, names)
                               for part in (rule.condition, rule.probability))
     return replace(rule, condition=condition, probability=probability, successor=tuple(_named_items(rule.successor, names)))

@@ -1,7 +1,7 @@
-"""GROGRA's notation (Kurth; seed 003): rules parted by commas, the turtle's numbers glued on; the grammar is `grammar.lark`.
+"""GROGRA's notation (Kurth): rules separated by commas, numbers glued to turtle commands; the grammar is `grammar.lark`.
 
-Its turtle: positive angles turn to the right on the screen, and `L*0.6`, `D+3` change what is set. What only GROGRA's
-slides spell so (arrows, comparisons in TeX, "Startwort") is read with a note.
+Its turtle: positive angles turn to the right on the screen, and `L*0.6`, `D+3` change what is set. Spellings
+that occur only on Kurth's slides (arrows, comparisons in TeX, "Startwort") are read with a note.
 """
 
 from __future__ import annotations
@@ -10,24 +10,26 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.analysis.checks import SETTINGS, span
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
+from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.dialects.grogra.actions import RELATIONS, statements, transformer
 from lsys_kit.notation.dialects.grogra.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
+from lsys_kit.notation.dialects.grogra.spelling import SPELLING
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
 from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
-from lsys_kit.notation.model.expressions import Expression, Name, Number, expression_type, names_in
+from lsys_kit.notation.model.expressions import Expression, Name, Number, names_in
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.statements import without_comments
+from lsys_kit.notation.syntax.wording import reporting
 
-_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
+_SLIDE_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
               **{tex: sign for tex, sign in RELATIONS.items() if tex != "="}}
-"""How the slides spell what GROGRA writes otherwise."""
+"""How the slides spell words of GROGRA."""
 _SPELT = re.compile(r"[→⟶]|\\[A-Za-z]+|\bStartwort\b")
 _ARROW = r"(?:##?|->|→|\\rightarrow)"
 _MARKS = re.compile(
@@ -42,29 +44,29 @@ _MARKS = re.compile(
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system, once variables are replaced, the axiom is found, and chance is whole."""
-    notes = _put_together(draft)
+    """The system, with variables replaced, an axiom, and probabilities that add up to 1."""
+    notes = _resolve_deferred(draft)
     _check_constants(draft)
-    variables = [replace(record, at=record.at or at) for kind, record, at in draft.more if kind == "variable"]
-    _begin(draft, notes)
+    variables = [replace(record, at=record.at or at) for kind, record, at in draft.deferred if kind == "variable"]
+    _default_axiom(draft, notes)
     _replace_variables(draft, variables)
     system, read_as = with_ones(build_system(draft))
-    productions, said = complete_probabilities(system)
-    notes = [*_spelt(draft.source), *notes, *read_as, *said]
+    productions, completed = complete_probabilities(system)
+    notes = [*_spelling_notes(draft.source), *notes, *read_as, *completed]
     return replace(system, productions=productions, notes=tuple(dict.fromkeys(notes)))
 
 
-def _put_together(draft: Draft) -> list[str]:
-    """Take in what is set, and the rules of the interpretation; what is worth telling of it."""
+def _resolve_deferred(draft: Draft) -> list[str]:
+    """Take in the settings and the rules of the interpretation; notes on them."""
     notes = []
-    for kind, record, at in draft.more:
+    for kind, record, at in draft.deferred:
         if kind == "axiom":
             word, steps = record
             draft.add("axiom", word, at)
             if steps is not None:
-                _set(draft, at, "steps", Number(steps))
+                _add_setting(draft, at, "steps", Number(steps))
         elif kind == "setting":
-            _set(draft, at, *record)
+            _add_setting(draft, at, *record)
         elif kind == "interpretation":
             draft.sections["interpretation"].append(replace(record, at=at))
         elif kind == "note":
@@ -72,18 +74,18 @@ def _put_together(draft: Draft) -> list[str]:
     return notes
 
 
-def _set(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
-    """Take in a setting: a number, or a row of names."""
+def _add_setting(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
+    """Take in a setting."""
     if name in draft.settings:
-        raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "A system has one of it.")
+        raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "Keep one of the two lines.")
     if isinstance(value, Expression) and names_in(value):
         raise ModelNameError(f'The name "{sorted(names_in(value))[0]}" cannot be used here', draft.source, *span(value),
                              f"The {name} is set to a number.")
     draft.settings[name] = value
 
 
-def _begin(draft: Draft, notes: list[str]) -> None:
-    """Without an axiom the word begins with "*", or, where no rule is for it, with the first rule's left side."""
+def _default_axiom(draft: Draft, notes: list[str]) -> None:
+    """Without an axiom the first word is "*", or, where no rule is for it, the left side of the first rule."""
     rules = [rule for section in draft.sections.values() for rule in section]
     if draft.axiom is not None:
         return
@@ -99,45 +101,38 @@ def _begin(draft: Draft, notes: list[str]) -> None:
 
 
 def _check_constants(draft: Draft) -> None:
-    """Constants have names of their own, and use only those before them."""
+    """Constants use only those before them."""
     known: set[str] = set()
     for constant in draft.constants:
-        if constant.name in SETTINGS:
-            raise ModelNameError(f'"{constant.name}" is no constant', draft.source, *span(constant),
-                                 f'Type "\\{constant.name.lower()} {constant.value},".')
         for expression in (constant.value, *(constant.range or ())):
             resolve(expression, Scope(draft.source, frozenset(known), {}))
         known.add(constant.name)
 
 
 def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
-    """Put what the variables mean in their place, in all rules and the axiom."""
+    """Replace the variables in all rules and in the axiom by what they mean."""
     constants = [constant.name for constant in draft.constants]
     check_variables(variables, constants, draft.source)
     scope = Scope(draft.source, frozenset(constants), {variable.name: variable for variable in variables})
     draft.axiom = resolve_items(draft.axiom or (), scope)  # type: ignore[assignment]
     for section, rules in draft.sections.items():
         draft.sections[section] = [resolve_rule(rule, scope, section == "productions") for rule in rules]
-    for rule in draft.sections["productions"]:
-        if rule.probability is not None and expression_type(rule.probability) == "truth":
-            raise ModelValueError(f'A probability stands behind "?", but "{rule.probability}" is true or false', draft.source,
-                                  *span(rule.probability), 'A condition stands in front: "(t < 6) k(t) # k(t+1)".')
 
 
-def _spelt(source: str) -> Iterator[str]:
-    """Notes on what the slides spell otherwise."""
+def _spelling_notes(source: str) -> Iterator[str]:
+    """Notes on spellings of the slides."""
     found = dict.fromkeys(_SPELT.findall(without_comments(source)))
-    pairs = [f'"{word}" as "{_SPELLINGS[word]}"' for word in found if word in _SPELLINGS]
+    pairs = [f'"{word}" as "{_SLIDE_SPELLINGS[word]}"' for word in found if word in _SLIDE_SPELLINGS]
     if pairs:
         yield f"Read as in GROGRA: {', '.join(pairs)}."
     if "\\dots" in found:
-        yield '"\\dots" stands for what is not printed: it is left out.'
+        yield '"\\dots" marks something that is not printed: it is left out.'
 
 
 def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     """A system whose symbols that end in "l" are read with "1" where only that is a symbol of the rules, and notes on it.
 
-    Print does not tell the two apart: seed 003 has `ul` where `u1` is meant.
+    Print does not distinguish the two: Kurth's slides have `ul` where `u1` is meant.
     """
     rewritten = {rule.predecessor.symbol for rule in system.rules}
     symbols = dict.fromkeys(module.symbol for module in system.modules)
@@ -167,8 +162,10 @@ def _one(symbol: str) -> str:
 
 def _lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
-    if found := missing_feature(system):
-        return found
+    with reporting(system.source, SPELLING):
+        missing = missing_feature(system)
+    if missing:
+        return missing
     for symbol, count in dict.fromkeys((module.symbol, len(module.arguments)) for module in system.modules):
         if not _reads_back(Pattern(symbol, (Name("t"),) * count)):
             return f'symbol "{symbol}"' + (f" with {count} values" if count else "")
@@ -185,5 +182,6 @@ def _reads_back(module: Pattern) -> bool:
 
 
 GROGRA = Dialect(
-    name="grogra", statements=statements, records=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra")
+    name="grogra", statements=statements, transformer=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra",
+    spelling=SPELLING)

@@ -1,10 +1,10 @@
-"""GROGRA's probabilities: `?p` behind a rule is the chance that it is applied, and what the rules leave is the chance that
-nothing happens (seed 003).
+"""GROGRA's probabilities: `?p` after a rule is the chance that it is applied, and what the rules leave of 1 is the chance that
+nothing happens (Kurth).
 
 One random number decides: of the rules that match, in the order written, the first up to whose sum of probabilities it is.
 The kit chooses among weights, whatever they add up to. So the rest becomes a rule of its own that changes nothing, a rule
-without `?` behind others gets what those leave, and a number that goes beyond 1 is cut off. Only where rules with
-probabilities and different contexts, or asked values, match at once are their weights taken in proportion.
+without `?` after others gets what those leave, and a sum beyond 1 is cut off. Only where rules with probabilities and
+different contexts, or values, match at once are their weights taken in proportion.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 
 _Condition = Expression | None
-_COMPARED = 100
-"""So many conditions are compared with each other; of more, any two may hold together."""
+_MOST_COMPARED = 100
+"""The number of conditions that are compared with each other; of more, any two are taken to be compatible."""
 
 
 def complete_probabilities(system: LSystem) -> tuple[tuple[Production, ...], tuple[str, ...]]:
@@ -47,7 +47,7 @@ def complete_probabilities(system: LSystem) -> tuple[tuple[Production, ...], tup
         first = next((number for number in row if system.productions[number].probability is not None), None)
         if first is not None:
             row = [number for number in row if number >= first]
-            notes += _complete(system, row, constants, found)
+            notes += _complete_row(system, row, constants, found)
     return tuple(rule for rules in found for rule in rules), tuple(notes)
 
 
@@ -66,8 +66,7 @@ def _parameters(rule: Production, constants: frozenset[str]) -> list[str]:
     return [a.name for a in arguments if isinstance(a, Name) and a.name not in constants]
 
 
-def _candidates(rules: Sequence[Production], row: Sequence[int], constants: frozenset[str],
-                source: str) -> Iterator[tuple[int, Production]]:
+def _candidates(rules: Sequence[Production], row: Sequence[int], constants: frozenset[str]) -> Iterator[tuple[int, Production]]:
     """The rules of a row, and between them those for all modules of the kind, made for the modules of the row."""
     first, places = rules[row[0]], set(row)
     for number in range(row[0], len(rules)):
@@ -77,7 +76,7 @@ def _candidates(rules: Sequence[Production], row: Sequence[int], constants: froz
         elif rule.probability is None and _is_for_all(rule, first, constants):
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
             condition = None if rule.condition is None else renamed(rule.condition, names)
-            if condition is None or names_in(condition) or value_of(condition, source):
+            if condition is None or names_in(condition) or value_of(condition):
                 yield number, replace(first, successor=renamed_items(rule.successor, names), probability=None,
                                       condition=condition if condition and names_in(condition) else None)
 
@@ -112,21 +111,18 @@ def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tup
 
 @dataclass
 class _Shares:
-    """What rules for the same modules ask for of a probability of 1, one after another.
+    """How rules for the same modules share a probability of 1, one after another.
 
     Attributes
     ----------
-    source
-        The text.
     parts
-        For each condition the probabilities that are asked for where it holds; 1 for all that is left.
+        For each condition the probabilities of its rules; 1 for all that is left.
     bounds
         Their sums; those that are calculated from names are taken to leave room for others.
     closed
         The conditions under which nothing is left.
     """
 
-    source: str
     parts: dict[_Condition, list[Expression]] = field(default_factory=dict)
     bounds: dict[_Condition, Fraction] = field(default_factory=dict)
     closed: set[_Condition] = field(default_factory=set)
@@ -144,7 +140,7 @@ class _Shares:
     def beside(self, condition: _Condition) -> list[_Condition]:
         """The conditions that may hold together with another."""
         return [other for other in self.parts
-                if other in (None, condition) or len(self.parts) > _COMPARED or not exclusive(other, condition)]
+                if other in (None, condition) or len(self.parts) > _MOST_COMPARED or not exclusive(other, condition)]
 
     def taken(self, condition: _Condition) -> Fraction:
         """What is taken at most where a condition holds."""
@@ -155,23 +151,23 @@ class _Shares:
         beside = self.beside(condition)
         asked = [(other, share) for other in beside for share in self.parts[other]]
         if {*beside} <= {None, condition} and not any(names_in(share) for _, share in asked):
-            return _number(max(Fraction(0), 1 - self.taken(condition)))
+            return _exact_number(max(Fraction(0), 1 - self.taken(condition)))
         return _remaining([s if other in (None, condition) else Apply("if", (other, s, Number(0))) for other, s in asked])
 
     def give(self, condition: _Condition, share: Expression | None) -> Expression:
-        """What a rule gets that asks for a probability, or for all that is left."""
-        written, asked, closes = self._answer(condition, share)
+        """The probability of a rule that claims a share, or all that is left."""
+        given, claimed, closes = self._share_of(condition, share)
         if closes:
             self.closed.add(condition)
-        self.parts.setdefault(condition, []).append(asked)
-        value = Fraction(0) if names_in(asked) else Fraction(value_of(asked, self.source))
+        self.parts.setdefault(condition, []).append(claimed)
+        value = Fraction(0) if names_in(claimed) else Fraction(value_of(claimed))
         self.bounds[condition] = self.bounds.get(condition, Fraction(0)) + value
-        return written
+        return given
 
-    def _answer(self, condition: _Condition, share: Expression | None) -> tuple[Expression, Expression, bool]:
-        """What a rule gets, what counts for the next ones, and whether nothing is left for these."""
+    def _share_of(self, condition: _Condition, share: Expression | None) -> tuple[Expression, Expression, bool]:
+        """The probability of a rule, what counts for the next ones, and whether nothing is left for these."""
         if share is not None and not names_in(share):
-            together = self.taken(condition) + Fraction(value_of(share, self.source))
+            together = self.taken(condition) + Fraction(value_of(share))
             if together < 1:
                 return share, share, False
             left = self.left(condition)
@@ -200,11 +196,11 @@ def _remaining(terms: list[Expression]) -> Expression:
     return left
 
 
-def _complete(system: LSystem, row: Sequence[int], constants: frozenset[str], found: list[list[Production]]) -> list[str]:
-    """Put the rules for the same modules, with probabilities that add up to 1, where they belong; what is worth telling."""
-    first, source = system.productions[row[0]], system.source
-    names, shares, notes = _parameters(first, constants), _Shares(source), list[str]()
-    for number, rule in _candidates(system.productions, row, constants, source):
+def _complete_row(system: LSystem, row: Sequence[int], constants: frozenset[str], found: list[list[Production]]) -> list[str]:
+    """Put the rules for the same modules, with probabilities that add up to 1, where they belong; notes on them."""
+    first = system.productions[row[0]]
+    names, shares, notes = _parameters(first, constants), _Shares(), list[str]()
+    for number, rule in _candidates(system.productions, row, constants):
         there = dict(zip(_parameters(rule, constants), map(Name, names), strict=True))
         condition = None if rule.condition is None else renamed(rule.condition, there)
         if rule.probability is None and (shares.closed & {None, condition} or (number not in row and shares.complete)):
@@ -226,7 +222,7 @@ def _complete(system: LSystem, row: Sequence[int], constants: frozenset[str], fo
     return notes
 
 
-def _number(value: Fraction) -> Expression:
+def _exact_number(value: Fraction) -> Expression:
     """A number as it reads: a decimal fraction, or a quotient."""
     if "/" in number_text(value):
         return Apply("/", (Number(value.numerator), Number(value.denominator)))

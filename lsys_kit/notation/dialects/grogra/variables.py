@@ -1,6 +1,6 @@
-r"""GROGRA's variables: random numbers, what counts repetitions, questions to the turtle (seed 003).
+r"""GROGRA's variables: random numbers, indices of repetitions, sensitive functions (Kurth).
 
-The records have no variables. A random variable is replaced by its draw at every use, for it is another number every time:
+The records have no variables. A random variable is replaced by its draw at every use, since every use draws a new number:
 after `\var x uniform 0 360` the command `RH(x)` is RH(uniform(0, 360)). A function becomes `sensed`, an index the name that
 counts in its `Repeat`. Written back, each distinct draw becomes a variable again.
 """
@@ -27,10 +27,10 @@ VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
 QUERY_FUNCTIONS = frozenset((
     "negbinomial", "generation", "length", "diameter", "color", "order", "xcoordinate", "ycoordinate", "zcoordinate",
     "register", "local"))
-"""What variables of GROGRA may also stand for: most of it the turtle knows, and words do not."""
+"""Other kinds of variables in GROGRA: most depend on the turtle, which words do not know."""
 _POSSIBLE = f"Kinds of variables are: {', '.join(VARIABLE_KINDS)}."
-_UNKNOWN = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as "\\const k 3," '
-            'or "\\var x uniform 0 360,".')
+_UNKNOWN_NAME_HINT = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as '
+                      '"\\const k 3," or "\\var x uniform 0 360,".')
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Scope:
     counting
         For each index that counts here the name of what it counts in the records.
     chance
-        Whether something random may stand here.
+        Whether random numbers are possible here.
     """
 
     source: str
@@ -83,7 +83,7 @@ def check_variables(variables: Sequence[Variable], constants: Iterable[str], sou
     taken = set(constants)
     for variable in variables:
         if variable.name in taken:
-            raise ModelNameError(f'The name "{variable.name}" is declared twice', source, *_place(variable.at),
+            raise ModelNameError(f'The name "{variable.name}" is declared twice', source, *_offsets(variable.at),
                                  "Keep one of the two lines.")
         taken.add(variable.name)
         _check_kind(variable, source)
@@ -93,39 +93,39 @@ def check_variables(variables: Sequence[Variable], constants: Iterable[str], sou
 
 
 def _check_kind(variable: Variable, source: str) -> None:
-    kind, at = variable.kind, _place(variable.at)
+    kind, at = variable.kind, _offsets(variable.at)
     if kind in QUERY_FUNCTIONS:
         raise ModelNameError(f'A variable of the kind "{kind}" is not possible here', source, *at, _POSSIBLE)
     if kind not in VARIABLE_KINDS:
         raise ModelNameError(f'There is no kind of variable called "{kind}"', source, *at,
                              suggestion(kind, VARIABLE_KINDS) or _POSSIBLE)
     least, most, example = VARIABLE_KINDS[kind]
-    said = f'Type "\\var {variable.name} {kind} {example},".'
+    hint = f'Type "\\var {variable.name} {kind} {example},".'
     if not least <= len(variable.values) <= most:
         wanted = f"{least}" if least == most else f"up to {most}" if least == 0 else f"{least} or more"
         raise ModelSyntaxError(f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not '
-                               f"{len(variable.values)}", source, *at, said)
+                               f"{len(variable.values)}", source, *at, hint)
     if kind in ("index", "function") and (len(variable.numbers) < len(variable.values) or min(variable.numbers, default=0) < 0):
-        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers from 0 on', source, *at, said)
+        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers, 0 or more', source, *at, hint)
 
 
-def _place(at: TextSpan) -> tuple[int | None, int | None]:
+def _offsets(at: TextSpan) -> tuple[int | None, int | None]:
     return at or (None, None)
 
 
 def resolve(expression: Expression, scope: Scope) -> Expression:
-    """An expression with the variables replaced by what they stand for."""
+    """An expression with the variables replaced by what they mean."""
     if isinstance(expression, Name):
-        return _meant_name(expression, scope)
+        return _resolve_name(expression, scope)
     if not isinstance(expression, Apply):
         return expression
     first, *rest = expression.operands
     if expression.operator == "sensed" and isinstance(first, Name):
-        return _asked(expression, first, [resolve(operand, scope) for operand in rest], scope)
+        return _sensed_call(expression, first, [resolve(operand, scope) for operand in rest], scope)
     return Apply(expression.operator, tuple(resolve(operand, scope) for operand in expression.operands), expression.at)
 
 
-def _meant_name(name: Name, scope: Scope) -> Expression:
+def _resolve_name(name: Name, scope: Scope) -> Expression:
     variable = scope.variables.get(name.name)
     if name.name in scope.known:
         return name
@@ -134,19 +134,20 @@ def _meant_name(name: Name, scope: Scope) -> Expression:
     if variable is None:
         names = {*scope.known, *scope.variables}
         hint = suggestion(name.name, names, 0.5)  # so that "xo" is like "x0"
-        raise ModelNameError(f'I do not know the name "{name}"', scope.source, *_place(name.at), hint or _UNKNOWN)
+        raise ModelNameError(f'I do not know the name "{name}"', scope.source, *_offsets(name.at), hint or _UNKNOWN_NAME_HINT)
     if variable.kind == "function" and variable.numbers[1] == 0:
         return Apply("sensed", (Number(variable.numbers[0]),), name.at)
     if variable.kind == "function":
-        raise ModelSyntaxError(f'"{name}" is a function, and its values are missing', scope.source, *_place(name.at),
-                               f'It is asked as in "{name}({", ".join("1" * variable.numbers[1])})".')
+        raise ModelSyntaxError(f'"{name}" is a function, and its values are missing', scope.source, *_offsets(name.at),
+                               f'It is called as in "{name}({", ".join("1" * variable.numbers[1])})".')
     if variable.kind == "index":
         inside = f" with {variable.level} more around it" if variable.level else ""
-        raise ModelNameError(f'"{name}" counts repetitions, and nothing is repeated here', scope.source, *_place(name.at),
+        raise ModelNameError(f'"{name}" counts repetitions, and nothing is repeated here', scope.source, *_offsets(name.at),
                              f'It is used in what is repeated, as in "&(3) < a({name}) >"{inside}.')
     if not scope.chance:
-        raise ModelValueError(f'"{name}" is another number at every use, which cannot be here', scope.source, *_place(name.at),
-                              f'Random variables stand behind the "#" of a rule, as in "a # F({name})".')
+        raise ModelValueError(f'"{name}" draws a new number at every use, which is not possible here', scope.source,
+                              *_offsets(name.at),
+                              f'Random variables belong after the "#" of a rule, as in "a # F({name})".')
     return replace(random_call(variable), at=name.at)
 
 
@@ -171,19 +172,19 @@ def _root(value: int | Fraction) -> Fraction | None:
     return root if root * root == value else None
 
 
-def _asked(expression: Apply, name: Name, values: list[Expression], scope: Scope) -> Apply:
-    """What a function of the turtle is asked."""
+def _sensed_call(expression: Apply, name: Name, values: list[Expression], scope: Scope) -> Apply:
+    """The call of a sensitive function."""
     variable = scope.variables.get(name.name)
     if variable is None or variable.kind != "function":
         functions = {v.name for v in scope.variables.values() if v.kind == "function"}
         functions |= {known for known, operator in OPERATORS.items() if operator.precedence is None and not operator.random}
-        raise ModelNameError(f'I do not know the function "{name}"', scope.source, *_place(name.at),
+        raise ModelNameError(f'I do not know the function "{name}"', scope.source, *_offsets(name.at),
                              suggestion(name.name, functions - {"sensed"}, 0.7)
                              or f'Declare it, as in "\\var {name} function 2 {len(values)},".')
     number, count = variable.numbers
     if len(values) != count:
         raise ModelSyntaxError(f"{name}(...) takes {count} value{'s' * (count != 1)}, not {len(values)}", scope.source,
-                               *_place(name.at))
+                               *_offsets(name.at))
     return Apply("sensed", (Number(number), *values), expression.at)
 
 

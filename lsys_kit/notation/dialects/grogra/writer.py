@@ -14,9 +14,9 @@ from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
-_STYLE = Style({"==": "="})
+STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
-_PLAIN = re.compile(r"-?\d+(\.\d+)?")
+_PLAIN_NUMBER = re.compile(r"-?\d+(\.\d+)?")
 START = (Pattern("*"),)
 """The axiom of a text that names none."""
 
@@ -27,8 +27,8 @@ def module_text(module: Module | Pattern) -> str:
     >>> print(module_text(Module("RU", (45,))), module_text(Module("L*", (0.6,))), module_text(Module("a", (1, 2))))
     RU45 L*0.6 a(1, 2)
     """
-    texts = [styled_text(a, _STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
-    if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN.fullmatch(texts[0]):
+    texts = [styled_text(a, STYLE) if isinstance(a, Expression) else number_text(a) for a in module.arguments]
+    if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN_NUMBER.fullmatch(texts[0]):
         return module.symbol + texts[0]
     return f"{module.symbol}({', '.join(texts)})" if texts else module.symbol
 
@@ -49,20 +49,20 @@ def joined_word(texts: Iterable[str]) -> str:
 
 def successor_text(items: Iterable[Item]) -> str:
     """The text of a successor, with what is repeated as `&(n) < ... >`."""
-    return joined_word(f"&{_count(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
+    return joined_word(f"&{_count_text(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
                        else module_text(item) for item in items)
 
 
-def _count(count: Expression) -> str:
-    text = styled_text(count, _STYLE)
+def _count_text(count: Expression) -> str:
+    text = styled_text(count, STYLE)
     return text if text.isdigit() else f"({text})"
 
 
 def rule_text(rule: Production, arrow: str = "#") -> str:
-    """The text of a rule: the condition in front, the probability behind."""
-    condition = "" if rule.condition is None else f"({styled_text(rule.condition, _STYLE)})"
+    """The text of a rule: the condition in front, the probability at the end."""
+    condition = "" if rule.condition is None else f"({styled_text(rule.condition, STYLE)})"
     left, right = joined_word(map(module_text, rule.left)), joined_word(map(module_text, rule.right))
-    probability = "" if rule.probability is None else f"?{styled_text(rule.probability, _STYLE)}"
+    probability = "" if rule.probability is None else f"?{styled_text(rule.probability, STYLE)}"
     parts = (condition, f"{left} <" if left else "", module_text(rule.predecessor), f"> {right}" if right else "", arrow,
              successor_text(rule.successor), probability)
     return " ".join(filter(None, parts))
@@ -78,24 +78,25 @@ def system_text(system: LSystem) -> str:
 
 
 def _settings(system: LSystem) -> Iterator[str]:
-    """The lines that set what is not as usual."""
+    """The lines of settings that differ from the defaults."""
     if system.turtle != "grogra":
         yield f"\\set turtle {system.turtle}"
     for directive, value, usual in (("\\angle", system.angle, 90), ("\\set heading", system.heading, 90),
                                     ("\\length", system.length, None), ("\\set seed", system.seed, None),
                                     ("\\set depth", system.depth, 1)):
         if value is not None and value != usual:
-            yield f"{directive} {_alone(Number(value))}"
+            yield f"{directive} {_value_text(Number(value))}"
 
 
 def _constant(constant: Constant) -> str:
-    ends = [_alone(part) for part in constant.range or ()]
-    return f"\\const {constant.name} {_alone(constant.value)}" + (f" in {ends[0]} .. {ends[1]} by {ends[2]}" if ends else "")
+    ends = [_value_text(part) for part in constant.range or ()]
+    span = " in {} .. {} by {}".format(*ends) if ends else ""
+    return f"\\const {constant.name} {_value_text(constant.value)}{span}"
 
 
-def _alone(value: Expression) -> str:
-    """A value as it stands in a line of its own: in parentheses, if it is calculated."""
-    text = styled_text(value, _STYLE)
+def _value_text(value: Expression) -> str:
+    """A value on a line of its own: in parentheses, if it is calculated."""
+    text = styled_text(value, STYLE)
     return text if isinstance(value, Name) or re.fullmatch(r"-?[\d.]+(e[+-]?\d+)?", text) else f"({text})"
 
 
@@ -106,7 +107,7 @@ def _axiom(system: LSystem) -> Iterator[str]:
 
 
 def _variable(variable: Variable) -> str:
-    return " ".join(("\\var", variable.name, variable.kind, *map(_alone, variable.values)))
+    return " ".join(("\\var", variable.name, variable.kind, *map(_value_text, variable.values)))
 
 
 def missing_feature(system: LSystem) -> str | None:

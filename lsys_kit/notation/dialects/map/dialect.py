@@ -1,27 +1,30 @@
 """Text to a map L-system. The grammar is `grammar.lark`.
 
-Map systems are no strings: what reads as a branch in an L-system, `A -> B[-A][+A]B`, is here a wall that becomes two walls,
-with a marker on either side. No text can say by itself which of both is meant, so that a map has a reader of its own; as the
-kit writes them, maps begin with `map:`, and `read` refuses them with a word about this one.
+Map systems do not rewrite strings: what reads as a branch in an L-system, `A -> B[-A][+A]B`, is here a wall that becomes two
+walls, with a marker on either side. A text alone does not say which of the two is meant, so maps have a reader of their own.
+As the kit writes them, they begin with `map:`, and `read` refers such texts to this reader.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError, ModelSyntaxError
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.map_checks import check_map, unused_parts
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.map.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.map.spelling import SPELLING
 from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
-from lsys_kit.notation.syntax.actions import Misread
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.printed import printed_statements
 from lsys_kit.notation.syntax.statements import bounded, check_text
+from lsys_kit.notation.syntax.wording import notes, reporting
 
 _LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")
 
@@ -57,34 +60,34 @@ def read_map(text: str) -> MapSystem:
     Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, section 7.1.2.
     """
     check_text(text)
-    said: dict[str, Any] = {}
+    with reporting(text, MAP.spelling):
+        system = _system(text)
+        check_map(system)
+    return replace(system, notes=notes(unused_parts(system), MAP.spelling))
+
+
+def _system(text: str) -> MapSystem:
+    """The system that the statements of a text make."""
+    settings: dict[str, Any] = {}
     productions: list[EdgeProduction] = []
     for start, end in bounded(printed_statements(text), text):
         kind, record = parse(MAP, "statement", text, start, end)
         if kind == "production":
             productions.append(record)
-        elif kind in said:
-            raise ModelSyntaxError(*_TWICE[kind][:1], text, start, end, _TWICE[kind][1])
+        elif kind in settings:
+            raise problem("second cell" if kind == "first" else "setting twice", (start, end), keyword=kind)
         else:
-            said[kind] = record
+            settings[kind] = record
         if len(productions) > current().rules:
             raise ModelLimitError(f"The model has more than {current().rules:,} productions", limit=current().rules,
                                   source=text, start=start)
-    if "first" not in said:
-        raise ModelSyntaxError("There is no first cell", text, len(text), None,
-                               'Give its walls, one after another, clockwise, as in "map: ABAB".')
-    system = MapSystem(said["first"], tuple(productions), said.get("steps"), text)
-    check_map(system)
-    return MapSystem(system.axiom, system.productions, system.steps, text, tuple(unused_parts(system)))
-
-
-_TWICE = {"first": ("A second first cell stands here", "A map begins with one cell."),
-          "steps": ('"steps:" stands here a second time', "A system has one of it.")}
-"""What stands once in a text: what to say where it stands twice."""
+    if "first" not in settings:
+        raise problem("no first cell", (len(text), len(text)))
+    return MapSystem(settings["first"], tuple(productions), settings.get("steps"), text)
 
 
 @v_args(inline=True)
-class _Records(Transformer[Any, Any]):
+class _MapStatements(Transformer[Any, Any]):
     """What `grammar.lark` names."""
 
     def edge(self, label: Token, *points: Token) -> Edge:
@@ -92,7 +95,7 @@ class _Records(Transformer[Any, Any]):
         arrow = "<" if _LEFTWARD.match(label) else "" if label.type == "LABEL" else ">"
         name = re.sub(r"^\\[a-z]+|\W", "", label)
         if len(name) > current().name:
-            raise Misread(ModelSyntaxError, f"This name has more than {current().name} letters", at)
+            raise problem("name too long", at, most=current().name)
         return Edge(name, str(points[0]) if points else arrow, at)
 
     def marker(self, side: Token, edge: Edge) -> Marker:
@@ -106,8 +109,8 @@ class _Records(Transformer[Any, Any]):
 
     def steps(self, _: Token, number: Token) -> tuple[str, int]:
         if len(number) > 9:
-            raise Misread(ModelSyntaxError, "This number is too large", (number.start_pos or 0, number.end_pos or 0))
+            raise problem("number too large", (number.start_pos or 0, number.end_pos or 0))
         return "steps", int(number)
 
 
-MAP = Grammar(name="map", records=_Records, diagnostics=DIAGNOSTICS, starts=("statement",))
+MAP = Grammar(name="map", transformer=_MapStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING)

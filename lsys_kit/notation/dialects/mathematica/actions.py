@@ -13,21 +13,22 @@ from lark.visitors import merge_transformers
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
 from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
-from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, check_name, place_of
 
 WordDefinition: TypeAlias = tuple[Pattern, ...]
 SYMBOL_PATTERN = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
-"""What may stand between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
+"""What is possible between quotation marks: a name, perhaps with an operator of GROGRA, or a sign."""
 
 
 @dataclass(frozen=True)
 class RequiredArgument:
-    """What stands in the brackets of a module that a rule asks for: the name of a parameter, or a value; and its condition."""
+    """An argument of a pattern: the name of a parameter, or a value that must match; and its condition."""
 
     value: Expression
     named: bool = False
@@ -36,30 +37,30 @@ class RequiredArgument:
 
 @dataclass(frozen=True)
 class PatternDefinition:
-    """A module that a rule asks for, with the condition behind it."""
+    """A pattern of a rule, with the condition after it."""
 
     symbol: Token
-    asked: tuple[RequiredArgument, ...]
+    arguments: tuple[RequiredArgument, ...]
     condition: Expression | None = None
 
     @property
     def conditions(self) -> Iterator[Expression]:
         """All its conditions, in the order written."""
-        yield from (condition for condition in (*(one.condition for one in self.asked), self.condition) if condition)
+        yield from (condition for condition in (*(one.condition for one in self.arguments), self.condition) if condition)
 
 
 @dataclass(frozen=True)
 class RuleDefinition:
-    """A production, with what its patterns ask for, and where it stood."""
+    """A production, with the arguments of its patterns, and its place."""
 
     production: Production
-    asked: tuple[RequiredArgument, ...]
+    arguments: tuple[RequiredArgument, ...]
     at: tuple[int, int]
 
 
 @dataclass(frozen=True)
 class RuleList:
-    """The members of LRULES: rules, or names of rules; and whether a comma stands behind the last."""
+    """The members of LRULES: rules, or names of rules; and whether a comma follows the last."""
 
     members: tuple[RuleDefinition | Token, ...] = ()
     comma: bool = False
@@ -105,40 +106,40 @@ def condition_of(conditions: Iterable[Expression]) -> Expression | None:
 
 
 @v_args(inline=True)
-class _Statements(MathematicaExpressions):
+class _MathematicaStatements(MathematicaExpressions):
     """What the definitions name."""
 
     def word(self, *modules: Pattern) -> WordDefinition:
         return modules
 
     def module(self, symbol: Token, *arguments: Expression) -> Pattern:
-        return Pattern(str(symbol), arguments, _around(symbol, *arguments))
+        return Pattern(str(symbol), arguments, place_of(symbol, *arguments))
 
     def symbol(self, token: Token) -> Token:
         """The symbol, without its quotation marks."""
-        _check_name(token)
+        check_name(token)
         if token.type == "NAME":
-            return _plain(token, "A symbol")
+            return _check_plain_name(token, "A symbol")
         text = re.sub(r"\\(.)", r"\1", token[1:-1])
         if not SYMBOL_PATTERN.fullmatch(text):
-            raise Misread(ModelSyntaxError, "One symbol stands between quotation marks", _around(token),
-                          'Part symbols by commas, as in \'F, "+", F\'.')
+            raise ActionError(ModelSyntaxError, "There is more than one symbol between these quotation marks", place_of(token),
+                          'Separate symbols by commas, as in \'F, "+", F\'.')
         return token.update(value=text)
 
-    def pattern(self, symbol: Token, *asked: RequiredArgument) -> PatternDefinition:
-        return PatternDefinition(symbol, asked)
+    def pattern(self, symbol: Token, *arguments: RequiredArgument) -> PatternDefinition:
+        return PatternDefinition(symbol, arguments)
 
     def parameter(self, blank: Token, *condition: Expression) -> RequiredArgument:
         name = blank[:-1]
         if name.endswith("_"):
-            raise Misread(ModelSyntaxError, f'"{blank}" stands for a row of values', _around(blank),
-                          f'A parameter stands for one: type "{name.rstrip("_")}_".')
-        _check_name(_plain(blank.update(value=name), "A parameter"))
-        return RequiredArgument(Name(name, _around(blank)), True, *condition)
+            raise ActionError(ModelSyntaxError, f'"{blank}" matches a row of values', place_of(blank),
+                          f'A parameter matches one: type "{name.rstrip("_")}_".')
+        check_name(_check_plain_name(blank.update(value=name), "A parameter"))
+        return RequiredArgument(Name(name, place_of(blank)), True, *condition)
 
-    def asked(self, value: Expression, *condition: Expression) -> RequiredArgument:
+    def argument(self, value: Expression, *condition: Expression) -> RequiredArgument:
         if condition:
-            raise Misread(ModelSyntaxError, 'A parameter is named with "_" behind it', value.at,
+            raise ActionError(ModelSyntaxError, 'A parameter is named with "_" after it', value.at,
                           f'Type "{value}_ /; ...".' if isinstance(value, Name) else None)
         return RequiredArgument(value)
 
@@ -153,7 +154,7 @@ class _Statements(MathematicaExpressions):
 
     def lrule(self, keyword: Token, left: tuple[PatternDefinition, ...], pred: tuple[PatternDefinition, ...],
               right: tuple[PatternDefinition, ...], succ: WordDefinition, closing: Token) -> RuleDefinition:
-        return _rule(left, pred[0], right, succ, (keyword.start_pos or 0, closing.end_pos or 0))
+        return _rule_of(left, pred[0], right, succ, (keyword.start_pos or 0, closing.end_pos or 0))
 
     def before(self, *patterns: PatternDefinition) -> tuple[str, tuple[PatternDefinition, ...]]:
         return "left", patterns
@@ -168,7 +169,7 @@ class _Statements(MathematicaExpressions):
         sides: dict[str, tuple[PatternDefinition, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
         pattern = next(part for part in parts if isinstance(part, PatternDefinition))
         at = pattern.symbol.start_pos or 0, parts[-2].end_pos or 0
-        return "more", ("printed_rule", _rule(sides.get("left", ()), pattern, sides.get("right", ()), parts[-1], at))
+        return "deferred", ("printed_rule", _rule_of(sides.get("left", ()), pattern, sides.get("right", ()), parts[-1], at))
 
     def last_comma(self) -> None:
         return None
@@ -187,76 +188,76 @@ class _Statements(MathematicaExpressions):
 
     def definition(self, *parts: Any) -> tuple[str, Any]:
         things = [part for part in parts if not isinstance(part, Token)]
-        return "more", ("definition", (str(parts[0]) if isinstance(parts[0], Token) else "", things[0]))
+        return "deferred", ("definition", (str(parts[0]) if isinstance(parts[0], Token) else "", things[0]))
 
     def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
         name = call.split("[")[0].rstrip()
-        raise Misread(ModelNameError, f'I do not know "{name}[...]"', (call.start_pos or 0, (call.start_pos or 0) + len(name)),
-                      INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.")
+        at = call.start_pos or 0
+        raise ActionError(ModelNameError, f'I do not know "{name}[...]"', (at, at + len(name)),
+                          INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.")
 
     def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
-        _check_name(_plain(name, "A constant"))
-        return "more", ("constant", Constant(str(name), value, slider[1:] or None))
+        check_name(_check_plain_name(name, "A constant"))
+        return "deferred", ("constant", Constant(str(name), value, slider[1:] or None))
 
     def setting(self, keyword: Token, _: Token, value: Expression) -> tuple[str, Any]:
-        return "more", ("setting", (str(keyword), value))
+        return "deferred", ("setting", (str(keyword), value))
 
     def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
         if tradition[1:-1] not in ("abop", "grogra", "plant-string", "fractint"):
-            raise Misread(ModelNameError, f"I do not know the turtle commands of {tradition}", _around(tradition),
+            raise ActionError(ModelNameError, f"I do not know the turtle commands of {tradition}", place_of(tradition),
                           'Turtle commands are those of "abop", "grogra", "plant-string" or "fractint".')
-        return "more", ("setting", ("turtle", str(tradition[1:-1])))
+        return "deferred", ("setting", ("turtle", str(tradition[1:-1])))
 
     def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
         bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
         if bracket is not None:
-            raise Misread(ModelSyntaxError, "A bracket cannot stand here", _around(bracket),
-                          "Contexts follow the branches in any case.")
+            raise problem("bracket in list", place_of(bracket))
         kept = tuple(dict.fromkeys(str(symbol) for symbol in symbols if (symbol.type, symbol) != ("NAME", "Null")))
-        return "more", ("setting", ("ignore", kept))
+        return "deferred", ("setting", ("ignore", kept))
 
     def alone(self, name: Token) -> tuple[str, Any]:
-        return "more", ("alone", name)
+        return "deferred", ("alone", name)
 
     def printed_axiom(self, _: Token, word: WordDefinition) -> tuple[str, Any]:
-        return "more", ("printed_axiom", word)
+        return "deferred", ("printed_axiom", word)
 
     def other(self, *parts: Token) -> tuple[str, Any]:
         named = re.search(r"\w+(?=\s*\[)", parts[0]) or re.search(r"\w+", parts[0])
-        return "more", ("other", named.group() if named else str(parts[0]).strip())
+        return "deferred", ("other", named.group() if named else str(parts[0]).strip())
 
 
-def _plain(name: Token, what: str) -> Token:
+def _check_plain_name(name: Token, what: str) -> Token:
     """A name that means nothing else in Mathematica."""
     if name.endswith("_"):
-        raise Misread(ModelSyntaxError, f'{what} has a name without "_" at its end', _around(name),
+        raise ActionError(ModelSyntaxError, f'{what} has a name without "_" at its end', place_of(name),
                       f'Type "{name.rstrip("_")}".')
     if name == "Degree":
-        raise Misread(ModelNameError, f'{what} cannot be called "Degree"', _around(name),
+        raise ActionError(ModelNameError, f'{what} cannot be called "Degree"', place_of(name),
                       "It says that an angle is in degrees.")
     return name
 
 
-def _rule(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, right: tuple[PatternDefinition, ...],
+def _rule_of(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, right: tuple[PatternDefinition, ...],
           successor: WordDefinition, at: tuple[int, int]) -> RuleDefinition:
     """The rule of some patterns and a successor."""
     every = (*left, pattern, *right)
     condition = condition_of(condition for one in every for condition in one.conditions)
     if isinstance(condition, Apply) and condition.depth > current().depth:
-        raise Misread(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
+        raise ActionError(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
     numbers = count(1)
-    modules = tuple(_module(one, numbers) for one in every)
+    modules = tuple(_module_of(one, numbers) for one in every)
     production = Production(modules[len(left)], successor, condition, modules[:len(left)], modules[len(left) + 1:])
-    return RuleDefinition(production, tuple(asked for one in every for asked in one.asked), at)
+    return RuleDefinition(production, tuple(argument for one in every for argument in one.arguments), at)
 
 
-def _module(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
+def _module_of(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
     """The module of a pattern; a parameter that is only "_" is named by the next number."""
-    arguments = tuple(Name(f"_{next(numbers)}", asked.value.at) if asked.value == Name("") else asked.value
-                      for asked in pattern.asked)
-    return Pattern(str(pattern.symbol), arguments, _around(pattern.symbol, *arguments))
+    arguments = tuple(Name(f"_{next(numbers)}", required.value.at) if required.value == Name("") else required.value
+                      for required in pattern.arguments)
+    return Pattern(str(pattern.symbol), arguments, place_of(pattern.symbol, *arguments))
 
 
 def transformer() -> Transformer[Any, Any]:
     """What makes records of all that the grammar names."""
-    return merge_transformers(_Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
+    return merge_transformers(_MathematicaStatements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]

@@ -16,8 +16,8 @@ from lsys_kit.notation.dialects.mathematica.expressions import (
     INVERSES,
     spelling_hint,
 )
-from lsys_kit.notation.model.expressions import OPERATORS, Expression, Number
-from lsys_kit.notation.syntax.actions import Expressions, Misread, _around
+from lsys_kit.notation.model.expressions import Expression, Number
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, check_arity, place_of
 
 
 @v_args(inline=True)
@@ -29,48 +29,45 @@ class MathematicaExpressions(Expressions):
 
     def call(self, name: Token, *operands: Expression) -> Expression:
         if name not in FUNCTIONS:
-            raise Misread(ModelNameError, f'I do not know the function "{name}"', _around(name),
+            raise ActionError(ModelNameError, f'I do not know the function "{name}"', place_of(name),
                           INSTEAD.get(name) or spelling_hint(name)
                           or f"Functions are: {', '.join(sorted((*FUNCTIONS, *ANGLES)))}.")
         return self._of(name, FUNCTIONS[name], operands)
 
     def _of(self, name: Token, operator: str, operands: tuple[Expression, ...]) -> Expression:
-        least, most = OPERATORS[operator].arity
-        if not least <= len(operands) <= most:
-            raise Misread(ModelSyntaxError, f"{name}[...] takes {least if least == most else f'{least} or more'} "
-                          f"value{'s' * (most > 1)}, not {len(operands)}", _around(name))
-        return self._applied(operator, operands, _around(name, *operands))
+        check_arity(name, operator, operands)
+        return self._applied(operator, operands, place_of(name, *operands))
 
     def chain(self, left: Expression, relation: Token, right: Expression, *rest: Any) -> Expression:
         whole = self.binary(left, relation, right)
         for sign, further in zip(rest[::2], rest[1::2], strict=True):
-            whole = self._applied("&&", (whole, self.binary(right, sign, further)), _around(whole, further))
+            whole = self._applied("&&", (whole, self.binary(right, sign, further)), place_of(whole, further))
             right = further
         return whole
 
     def degrees(self, name: Token, angle: Expression, *sign: Token) -> Expression:
         times, degree = (*sign, None)[0], sign[-1]
         if len(sign) == 2 and times not in ("*", "·", "×"):
-            raise Misread(ModelSyntaxError, "An angle is so many times Degree", _around(times, degree),
+            raise ActionError(ModelSyntaxError, "An angle is so many times Degree", place_of(times, degree),
                           f'Type "{name}[x Degree]".')
         return self._of(name, ANGLES[name], (angle,))
 
     def radians(self, name: Token, angle: Expression) -> Expression:
-        raise Misread(ModelSyntaxError, f"{name}[...] without Degree takes an angle in radians", _around(name, angle),
+        raise ActionError(ModelSyntaxError, f"{name}[...] without Degree takes an angle in radians", place_of(name, angle),
                       f'Angles are in degrees here: type "{name}[x Degree]".')
 
     def inverse(self, name: Token, value: Expression, over: Token, degree: Token) -> Expression:
         if over != "/":
-            raise Misread(ModelSyntaxError, f"{name}[...] is an angle in radians", _around(name, degree),
+            raise ActionError(ModelSyntaxError, f"{name}[...] is an angle in radians", place_of(name, degree),
                           f'Angles are in degrees here: type "{name}[x]/Degree".')
         return self._of(name, INVERSES[name], (value,))
 
     def uniform(self, name: Token, *ends: Expression) -> Expression:
-        return self._applied("uniform", ends, _around(name, *ends))
+        return self._applied("uniform", ends, place_of(name, *ends))
 
     def drawn(self, _: Token, distribution: Token, *operands: Expression) -> Expression:
         if distribution not in DISTRIBUTIONS:
-            raise Misread(ModelNameError, f'I do not know the distribution "{distribution}"', _around(distribution),
+            raise ActionError(ModelNameError, f'I do not know the distribution "{distribution}"', place_of(distribution),
                           suggestion(distribution, DISTRIBUTIONS) or f"Distributions are: {', '.join(DISTRIBUTIONS)}.")
         return self._of(distribution, DISTRIBUTIONS[distribution], operands)
 
@@ -79,6 +76,6 @@ class MathematicaExpressions(Expressions):
 
     def table(self, name: Token, weights: tuple[Expression, ...], _: Token, values: tuple[Expression, ...]) -> Expression:
         if [value.value if isinstance(value, Number) else None for value in values] != list(range(len(weights))):
-            raise Misread(ModelSyntaxError, "The weights are those of 0, 1, 2, ...", _around(*values),
+            raise ActionError(ModelSyntaxError, "The weights are those of 0, 1, 2, ...", place_of(*values),
                           'Type as many numbers as weights, as in "RandomChoice[{1, 2, 1} -> {0, 1, 2}]".')
         return self._of(name, "table", weights)

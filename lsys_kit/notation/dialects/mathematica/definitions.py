@@ -18,31 +18,31 @@ from lsys_kit.notation.dialects.mathematica.actions import RuleDefinition, RuleL
 from lsys_kit.notation.model.system import Constant
 
 Thing = TypeVar("Thing")
-_PARTS = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
+_SYSTEM_EXAMPLE = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
 _HINTS = {
-    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _PARTS,
-    "row of rules": _PARTS,
-    "rule": 'A rule is defined before its name stands in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
+    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _SYSTEM_EXAMPLE,
+    "list of rules": _SYSTEM_EXAMPLE,
+    "rule": 'A rule is defined before its name is used in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
 
 
 @dataclass
 class Definitions:
-    """What the definitions read so far say, each kind by name; what has no name stands under its number.
+    """The definitions read so far, each kind by name; what has no name is kept under its number.
 
     Attributes
     ----------
     source
         The text.
     single
-        Rules that stand outside of LRULES.
+        Rules outside of LRULES.
     run
         The last run.
     alone, title
-        The names that stand alone, and the last of them: it names a system that is printed below it.
+        The names on a line of their own, and the last of them: it is the name of a system that is printed below it.
     printed
-        Under which name the system stands whose printed form is being read.
+        The name of the system whose printed form is being read.
     notes, others
-        What is worth telling, and what is passed over: in order, each once.
+        Notes, and the statements that are ignored: in order, each once.
     """
 
     source: str
@@ -108,7 +108,7 @@ class Definitions:
 
 
 def main_system(definitions: Definitions) -> SystemDefinition:
-    """The system that a text is about: the last that is run, else the last that is defined, else what stands by itself."""
+    """The system of a text: the last that is run, else the last that is defined, else what is defined without a system."""
     found, run = definitions, definitions.run
     only = len(found.systems) < 2 and all(name.isdigit() for name in found.systems)
     if run is None or (isinstance(run.system, Token) and only):
@@ -119,33 +119,33 @@ def main_system(definitions: Definitions) -> SystemDefinition:
         return next(reversed(found.systems.values()), SystemDefinition())
     if len(found.systems) > 1:
         found.notes["Several systems are defined: the last that is run is read."] = None
-    return run.system if isinstance(run.system, SystemDefinition) else _called(found, found.systems, run.system, "system")
+    return run.system if isinstance(run.system, SystemDefinition) else _lookup(found, found.systems, run.system, "system")
 
 
 def axiom_in(definitions: Definitions, system: SystemDefinition) -> WordDefinition | None:
     """The axiom of a system, or the last of the text; None where there is none."""
     if isinstance(system.axiom, Token):
-        return _called(definitions, definitions.axioms, system.axiom, "axiom")
+        return _lookup(definitions, definitions.axioms, system.axiom, "axiom")
     return system.axiom or next(reversed(definitions.axioms.values()), None)
 
 
 def rules_in(definitions: Definitions, system: SystemDefinition) -> Iterator[RuleDefinition]:
-    """The rules of a system, or the last LRULES of the text, or the rules that stand by themselves."""
+    """The rules of a system, or the last LRULES of the text, or the rules outside of both."""
     alone = [rule for name, rule in definitions.single.items() if name.isdigit()]
     rules = system.rules or next(reversed(definitions.rules.values()), None)
     if rules is None:
         rules, alone = RuleList(tuple(definitions.single.values())), []
     if alone:
-        definitions.notes["A rule that stands outside of LRULES is not used."] = None
+        definitions.notes["A rule outside of LRULES is not used."] = None
     if isinstance(rules, Token):
-        rules = _called(definitions, definitions.rules, rules, "row of rules")
+        rules = _lookup(definitions, definitions.rules, rules, "list of rules")
     if rules.comma:
-        definitions.notes["The comma behind the last LRule is passed over."] = None
+        definitions.notes["The comma after the last LRule is ignored."] = None
     for member in rules.members:
-        yield member if isinstance(member, RuleDefinition) else _called(definitions, definitions.single, member, "rule")
+        yield member if isinstance(member, RuleDefinition) else _lookup(definitions, definitions.single, member, "rule")
 
 
-def _called(definitions: Definitions, table: Mapping[str, Thing], name: Token, kind: str) -> Thing:
+def _lookup(definitions: Definitions, table: Mapping[str, Thing], name: Token, kind: str) -> Thing:
     """What has a name; one that is spelt in other cases is read too, with a note."""
     if name in table:
         return table[name]

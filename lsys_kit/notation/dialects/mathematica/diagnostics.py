@@ -1,5 +1,4 @@
-"""What a parser stumbled over in Mathematica's notation, in the words of the person who typed it: the questions that are asked
-about the place, the most telling first."""
+"""Diagnostics of a text in Mathematica's notation."""
 
 from __future__ import annotations
 
@@ -7,34 +6,20 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from lsys_kit.errors import ModelSyntaxError, named
+from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.mathematica.expressions import HEADS, INSTEAD, spelling_hint
 from lsys_kit.notation.dialects.mathematica.printed_diagnostics import PRINTED_DIAGNOSTICS
 from lsys_kit.notation.dialects.mathematica.statements import without_nested_comments
+from lsys_kit.notation.syntax.common_diagnostics import missing_operator, missing_value, misspelling, unreadable_character
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted
 
 RULE_PARTS = HEADS[:4]
-_RULE = 'A rule reads "LRule[LEFT[a], PRED[b], RIGHT[], SUCC[b, c]]"; "LEFT[]" and "RIGHT[]" ask for nothing.'
-_QUOTES = 'Symbols that are no names stand in quotation marks, as in \'F, "[", "+", F, "]"\'.'
-_A_VALUE = frozenset(("NUMBER", "LPAR"))
+_RULE = 'A rule reads "LRule[LEFT[a], PRED[b], RIGHT[], SUCC[b, c]]"; "LEFT[]" and "RIGHT[]" match anything.'
+_QUOTES = 'Symbols that are not names need quotation marks, as in \'F, "[", "+", F, "]"\'.'
 _CLOSING = {"[": "]", "(": ")", "{": "}"}
 _HEAD = re.compile(rf"(?:{'|'.join(HEADS)})(?=\s*\[)", re.IGNORECASE)
 _STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
-
-CORRECTIONS: Sequence[tuple[str, str, str]] = (
-    (r"=!=|<>", "This is no comparison", '"Not equal" is typed "!=".'),
-    (r"={3,}", "This is no comparison", 'To compare two values, type "==".'),
-    (r"=>", "This is no comparison", '"At least" is typed ">=".'),
-    (r"=<", "This is no comparison", '"At most" is typed "<=".'),
-    (r"(?<!&)&(?!&)|\band\b", "This joins no conditions", '"And" is typed "&&".'),
-    (r"(?<!\|)\|(?!\|)|\bor\b", "This joins no conditions", '"Or" is typed "||".'),
-    (r"\bnot\s+", "This denies no condition", '"Not" is typed "!", as in "!(t < 5)".'),
-    (r"\d,\d", "A number is typed with a point", 'Type "1.4", not "1,4".'),
-    (r"\*\*", "This is no operator", 'A power is typed "t^2".'),
-    (r"\+\+", "This is no operator", 'One more is typed "t + 1".'),
-)
-"""What is spelt as elsewhere: a pattern, what to say of it, what to type here."""
 
 
 def _opened(text: str) -> int | None:
@@ -48,7 +33,7 @@ def _opened(text: str) -> int | None:
     return opened[-1] if opened else None
 
 
-def _around(failure: ParseFailure) -> tuple[str, int | None]:
+def _innermost_bracket(failure: ParseFailure) -> tuple[str, int | None]:
     """The last bracket that is not closed: the name before it, in capitals, and its offset."""
     opened = _opened(failure.before)
     if opened is None:
@@ -58,7 +43,7 @@ def _around(failure: ParseFailure) -> tuple[str, int | None]:
 
 
 def _unclosed(failure: ParseFailure) -> ModelSyntaxError | None:
-    head, at = _around(failure)
+    head, at = _innermost_bracket(failure)
     if at is None:
         return None
     ends = failure.found in (";", "=", ":=") and not failure.after[1:].split("\n")[0].strip()
@@ -69,8 +54,8 @@ def _unclosed(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 def _closed(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A bracket that closes nothing, or another kind, or in which nothing stands."""
-    head, at = _around(failure)
+    """A bracket that closes nothing, or another kind, or that is empty."""
+    head, at = _innermost_bracket(failure)
     if failure.found not in ("]", ")", "}"):
         return None
     if at is None:
@@ -79,20 +64,20 @@ def _closed(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found != _CLOSING[opening]:
         return failure.error(f'"{opening}" is not closed by "{failure.found}"', f'Type "{_CLOSING[opening]}".')
     if failure.before.endswith(","):
-        return failure.error('Nothing stands behind this ","', "Leave it out.", failure.start + len(failure.before) - 1, 1)
+        return failure.error('There is nothing after this ","', "Leave it out.", failure.start + len(failure.before) - 1, 1)
     if failure.start + len(failure.before) == at + 1:
         hint = _EMPTY.get(head, "Write a value there, or leave the brackets out.")
-        return failure.error("Nothing stands in these brackets", hint, at, failure.at + 1 - at)
+        return failure.error("There is nothing in these brackets", hint, at, failure.at + 1 - at)
     return None
 
 
-_EMPTY = {"PRED": "Name the module that is replaced there.", "AXIOM": "Write the first word there: one module or more."}
-"""What belongs into brackets that cannot be empty."""
+_EMPTY = {"PRED": "Name the module to replace there.", "AXIOM": "Write the first word there: one module or more."}
+"""What brackets that cannot be empty must hold."""
 
 
-def _parts(failure: ParseFailure) -> ModelSyntaxError | None:
-    """The parts of an LRule: one that is missing, or stands where it cannot."""
-    head, at = _around(failure)
+def _rule_parts(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A part of an LRule that is missing, or outside of it."""
+    head, at = _innermost_bracket(failure)
     part = _HEAD.match(failure.after)
     name = part.group() if part else ""
     if head == "LRULE" and at is not None:
@@ -103,26 +88,27 @@ def _parts(failure: ParseFailure) -> ModelSyntaxError | None:
         if wanted:
             return failure.error(f"{wanted}[...] is missing in this LRule", _RULE)
     if name.upper() in RULE_PARTS:
-        return failure.error(f"{name}[...] stands outside of an LRule", _RULE)
+        return failure.error(f"{name}[...] is outside of an LRule", _RULE)
     return None
 
 
-def _arrows(failure: ParseFailure) -> ModelSyntaxError | None:
-    if failure.found not in ("->", "→") or _around(failure)[1] is None:
+def _arrow_in_brackets(failure: ParseFailure) -> ModelSyntaxError | None:
+    """An arrow inside of brackets."""
+    if failure.found not in ("->", "→") or _innermost_bracket(failure)[1] is None:
         return None
-    return failure.error("An arrow stands in brackets", _RULE)
+    return failure.error("An arrow is not possible in brackets", _RULE)
 
 
-def _round(failure: ParseFailure) -> ModelSyntaxError | None:
+def _round_brackets(failure: ParseFailure) -> ModelSyntaxError | None:
     """Round brackets where square ones belong."""
     name = re.search(r"([A-Za-z]\w*)$", failure.before)
     if failure.found != "(" or not name:
         return None
-    return failure.error("Round brackets stand here", f'In Mathematica they are square: "{name[1]}[...]".')
+    return failure.error("These brackets are round", f'In Mathematica they are square: "{name[1]}[...]".')
 
 
-def _misspelt(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A call that is neither one of the notation's own nor one that draws or prints."""
+def _unknown_call(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A call that is not known, in a statement of its own."""
     call = re.fullmatch(r"([A-Za-z]\w*)\s*\[.*\]\s*", failure.text[failure.start:failure.end], re.DOTALL)
     if not call or failure.found:
         return None
@@ -141,24 +127,15 @@ def _definition(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 def _condition(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A condition where none can stand, or that begins otherwise than with "/;"."""
+    """A condition where none is possible, or that does not begin with "/;"."""
     begun = failure.found == "/;" or (failure.found == ";" and failure.before.endswith("/"))
-    if begun and _around(failure)[1] is not None:
-        return failure.error("A condition cannot stand here", "Conditions stand behind what LEFT, PRED and RIGHT ask for.")
+    if begun and _innermost_bracket(failure)[1] is not None:
+        return failure.error("A condition is not possible here", "Conditions follow the patterns in LEFT, PRED and RIGHT.")
     pattern = re.search(r"\b(\w+)_$", failure.before)
     if not pattern or failure.found not in (";", ":", "|", "?", "&", "if", "when"):
         return None
-    hint = f'A condition stands behind "/;", as in "{pattern[1]}_ /; {pattern[1]} < 5".'
-    return failure.error(f"I did not expect {quoted(failure.found)} behind a parameter", hint)
-
-
-def _spelt_otherwise(failure: ParseFailure) -> ModelSyntaxError | None:
-    first, last = max(failure.start, failure.at - 6), min(failure.end, failure.at + 4)
-    for pattern, message, hint in CORRECTIONS:
-        for match in re.compile(pattern).finditer(failure.text, first, last):
-            if match.start() <= failure.at <= match.end() and failure.found not in ("->", "→"):
-                return failure.error(message, hint, match.start(), len(match.group()))
-    return None
+    hint = f'A condition follows "/;", as in "{pattern[1]}_ /; {pattern[1]} < 5".'
+    return failure.error(f"I did not expect {quoted(failure.found)} after a parameter", hint)
 
 
 def _unreadable(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -168,20 +145,17 @@ def _unreadable(failure: ParseFailure) -> ModelSyntaxError | None:
         return failure.error(f'I cannot read "{letter.group()}"', f'Spell the letter: "{letter[1].lower()}".',
                              length=len(letter.group()))
     if re.match(r"\$\w", failure.after) or re.match(r"\w*\$", failure.found):
-        return failure.error('A name has no "$"', "Names are made of the letters A to Z, digits and _.", length=1)
-    if failure.found and not failure.found.isascii() and failure.found != "→":
-        return failure.error(f"I cannot read the character {named(failure.found[0])}",
-                             "Names are made of the letters A to Z, digits and _.", length=1)
-    return None
+        return failure.error('A name has no "$"', failure.spelling.name_rule, length=1)
+    return unreadable_character(failure)
 
 
-def _quotation(failure: ParseFailure) -> ModelSyntaxError | None:
+def _quotation_marks(failure: ParseFailure) -> ModelSyntaxError | None:
     """A symbol without its quotation marks, or with one."""
     if failure.found == '"' and "STRING" in failure.accepted:
         return failure.error("This quotation mark is never closed", _QUOTES + r' A "\" is typed "\\".')
     in_a_word = {"STRING", "COMMA", "RBRACE"} & failure.accepted and not {"NUMBER", "TIMES"} & failure.accepted
     if in_a_word and re.fullmatch(r"[^\w\s,;\])}\"(]", failure.found):
-        return failure.error(f'The symbol {quoted(failure.found)} stands here without quotation marks', _QUOTES)
+        return failure.error(f'The symbol {quoted(failure.found)} has no quotation marks', _QUOTES)
     if failure.accepted == {"STRING"}:
         return failure.error("Quotation marks are missing here",
                              f'Type "{excerpt(failure.found)}" with a quotation mark on each side.')
@@ -190,18 +164,18 @@ def _quotation(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _commas(failure: ParseFailure) -> ModelSyntaxError | None:
     """Neighbours without a comma, or with too many."""
-    head, _ = _around(failure)
+    head, _ = _innermost_bracket(failure)
     if "COMMA" in failure.accepted and not {"TIMES"} & failure.accepted and re.match(r"[\w\"]", failure.found):
-        return failure.error(f'A "," is missing before {quoted(failure.found)}', "Modules and parts stand between commas.")
+        return failure.error(f'A "," is missing before {quoted(failure.found)}', "Modules and parts are separated by commas.")
     if failure.found == "," and head == "PRED":
-        return failure.error("Only one module can be replaced", 'What stands beside it belongs into "LEFT[]" or "RIGHT[]".')
+        return failure.error("Only one module can be replaced", 'Its neighbours belong in "LEFT[]" or "RIGHT[]".')
     if failure.found == "," and failure.before.endswith(("[", ",")):
-        return failure.error('Nothing stands before this ","', "Leave it out.")
+        return failure.error('There is nothing before this ","', "Leave it out.")
     return None
 
 
 def _steps(failure: ParseFailure) -> ModelSyntaxError | None:
-    head, _ = _around(failure)
+    head, _ = _innermost_bracket(failure)
     if failure.found == "]" and failure.accepted == {"COMMA"} and head.startswith("RUN"):
         return failure.error("The number of steps is missing", 'A run reads "runKLSystem[lsystem, 6];".')
     if failure.found == "]" and failure.accepted == {"COMMA"} and head == "LSYSTEM":
@@ -209,10 +183,11 @@ def _steps(failure: ParseFailure) -> ModelSyntaxError | None:
     return None
 
 
-def _braces(failure: ParseFailure) -> ModelSyntaxError | None:
+def _lists(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A list where none is possible, or braces that are missing."""
     if failure.found == "{":
-        return failure.error("A list stands here", 'Rules stand in "LRULES[...]", the axiom in "AXIOM[...]"; what was printed '
-                             "can be left out.")
+        return failure.error("A list is not possible here", 'Rules belong in "LRULES[...]", the axiom in "AXIOM[...]"; '
+                             "what was printed can be left out.")
     if failure.accepted == {"LBRACE"}:
         return failure.error("Braces are missing here", f'Type "{{{excerpt(failure.found)}}}".')
     return None
@@ -226,24 +201,21 @@ def _angles(failure: ParseFailure) -> ModelSyntaxError | None:
                              failure.start + inverse.start(), len(inverse[1]))
     if failure.found not in ("Degree", "°"):
         return None
-    if _around(failure)[0] in ("SIN", "COS", "TAN"):
+    if _innermost_bracket(failure)[0] in ("SIN", "COS", "TAN"):
         return failure.error("Degree belongs to the whole angle", 'Put parentheses around a sum: "Sin[(x + y) Degree]".')
     return failure.error("Degree is not needed here", 'Angles are in degrees; only "Sin[x Degree]" says so.')
 
 
-def _value(failure: ParseFailure) -> ModelSyntaxError | None:
+def _value_or_operator(failure: ParseFailure) -> ModelSyntaxError | None:
     """A value too few, an operator too few, or a single "=" between values."""
-    if failure.accepted >= _A_VALUE:
-        return failure.error("A value is missing here", 'Possible here: a number, a name or "(".')
-    if "TIMES" in failure.accepted and re.match(r"[\w(.]", failure.found):
-        return failure.error(f"An operator is missing before {quoted(failure.found)}", 'To multiply, type "*", as in "2*t".')
-    if failure.found == "=":
+    error = missing_value(failure) or (missing_operator(failure) if "TIMES" in failure.accepted else None)
+    if error is None and failure.found == "=":
         return failure.error('A single "=" cannot be used here', 'To compare two values, type "==".')
-    return None
+    return error
 
 
 def _random(failure: ParseFailure) -> ModelSyntaxError | None:
-    head, _ = _around(failure)
+    head, _ = _innermost_bracket(failure)
     if not head.startswith("RANDOM") or not (failure.found == "{" or "LBRACE" in failure.accepted):
         return None
     if head == "RANDOMINTEGER":
@@ -251,18 +223,18 @@ def _random(failure: ParseFailure) -> ModelSyntaxError | None:
     return failure.error("The range of a random number is missing", 'It reads "RandomReal[{0, 1}]".')
 
 
-_ASKED: Sequence[Diagnostic] = (
-    _unclosed, _random, _steps, _closed, _parts, _condition, _round, _arrows, _misspelt, _angles, _unreadable,
-    *PRINTED_DIAGNOSTICS, _definition, _braces, _quotation, _commas, _spelt_otherwise, _value)
+_DIAGNOSTICS_OF_BARE_TEXT: Sequence[Diagnostic] = (
+    _unclosed, _random, _steps, _closed, _rule_parts, _condition, _round_brackets, _arrow_in_brackets, _unknown_call, _angles,
+    _unreadable, *PRINTED_DIAGNOSTICS, _definition, _lists, _quotation_marks, _commas, misspelling, _value_or_operator)
 
 
-def _answer(failure: ParseFailure) -> ModelSyntaxError | None:
-    """The first answer, with comments and quoted symbols out of the way."""
+def _diagnose_bare_text(failure: ParseFailure) -> ModelSyntaxError | None:
+    """The first error of these diagnostics, with comments and quoted symbols blanked out."""
     text = without_nested_comments(failure.source)
     bare = _STRING.sub(lambda quotation: '"' + "x" * (len(quotation.group()) - 2) + '"', text)
     seen = replace(failure, text=bare)
-    return next((answer for question in _ASKED if (answer := question(seen)) is not None), None)
+    return next((error for diagnostic in _DIAGNOSTICS_OF_BARE_TEXT if (error := diagnostic(seen)) is not None), None)
 
 
-DIAGNOSTICS: Sequence[Diagnostic] = (_answer,)
-"""What is asked about a slip in Mathematica's notation."""
+DIAGNOSTICS: Sequence[Diagnostic] = (_diagnose_bare_text,)
+"""The diagnostics of a text in Mathematica's notation."""

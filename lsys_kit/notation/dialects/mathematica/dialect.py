@@ -1,4 +1,4 @@
-"""Mathematica's notation, after C. Jacob (seed 000): definitions of an axiom, of rules and of an L-system; its grammar is
+"""Mathematica's notation, after Jacob: definitions of an axiom, of rules and of an L-system; its grammar is
 `grammar.lark`."""
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from lsys_kit.notation.dialects.mathematica.actions import SYMBOL_PATTERN, trans
 from lsys_kit.notation.dialects.mathematica.builder import finish
 from lsys_kit.notation.dialects.mathematica.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
+from lsys_kit.notation.dialects.mathematica.spelling import SPELLING
 from lsys_kit.notation.dialects.mathematica.statements import statements
 from lsys_kit.notation.dialects.mathematica.writer import module_text, system_text
 from lsys_kit.notation.model.expressions import Apply, Name
@@ -21,7 +22,7 @@ from lsys_kit.notation.syntax.formatting import first_missing
 _MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
                     re.IGNORECASE | re.MULTILINE)
 """What is found in texts of this notation, and in no others."""
-_SET = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
+_SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
 """What a definition sets, so that no constant can have that name."""
 
 
@@ -39,14 +40,14 @@ def _own_lacks(system: LSystem) -> Iterator[str]:
     if system.depth != 1 or system.decomposition_depth is not None:
         yield "depth"
     yield from (f'symbol "{module.symbol}"' for module in system.modules if not SYMBOL_PATTERN.fullmatch(module.symbol))
-    names, functions = _used(system)
-    taken = {constant.name for constant in system.constants if constant.name.lower() in _SET} | {"Degree"}
+    names, functions = _names_and_functions(system)
+    taken = {constant.name for constant in system.constants if constant.name.lower() in _SETTING_NAMES} | {"Degree"}
     yield from (f'other meaning of the name "{name}"' for name in sorted(names & taken))
     yield from (f'name like "{name}"' for name in sorted(names) if name.endswith("_"))
     yield from (f"function {name}" for name in sorted(functions - KNOWN))
 
 
-def _used(system: LSystem) -> tuple[set[str], set[str]]:
+def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
     """The names and the functions of a system."""
     names, functions = {constant.name for constant in system.constants}, set[str]()
     parts = [*(part for constant in system.constants for part in (constant.value, *(constant.range or ()))),
@@ -63,5 +64,6 @@ def _used(system: LSystem) -> tuple[set[str], set[str]]:
 
 
 MATHEMATICA = Dialect(
-    name="mathematica", statements=statements, records=transformer, finish=finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)))
+    name="mathematica", statements=statements, transformer=transformer, finish=finish, diagnostics=DIAGNOSTICS,
+    module=module_text, joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)),
+    spelling=SPELLING)

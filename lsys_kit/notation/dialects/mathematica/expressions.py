@@ -1,4 +1,4 @@
-"""Expressions as Mathematica writes them: its functions, with square brackets, and what it says otherwise than the kit."""
+"""Expressions as Mathematica writes them: its functions, with square brackets, and what it spells differently from the kit."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ INSTEAD = {
     "RandomInteger": 'A whole number from 1 to 6 is "Floor[RandomReal[{1, 7}]]".',
     "Power": 'A power is typed "t^2".',
 }
-"""What to type for some functions that Mathematica has and the kit has not."""
+"""What to type for some functions of Mathematica that the kit lacks."""
 HEADS = ("LEFT", "PRED", "RIGHT", "SUCC", "LRule", "LRULES", "AXIOM", "LSystem", "runKLSystem")
 """What an L-system is made of."""
 KNOWN = frozenset((*FUNCTIONS.values(), *_BY_FUNCTION, "uniform", "table"))
@@ -50,14 +50,14 @@ def expression_text(expression: Expression) -> str:
     >>> expression_text(Apply("sqrt", (Apply("sin", (Apply("+", (Name("t"), Name("x"))),)),)))
     'Sqrt[Sin[(t + x) * Degree]]'
     """
-    return styled_text(_spelt(expression), _STYLE)
+    return styled_text(_respelt(expression), _STYLE)
 
 
-def _spelt(expression: Expression) -> Expression:
-    """The expression in which a name stands for what Mathematica spells in more than one word."""
+def _respelt(expression: Expression) -> Expression:
+    """The expression with a name in place of what Mathematica spells with several calls."""
     if not isinstance(expression, Apply):
         return expression
-    operator, operands = expression.operator, tuple(map(_spelt, expression.operands))
+    operator, operands = expression.operator, tuple(map(_respelt, expression.operands))
     texts = ", ".join(styled_text(operand, _STYLE) for operand in operands)
     if operator in ANGLES.values():
         return Name(f"{_BY_FUNCTION[operator]}[{styled_text(Apply('*', (operands[0], _DEGREE)), _STYLE)}]")

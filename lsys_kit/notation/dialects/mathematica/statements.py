@@ -21,8 +21,8 @@ def _comment(depth: int) -> str:
 
 _COMMENTS = re.compile(rf"{_STRING}|{_comment(DEEPEST)}|\(\*|\*\)")
 _CUT = re.compile(rf"{_STRING}|[\[({{]|[\])}}]|(?<!/);|\s+")
-_GOES_ON = re.compile(r"(:?=|&&|\|\||[,+*^<:]|(?<![-/])/|(?<!-)-|/;)$")
-_IS_GONE_ON = re.compile(rf"{ARROW.pattern}|:?=(?!=)|&&|\|\||/;")
+_CONTINUES = re.compile(r"(:?=|&&|\|\||[,+*^<:]|(?<![-/])/|(?<!-)-|/;)$")
+_CONTINUATION = re.compile(rf"{ARROW.pattern}|:?=(?!=)|&&|\|\||/;")
 _PART = r"(?:(?!\w\s+(?!by\b)\w|\.\.|\bby\b|\*\)|\(\*).)+"
 _RANGE = re.compile(rf";[ \t]*\(\*{_PART}\.\.{_PART}\bby\b{_PART}\*\)")
 _CONSTANT = re.compile(r"[A-Za-z_]\w*\s*:?=(?!=)")
@@ -37,7 +37,7 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     """
     bare = without_nested_comments(text)
     start = 0
-    for end in _ends(bare):
+    for end in _statement_ends(bare):
         stretch = bare[start:end].strip()
         if stretch:
             first = bare.index(stretch[0], start)
@@ -46,7 +46,7 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
         start = end + 1
 
 
-def _ends(bare: str) -> Iterator[int]:
+def _statement_ends(bare: str) -> Iterator[int]:
     """The offsets of the ";" and line ends at which statements end, and of the end."""
     depth, start = 0, 0
     for match in _CUT.finditer(bare):
@@ -55,15 +55,15 @@ def _ends(bare: str) -> Iterator[int]:
             depth += 1
         elif sign in "])}":
             depth = max(0, depth - 1)
-        elif depth == 0 and (sign == ";" or ("\n" in sign and not _goes_on(bare, start, *match.span()))):
+        elif depth == 0 and (sign == ";" or ("\n" in sign and not _continues(bare, start, *match.span()))):
             yield match.start()
             start = match.end()
     yield len(bare)
 
 
-def _goes_on(bare: str, begun: int, start: int, end: int) -> bool:
-    """Whether a statement goes on behind the blanks between two offsets, with a line end among them."""
-    return start > begun and bool(_GOES_ON.search(bare, max(begun, start - 3), start) or _IS_GONE_ON.match(bare, end))
+def _continues(bare: str, begun: int, start: int, end: int) -> bool:
+    """Whether a statement continues after the blanks between two offsets, which contain a line end."""
+    return start > begun and bool(_CONTINUES.search(bare, max(begun, start - 3), start) or _CONTINUATION.match(bare, end))
 
 
 def without_nested_comments(text: str) -> str:
@@ -78,13 +78,13 @@ def without_nested_comments(text: str) -> str:
         if found[0] == '"':
             return found
         if len(found) == 2:
-            raise _odd(text, match.start(), found)
+            raise _unmatched_comment(text, match.start(), found)
         return re.sub(r"[^\n]", " ", found) if "\n" in found else " " * len(found)
 
     return _COMMENTS.sub(blanked, text)
 
 
-def _odd(text: str, at: int, sign: str) -> ModelSyntaxError:
+def _unmatched_comment(text: str, at: int, sign: str) -> ModelSyntaxError:
     """What is wrong with the sign of a comment that belongs to none."""
     if sign == "*)":
         return ModelSyntaxError("This comment was never opened", text, at, at + 2, 'A comment begins with "(*".')

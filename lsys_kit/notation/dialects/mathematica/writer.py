@@ -13,17 +13,17 @@ from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.formatting import OWN_NOTATION
 
-_NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
+_PLAIN_NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
 """A symbol that needs no quotation marks."""
 
 
 def symbol_text(symbol: str) -> str:
-    """A symbol, in quotation marks where it is no name.
+    """A symbol, in quotation marks unless it is a name.
 
     >>> symbol_text("aR"), symbol_text("+")
     ('aR', '"+"')
     """
-    return symbol if _NAME.fullmatch(symbol) else '"' + re.sub(r'(["\\])', r"\\\1", symbol) + '"'
+    return symbol if _PLAIN_NAME.fullmatch(symbol) else '"' + re.sub(r'(["\\])', r"\\\1", symbol) + '"'
 
 
 def module_text(module: Module | Pattern) -> str:
@@ -32,23 +32,23 @@ def module_text(module: Module | Pattern) -> str:
     >>> module_text(Module("a", (1, 2)))
     'a[1, 2]'
     """
-    return _with_arguments(module, map(_value, module.arguments))
+    return _with_arguments(module, map(_argument_text, module.arguments))
 
 
 def _with_arguments(module: Module | Pattern, texts: Iterable[str]) -> str:
     return symbol_text(module.symbol) + (f"[{', '.join(texts)}]" if module.arguments else "")
 
 
-def _value(argument: Expression | Value) -> str:
+def _argument_text(argument: Expression | Value) -> str:
     return expression_text(argument) if isinstance(argument, Expression) else number_text(argument)
 
 
 def system_text(system: LSystem) -> str:
     """The text of a system that lacks nothing in this notation."""
     taken = {constant.name for constant in system.constants}
-    lrules, lsystem, growth = (_free(name, taken) for name in ("lrules", "lsystem", "growth"))
-    lines = [*map(_constant, system.constants), *_settings(system), f"axiom = AXIOM[{_words(system.axiom)}];",
-             _rules(system, lrules, taken), f"{lsystem} = LSystem[axiom, {lrules}];"]
+    lrules, lsystem, growth = (_free_name(name, taken) for name in ("lrules", "lsystem", "growth"))
+    lines = [*map(_constant, system.constants), *_settings(system), f"axiom = AXIOM[{_word_text(system.axiom)}];",
+             _lrules_text(system, lrules, taken), f"{lsystem} = LSystem[axiom, {lrules}];"]
     if system.ignored:
         lines.append(f"skipPattern = {{{', '.join(map(symbol_text, system.ignored))}}};")
     if system.steps is not None:
@@ -56,9 +56,9 @@ def system_text(system: LSystem) -> str:
     return "\n".join(lines)
 
 
-def _free(name: str, taken: Collection[str]) -> str:
+def _free_name(name: str, taken: Collection[str]) -> str:
     """A name, or one like it that is not taken."""
-    return name if name not in taken else _free(f"{name}1", taken)
+    return name if name not in taken else _free_name(f"{name}1", taken)
 
 
 def _constant(constant: Constant) -> str:
@@ -78,11 +78,11 @@ def _settings(system: LSystem) -> Iterator[str]:
             yield f"{name} = {number_text(value)};"
 
 
-def _words(modules: Iterable[Pattern]) -> str:
+def _word_text(modules: Iterable[Pattern]) -> str:
     return ", ".join(map(module_text, modules))
 
 
-def _rules(system: LSystem, name: str, taken: Collection[str]) -> str:
+def _lrules_text(system: LSystem, name: str, taken: Collection[str]) -> str:
     rules = ",\n    ".join(_rule(production, taken) for production in system.productions)
     return f"{name} =\n  LRULES[\n    {rules}\n  ];" if rules else f"{name} = LRULES[];"
 
@@ -93,13 +93,13 @@ def _rule(production: Production, constants: Collection[str]) -> str:
     patterns = [_pattern(module, constants, conditions.get(index)) for index, module in enumerate(production.parameters)]
     own = len(production.left)
     return (f"LRule[LEFT[{', '.join(patterns[:own])}], PRED[{patterns[own]}], RIGHT[{', '.join(patterns[own + 1:])}], "
-            f"SUCC[{_words(flat(production.successor))}]]")
+            f"SUCC[{_word_text(flat(production.successor))}]]")
 
 
 def _pattern(module: Pattern, constants: Collection[str], condition: Expression | None) -> str:
-    """A module that is asked for, with its condition: inside, where it is about the only parameter, else behind."""
+    """A pattern with its condition: inside, where it is about the only parameter, else after it."""
     parameters = _parameters(module, constants)
-    texts = [f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _value(argument)
+    texts = [f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _argument_text(argument)
              for argument in module.arguments]
     if condition is None:
         return _with_arguments(module, texts)
@@ -113,13 +113,13 @@ def _parameters(module: Pattern, constants: Collection[str]) -> list[str]:
 
 
 def _conditions(production: Production, constants: Collection[str]) -> dict[int, Expression]:
-    """With which of a production's modules the parts of its condition are written, so that they are joined again as they
-    were: each with the last module on whose side all its parameters stand, or with the predecessor."""
+    """The parts of a production's condition by the module with which they are written, so that reading joins them again: each
+    with the last module on the side of its parameters, or with the predecessor."""
     if production.condition is None:
         return {}
     own, found = len(production.left), dict[int, list[Expression]]()
     owners = {name: index for index, module in enumerate(production.parameters) for name in _parameters(module, constants)}
-    for part in _joined_by_and(production.condition):
+    for part in _conjuncts(production.condition):
         places = {owners[name] for name in names_in(part) if name in owners}
         together = bool(places) and len({(place > own) - (place < own) for place in places}) == 1
         found.setdefault(max(places) if together else own, []).append(part)
@@ -127,7 +127,7 @@ def _conditions(production: Production, constants: Collection[str]) -> dict[int,
     return parted if condition_of(parted.values()) == production.condition else {own: production.condition}
 
 
-def _joined_by_and(condition: Expression) -> tuple[Expression, ...]:
+def _conjuncts(condition: Expression) -> tuple[Expression, ...]:
     if isinstance(condition, Apply) and condition.operator == "&&":
-        return *_joined_by_and(condition.operands[0]), condition.operands[1]
+        return *_conjuncts(condition.operands[0]), condition.operands[1]
     return (condition,)

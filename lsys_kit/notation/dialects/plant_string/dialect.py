@@ -1,4 +1,4 @@
-"""Plant strings (seed 004): symbols of one letter, both kinds of brackets as branches; the grammar is `grammar.lark`."""
+"""Plant strings (the applet's lesson): symbols of one letter, both kinds of brackets as branches; see `grammar.lark`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_co
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import ParseFailure, blank_parentheses
 from lsys_kit.notation.syntax.formatting import first_missing, settings
-from lsys_kit.notation.syntax.predecessor_diagnostics import PRODUCTION
 from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
 
 NAME = "plant-string"
@@ -27,31 +26,31 @@ _LINE = re.compile(rf"""\s*+(?:
     | productions\s*:\s*
     | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
 """A line of a plant string."""
-_KEYWORD = re.compile(r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)"
-                      r"[ \t]*:", re.IGNORECASE)
+_FOREIGN_KEYWORD = re.compile(
+    r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)[ \t]*:", re.IGNORECASE)
 _HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
 _MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
     (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
 """How lines begin that other notations hardly have, and how much each says."""
 
 
-def _of_others(failure: ParseFailure) -> ModelSyntaxError | None:
+def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
     """What only other notations have, or a line of a lesson without its colon."""
-    line = failure.text[failure.start:failure.end]
-    keyword, heading = _KEYWORD.match(line), _HEADING.match(line)
+    line = failure.statement
+    keyword, heading = _FOREIGN_KEYWORD.match(line), _HEADING.match(line)
     if keyword:
         return failure.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
                              "and turtle.", failure.start, len(keyword[1]))
     if heading:
         return missing_keyword_colon(failure.source, failure.start, heading[1], line[heading.end():])
     if failure.found == ":" and ARROW.search(failure.before):
-        return failure.error("A plant string has no probabilities", PRODUCTION)
+        return failure.error("A plant string has no probabilities", failure.spelling.rule_example)
     return None
 
 
 def _finish(draft: Draft) -> LSystem:
     """The system; where a text counts its productions, as those of the lesson's applet do, the axiom is always I."""
-    if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.more):
+    if draft.axiom is None and any(kind == "how many" for kind, _, _ in draft.deferred):
         draft.axiom = (Pattern("I"),)
         draft.notes.append("No axiom is given: it is I.")
     return build_system(draft)
@@ -71,7 +70,7 @@ def _lacking(system: LSystem) -> str | None:
 
 
 def _likely(text: str) -> int:
-    """How much shows a plant string: nothing where a line cannot stand in one."""
+    """How likely a text is a plant string: 0 where a line is not possible in one."""
     try:
         lines = [line for line in without_comments(text).splitlines() if line.strip()]
     except ModelSyntaxError:
@@ -84,7 +83,7 @@ def _likely(text: str) -> int:
 
 
 def _branches(words: Iterable[str]) -> int:
-    """2 where round brackets hold symbols that stand outside of them too; 1 where they hold other capitals, perhaps values."""
+    """2 where round brackets hold symbols that also occur outside of them; 1 where they hold other capitals, perhaps values."""
     texts = [*words]
     if not any(re.search(r"\([A-Za-z\[(]", text) for text in texts):
         return 0
@@ -93,6 +92,6 @@ def _branches(words: Iterable[str]) -> int:
 
 
 PLANT_STRING = Dialect(
-    name=NAME, statements=statements, records=Statements, finish=_finish, diagnostics=(_of_others, *DIAGNOSTICS), module=str,
-    joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
+    name=NAME, statements=statements, transformer=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
+    module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
     starts=("statement", "word"))

@@ -1,0 +1,14 @@
+"""How messages spell what they quote of a cpfg text."""
+
+from __future__ import annotations
+
+from lsys_kit.notation.dialects.cpfg.expressions import expression_text
+from lsys_kit.notation.dialects.cpfg.writer import joined_word, module_text
+from lsys_kit.notation.syntax.spelling import Spelling
+
+SPELLING = Spelling(
+    arrow="-->", axiom="Axiom: A", constant="#define dt 0.5", part="#define c ...", random="A --> F(ran(2))", nothing='"*"',
+    rule_example='A production reads "A --> B": what is replaced, an arrow, what replaces it.', interpretation="homomorphism",
+    contexts='A left context ends with "<", a right context begins with ">", as in "A < B > C --> D".',
+    expression=expression_text, module=module_text, joined=joined_word)
+"""cpfg's arrow, its macros, its expressions."""
