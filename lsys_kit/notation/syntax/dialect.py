@@ -32,7 +32,7 @@ Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
 """Looks at the place where a parser failed; the error says what is wrong, None that this diagnostic does not apply."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Grammar:
     """How a statement is read.
 
@@ -62,7 +62,7 @@ class Grammar:
         return f"{self.name.replace('-', '_')}/grammar.lark"
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Dialect(Grammar):
     """One notation of L-systems, by the name that it has in `read` and `write`.
 
