@@ -15,20 +15,12 @@ from typing import Any, overload
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.closure import check_settled
+from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.engines.engines import (
-    CountingEngine,
-    Observation,
-    Observer,
-    Origins,
-    SteppingEngine,
-    check_size,
-    check_time,
-    engine_for,
-    next_counts,
-)
+from lsys_kit.derivation.engines.counting import next_counts
+from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size, check_time
+from lsys_kit.derivation.engines.table import engine_for
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.maps import MapSystem
@@ -106,9 +98,9 @@ class Derivation(Sequence[Word]):
         The last step.
     """
 
-    def __init__(self, course: CountingEngine | SteppingEngine, steps: int = 0) -> None:
-        self.steps, self._course = steps, course
-        self.states = course.states
+    def __init__(self, engine: Engine, steps: int = 0) -> None:
+        self.steps, self._engine = steps, engine
+        self.states = engine.states
 
     def to(self, steps: int) -> Derivation:
         """The same derivation up to another step; what is known already is not computed again.
@@ -123,17 +115,17 @@ class Derivation(Sequence[Word]):
         until, reached = time.monotonic() + current().seconds, 0
         try:
             for reached in range(int(steps) + 1):
-                if reached > self._course.known:
-                    self._course.advance(until)
+                if reached > self._engine.known:
+                    self._engine.advance(until)
                 else:
-                    check_size(self.states, reached, self._course.size(reached))
+                    check_size(self.states, reached, self._engine.size(reached))
         except ModelLimitError as error:
             raise self._refusal(error, reached) from None
-        return Derivation(self._course, int(steps))
+        return Derivation(self._engine, int(steps))
 
     def _refusal(self, error: ModelLimitError, step: int) -> ModelLimitError:
         """The error with the steps that are kept."""
-        error.partial = Derivation(self._course, step - 1) if step else None
+        error.partial = Derivation(self._engine, step - 1) if step else None
         kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
         return error.with_hint(kept + (error.hint or ""))
 
@@ -150,7 +142,7 @@ class Derivation(Sequence[Word]):
         step = index + len(self) if index < 0 else index
         if not 0 <= step <= self.steps:
             raise IndexError(f"step {index} of a derivation of {self.steps} steps")
-        return self._course.word(step)
+        return self._engine.word(step)
 
     def __iter__(self) -> Iterator[Word]:
         return (self[step] for step in range(len(self)))
@@ -161,7 +153,7 @@ class Derivation(Sequence[Word]):
     @property
     def lengths(self) -> list[int]:
         """The number of modules at each step, known without building a word."""
-        return [self._course.size(step) for step in range(len(self))]
+        return [self._engine.size(step) for step in range(len(self))]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -173,13 +165,13 @@ class Derivation(Sequence[Word]):
         """
         notes, inexact = self.states.system.notes, self.states.inexact
         for step in range(len(self) if inexact else 0):
-            if any(self.states.modules[state] == inexact for state in self._course.counts(step)):
+            if any(self.states.modules[state] == inexact for state in self._engine.counts(step)):
                 return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")
         return notes
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a step, known without building its word."""
-        return self._course.counts(step)
+        return self._engine.counts(step)
 
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from: from which module of the word before, by which production.
@@ -190,7 +182,7 @@ class Derivation(Sequence[Word]):
         """
         if not 1 <= step <= self.steps:
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} come from a word before, not that of step {step}")
-        return self._course.origins(step)
+        return self._engine.origins(step)
 
     def sight(self, step: int) -> Observation | None:
         """What the next step sees of a step's word, which has its query modules filled in there; None where nobody looks.
@@ -201,7 +193,7 @@ class Derivation(Sequence[Word]):
         F F F A?P(0,2) and F F F A?P(0,3)
         """
         self[step]  # an IndexError, where there is no such step
-        return self._course.sight(step)
+        return self._engine.sight(step)
 
     def ancestors(self, step: int, before: int = 0) -> list[int]:
         """For each module of a step's word the position, in the word of an earlier step, of the module that it descends from.
@@ -264,7 +256,7 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
         Counting takes too long, because there are too many different modules.
     """
     states, left = States(system, constants, arithmetic), current().seconds
-    check_settled(states, "The number of modules of a step that is not derived")
+    check_d0l(states, "The number of modules of a step that is not derived")
     counts: Mapping[int, int] = Counter(states.axiom)
     for step in range(steps + 1):
         started = time.monotonic()

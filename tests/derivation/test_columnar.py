@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-import lsys_kit.derivation.engines.engines as courses
+import lsys_kit.derivation.engines.counting as counting
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, read
 from lsys_kit.derivation.engines.columnar import ColumnWord
 from lsys_kit.notation.model.system import LSystem
@@ -25,7 +25,7 @@ D -> B D""")
 
 def words(system: LSystem, steps: int, from_states: int) -> list[str] | str:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(courses, "DIFFERENT", from_states)
+        patch.setattr(counting, "DIFFERENT", from_states)
         try:
             with limits(modules=3_000):
                 return [str(word) for word in derive(system, steps, arithmetic="float")]
@@ -56,7 +56,7 @@ def test_a_value_that_is_none_names_its_module() -> None:
     system = read("axiom: A(9)\nA(x) -> A(x-1) A(1/(x-1))")
     assert words(system, 9, -1) == words(system, 9, 10**9)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(courses, "DIFFERENT", -1)
+        patch.setattr(counting, "DIFFERENT", -1)
         with pytest.raises(ModelValueError, match=r"A\(1\) under production 1"):
             derive(system, 9, arithmetic="float")
 

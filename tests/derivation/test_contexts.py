@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lsys_kit.derivation.engines.contexts as bulk
-import lsys_kit.derivation.engines.engines as courses
+import lsys_kit.derivation.engines.stepping as stepping
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, neighbours
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.read import read
@@ -46,9 +46,9 @@ def test_neighbours_are_found_at_once(word: str) -> None:
 @pytest.mark.parametrize(("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6)], ids=["signals", "growing", "chance"])
 def test_a_step_at_once_is_the_step_one_by_one(monkeypatch, text, steps, table):
     system = read(text)
-    monkeypatch.setattr(courses, "BULK", 10**9)
+    monkeypatch.setattr(stepping, "BULK", 10**9)
     one_by_one = [str(word) for word in derive(system, steps, seed=5)]
-    monkeypatch.setattr(courses, "BULK", 0)
+    monkeypatch.setattr(stepping, "BULK", 0)
     monkeypatch.setattr(bulk, "LARGEST_TABLE", table)
     assert [str(word) for word in derive(system, steps, seed=5)] == one_by_one
     assert len(one_by_one[-1]) > 100

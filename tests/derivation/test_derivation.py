@@ -53,7 +53,7 @@ def test_a_word_is_built_once() -> None:
 def test_the_last_word_needs_no_other() -> None:
     derivation = derive(FIBONACCI, 30)
     assert len(derivation[-1]) == 2_178_309
-    assert list(derivation._course._words) == [30]
+    assert list(derivation._engine._words) == [30]
 
 
 def test_a_derivation_goes_on_where_it_was() -> None:

@@ -8,9 +8,9 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import ModelValueError
 
 
-def check_settled(states: States, what: str) -> None:
-    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
-    if not states.settled:
+def check_d0l(states: States, what: str) -> None:
+    """Refuse a question that has an answer only where every module alone decides what becomes of it."""
+    if not states.traits.d0l:
         raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
                               hint="Derive this system, and look at its words; where it leaves its productions to chance, "
                                    "stages(system).expected(n) counts on average.")

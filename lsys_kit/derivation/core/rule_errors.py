@@ -13,6 +13,8 @@ from lsys_kit.notation.write import as_written
 
 AXIOM = Module("axiom")
 """What the axiom is made of."""
+UNKNOWN = "it depends on an unknown constant"
+"""Why a value that depends on a constant without a value cannot be computed."""
 
 
 def rule_error(system: LSystem, module: Module, rule: Rule, fault: Exception) -> LSystemError:

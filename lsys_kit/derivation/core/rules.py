@@ -60,9 +60,11 @@ class Rule:
     successor
         What it makes.
     random
-        Whether what it makes is left to chance.
+        Whether it draws random numbers.
     looks
-        Whether it asks for what the turtle sees.
+        Whether it asks what the turtle sees.
+    matches_anew
+        Whether its condition or its probability does so, so that equal modules may be matched differently.
     questions
         What its condition asks, each with the function of the answer.
     """
@@ -77,6 +79,7 @@ class Rule:
     successor: tuple[ModuleTemplate | RepeatTemplate, ...]
     random: bool
     looks: bool
+    matches_anew: bool
     questions: tuple[tuple[Apply, Function], ...]
 
     @cached_property
@@ -85,8 +88,8 @@ class Rule:
         return sum(isinstance(part, ModuleTemplate) for part in self.successor)
 
     @cached_property
-    def settled(self) -> bool:
-        """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that is seen."""
+    def d0l(self) -> bool:
+        """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that the turtle sees."""
         return not (self.left or self.right or self.random or self.looks or self.probability is not None)
 
 
@@ -141,15 +144,20 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
         return function_of(expression, order, arithmetic)
 
     made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
-    asked = [part for part in (production.condition, production.probability, *made) if part is not None]
+    matched = [part for part in (production.condition, production.probability) if part is not None]
     return Rule(
         number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
         tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
         _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
-        any(map(is_random, made)), any(question for part in asked for question in sensed_in(part)),
+        any(map(is_random, [*matched, *made])), any(map(_looks, [*matched, *made])),
+        any(is_random(part) or _looks(part) for part in matched),
         tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else ())
+
+
+def _looks(expression: Expression) -> bool:
+    return any(True for _ in sensed_in(expression))
 
 
 def _parts(items: Sequence[Item], order: Mapping[str, int], size: int,

@@ -9,10 +9,11 @@ for each combination that occurs.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.chance import Chance, choose
-from lsys_kit.derivation.core.rule_errors import AXIOM, rule_error, undecided_condition
+from lsys_kit.derivation.core.rule_errors import AXIOM, UNKNOWN, rule_error, undecided_condition
 from lsys_kit.derivation.core.rules import (
     ModuleTemplate,
     RepeatTemplate,
@@ -23,27 +24,25 @@ from lsys_kit.derivation.core.rules import (
     rule_for,
     rules_of,
 )
-from lsys_kit.errors import ModelLimitError, ModelNameError
+from lsys_kit.derivation.core.traits import traits_of
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic
 from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.notation.write import as_written
 
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
-CUT = "%"
-"""The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
-QUERIES = frozenset(("?P", "?H", "?U", "?L"))
-"""The symbols whose values are the turtle's: its position, its heading, its up and its left."""
 
 
 class Successors(dict[int, tuple[int, ...]]):
-    """What replaces each settled state in one step, found when it is first asked for."""
+    """What replaces each state that alone decides it in one step, found when it is first asked for."""
 
     def __init__(self, states: States) -> None:
         self.states = states
 
     def __missing__(self, state: int) -> tuple[int, ...]:
-        states, module, rule = self.states, self.states.modules[state], self.states.fate(state)
+        states, module = self.states, self.states.modules[state]
+        rule = states.rule(state)
         found = self[state] = states.parts(module) if rule is None else states.replaced(rule, module)
         return found
 
@@ -64,14 +63,10 @@ class States:
     ----------
     modules
         The module of each state.
-    settled
-        Whether every module's fate depends on itself alone: no contexts, no chance, no cut, no meta-rules, no questions.
-    asks
-        Whether it asks for what the turtle sees, by a rule or by a query module such as `?P(x,y)`.
+    traits
+        What the system has that decides how it can be derived.
     successors
-        The successor of each settled state.
-    parts_settled
-        Whether decomposition leaves nothing to chance.
+        The successor of each state that alone decides it.
     inexact
         The first module that was met with a value that had outgrown 128 bits and become a double, or None.
 
@@ -95,14 +90,11 @@ class States:
         self._outgrown = False
         self._numbers: dict[tuple[object, ...], int] = {}
         self.successors = Successors(self)
-        self._fates: dict[int, Rule | None] = {}
+        self._applied: dict[int, Rule | None] = {}
         self._parts: dict[tuple[object, ...], tuple[int, ...]] = {}
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
-        self.parts_settled = all(rule.settled for rules in self.decomposition.values() for rule in rules)
-        rules = [rule for table in (self.rules, self.decomposition) for found in table.values() for rule in found]
-        self.asks = any(rule.looks for rule in rules) or not _symbols(system).isdisjoint(QUERIES)
-        self.settled = not (system.meta or self.asks or CUT in _symbols(system)) and all(rule.settled for rule in rules)
+        self.traits = replace(traits_of(system, arithmetic), unknown=any(map(is_symbolic, self.constants)))
         self.axiom = tuple(self._axiom())
 
     def __len__(self) -> int:
@@ -122,29 +114,38 @@ class States:
         """The productions for modules of a state's symbol and number of parameters, in the order written."""
         return self.rules.get(kind_of(self.modules[state]), ())
 
-    def is_settled(self, state: int) -> bool:
-        """Whether the state alone decides what becomes of it."""
-        return self.parts_settled and all(rule.settled for rule in self.candidates(state))
+    def is_d0l(self, state: int) -> bool:
+        """Whether the state alone decides what becomes of it, unless it is cut off."""
+        return not self.traits.varying_decomposition and all(rule.d0l for rule in self.candidates(state))
 
     def successor(self, state: int) -> tuple[int, ...]:
-        """The states that replace a settled state in one step: itself, where no production matches."""
+        """The states that replace a state in one step: itself, where no production matches.
+
+        Raises
+        ------
+        ModelValueError
+            Its neighbours, chance or what the turtle sees decide that as well.
+        """
         return self.successors[state]
 
     def width(self, state: int) -> int:
-        """How many modules at least replace a settled state in one step, known before any of them is made."""
-        rule = self.fate(state)
+        """How many modules at least replace a state in one step, known before any of them is made."""
+        rule = self.rule(state)
         return 1 if rule is None or self.decomposition else rule.least
 
     def production(self, state: int) -> int | None:
-        """Which production rewrites a settled state: its place in the order written, from 0, or None."""
-        rule = self.fate(state)
+        """Which production rewrites a state: its place in the order written, from 0, or None."""
+        rule = self.rule(state)
         return None if rule is None else rule.number
 
-    def fate(self, state: int) -> Rule | None:
-        """The rule that rewrites a settled state, or None."""
-        if state not in self._fates:
-            self._fates[state] = self.matching(self.modules[state], self.rules)
-        return self._fates[state]
+    def rule(self, state: int) -> Rule | None:
+        """The rule that rewrites a state, or None; a `ModelValueError` where the state alone does not decide that."""
+        if state not in self._applied:
+            if not self.is_d0l(state):
+                raise ModelValueError(f"What becomes of {self.modules[state]} does not depend on its symbol and values alone",
+                                      hint="Derive the system, and ask for the origins of a step.")
+            self._applied[state] = self.matching(self.modules[state], self.rules)
+        return self._applied[state]
 
     def matching(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
         """The rule that rewrites a module, of rules that need no context."""
@@ -182,6 +183,8 @@ class States:
             return lots[choose([weight for _, weight in lots], unit)][0]
         except ValueError as fault:
             raise rule_error(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
+        except TypeError:
+            raise rule_error(self.system, lots[0][0].production.predecessor, lots[0][0], ValueError(UNKNOWN)) from None
 
     def lots(self, matched: Sequence[tuple[Rule, tuple[Value, ...]]], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
         """Of the rules that match those that are chosen by lot, each with its weight."""
@@ -206,7 +209,7 @@ class States:
         except TypeError:
             if not any(map(is_symbolic, given)):
                 raise
-            raise rule_error(self.system, module, rule, ValueError("it depends on an unknown constant")) from None
+            raise rule_error(self.system, module, rule, ValueError(UNKNOWN)) from None
 
     def _written(self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...],
                  chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
@@ -246,7 +249,7 @@ class States:
 
     def parts(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
         """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
-        if not self.parts_settled:
+        if self.traits.varying_decomposition:
             return self._taken_apart(module, chance)
         key = (module.symbol, module.arguments, *map(type, module.arguments))
         if key not in self._parts:
@@ -293,12 +296,6 @@ class States:
             return value
         self._outgrown = True
         return float(value)
-
-
-def _symbols(system: LSystem) -> set[str]:
-    """The symbols that words of a system may hold."""
-    return {m.symbol for m in system.axiom} | {m.symbol for rule in (*system.productions, *system.decomposition)
-                                               for m in rule.modules}
 
 
 def _times(count: Value) -> int:

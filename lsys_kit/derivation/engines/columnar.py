@@ -17,7 +17,7 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem, Module, Production, Repeat
+from lsys_kit.notation.model.system import LSystem, Module, flat
 
 Array: TypeAlias = np.ndarray[Any, Any]
 ColumnFunction: TypeAlias = Callable[..., Any]
@@ -26,7 +26,7 @@ something to compute."""
 BLOCK = 2**15
 """So many rows are computed at a time: what lies between two operations stays in the processor's cache."""
 
-_SAME_TO_THE_LAST_BIT: Mapping[str, Callable[..., Any]] = {
+_COLUMN_OPERATIONS: Mapping[str, Callable[..., Any]] = {
     "||": np.logical_or, "&&": np.logical_and, "!": np.logical_not, "==": np.equal, "!=": np.not_equal, "<": np.less,
     "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal, "+": np.add, "-": np.subtract, "*": np.multiply,
     "/": np.divide, "-x": np.negative, "abs": np.abs, "sqrt": np.sqrt, "floor": np.floor, "ceil": np.ceil,
@@ -46,30 +46,9 @@ def column_function(expression: Expression) -> ColumnFunction:
     if isinstance(expression, Name):
         name = expression.name
         return lambda columns, out=None: columns[name]
-    operator = _SAME_TO_THE_LAST_BIT[expression.operator]
+    operator = _COLUMN_OPERATIONS[expression.operator]
     operands = [column_function(operand) for operand in expression.operands]
     return lambda columns, out=None: operator(*[operand(columns) for operand in operands], out=out)
-
-
-def possible(states: States) -> bool:
-    """Whether a system's words can be columns: settled, in doubles, without decomposition and repetition."""
-    system = states.system
-    return (states.settled and states.arithmetic == "float" and not system.decomposition
-            and all(map(_plain, system.productions)))
-
-
-def _plain(production: Production) -> bool:
-    """Whether a production only does what columns can do."""
-    if any(isinstance(item, Repeat) for item in production.successor):
-        return False
-    expressions = [argument for module in production.modules for argument in module.arguments]
-    return all(map(_computed, [*expressions, *([production.condition] if production.condition is not None else [])]))
-
-
-def _computed(expression: object) -> bool:
-    if not isinstance(expression, Apply):
-        return True
-    return expression.operator in _SAME_TO_THE_LAST_BIT and all(map(_computed, expression.operands))
 
 
 @dataclass(frozen=True)
@@ -141,7 +120,7 @@ class ColumnarSteps:
         equal = [Apply("==", (Name(f"#{i}"), a)) for i, a in enumerate(asked) if not formal[i]]  # type: ignore[arg-type]
         condition = [production.condition] if production.condition is not None else []
         parts = tuple((self.kinds.index(kind_of(m)), tuple(map(column_function, m.arguments)))  # type: ignore[arg-type]
-                      for m in production.modules if m is not production.predecessor)
+                      for m in flat(production.successor))
         return ColumnRule(tuple(a.name if formal[i] else None for i, a in enumerate(asked)),  # type: ignore[union-attr]
                           tuple(map(column_function, [*equal, *condition])), parts)
 

@@ -13,8 +13,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.chance import units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
-from lsys_kit.derivation.core.rules import is_branch
-from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.engines.expansion import Letters, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.system import CLOSING, OPENING
@@ -26,16 +25,6 @@ LARGEST_TABLE = 2**22
 """The largest table of cases that is looked up directly."""
 FEW_REPLACEMENTS = 12
 """So many kinds of replacements are counted one after another."""
-
-
-def possible(stepper: Stepper) -> bool:
-    """Whether a system's words can be stepped in bulk."""
-    rules = [rule for found in stepper.states.rules.values() for rule in found]
-    near = all(len(rule.left) <= 1 and len(rule.right) <= 1 and not any(map(is_branch, rule.right))
-               for rule in rules)
-    symbols = {module.symbol for rule in stepper.states.system.rules for module in rule.modules}
-    cuts = CUT in symbols or any(module.symbol == CUT for module in stepper.states.system.axiom)
-    return near and stepper.states.parts_settled and not cuts and not any(rule.random or rule.looks for rule in rules)
 
 
 class Replacements:
@@ -129,7 +118,7 @@ class ContextEngine:
             role = OPENS if symbol in OPENING else CLOSES
         elif symbol in self.stepper.passed:
             role = PASSED
-            if states.is_settled(state):
+            if states.is_d0l(state):
                 role, fixed = SKIPPED, self.fates.number(Replacement(states.successor(state), states.production(state)))
         self._roles.append(role)
         self._fixed.append(fixed)
@@ -138,7 +127,7 @@ class ContextEngine:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
         left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
         kind = code_type(size * (size + 1) ** 2)
-        keys = (left.astype(kind) * kind.type(size + 1) + right) * kind.type(size) + codes
+        keys = (left.astype(kind) * kind.type(size + 1) + right.astype(kind)) * kind.type(size) + codes.astype(kind)
 
         def case(key: int) -> tuple[int, int, int]:
             rest, code = divmod(key, size)
@@ -188,7 +177,7 @@ class ContextEngine:
     def _found(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
         """The same, tried on a word of just these modules: the possible replacements, and their weights."""
         states = self.stepper.states
-        if states.is_settled(code):
+        if states.is_d0l(code):
             return [self.fates.number(Replacement(states.successor(code), states.production(code)))], [1.0]
         word = [state for state in (left, code, right) if state != NO_NEIGHBOUR]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NO_NEIGHBOUR))

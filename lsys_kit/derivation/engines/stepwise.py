@@ -14,7 +14,8 @@ from typing import TypeAlias
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.matching import Neighbours, match_context, neighbours, neighbours_along, values_at
 from lsys_kit.derivation.core.rules import Rule, is_branch
-from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CLOSING, OPENING, LSystem, Module
 
@@ -77,8 +78,8 @@ class Stepper:
     def __init__(self, states: States, seed: int) -> None:
         self.states, self.seed = states, seed
         self.passed = ignored_symbols(states.system)
-        self.in_context = any(rule.left or rule.right for rules in states.rules.values() for rule in rules)
-        self._settled: dict[int, Replacement] = {}
+        self.in_context = states.traits.context > 0
+        self._alone: dict[int, Replacement] = {}
         self._matched: dict[tuple[object, ...], Matches] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
 
@@ -104,26 +105,26 @@ class Stepper:
         for position, (code, kept) in enumerate(zip(codes, surviving(old.symbols), strict=True)):
             if not kept:
                 yield nothing
-            elif code in self._settled:
-                yield self._settled[code]
-            elif self.states.is_settled(code):
-                yield self._settled.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
+            elif code in self._alone:
+                yield self._alone[code]
+            elif self.states.is_d0l(code):
+                yield self._alone.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
             else:
                 yield self._open(old, position, old.chance(self.seed, step, position))
 
     def _open(self, old: ParentWord, position: int, chance: Chance) -> Replacement:
-        """What becomes of a module whose fate is not settled by itself."""
+        """What becomes of a module that does not decide it alone."""
         matched = self.matched(old, position, chance)
         rule = self.states.drawn(matched, chance)
         if rule is None:
             return Replacement(self.states.parts(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
         key = old.codes[position], values, rule.number
-        settled = not (rule.random or rule.looks) and self.states.parts_settled
-        if settled and key in self._made:
+        repeatable = not (rule.random or rule.looks or self.states.traits.varying_decomposition)
+        if repeatable and key in self._made:
             return self._made[key]
         replacement = Replacement(self.states.replaced(rule, old.modules[position], values, chance), rule.number)
-        if settled:
+        if repeatable:
             self._made[key] = replacement
         return replacement
 
@@ -139,7 +140,7 @@ class Stepper:
 
     def _case(self, rules: Sequence[Rule], old: ParentWord, position: int) -> tuple[object, ...] | None:
         """The states on which the matching depends; None where that is what is seen, or a branch, which may hold any number."""
-        if any(rule.looks for rule in rules):
+        if any(rule.matches_anew for rule in rules):
             return None
         if old.around is None:
             return (old.codes[position],)

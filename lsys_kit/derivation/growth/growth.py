@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.chance import splitmix64
-from lsys_kit.derivation.core.closure import check_settled, closure
+from lsys_kit.derivation.core.closure import check_d0l, closure
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.engines import next_counts
+from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.growth.recurrences import (
     closed_form,
     generating_function,
@@ -288,10 +288,10 @@ def growth(system: LSystem, **constants: object) -> Growth:
     """
     with suppress(ModelValueError):  # chance, or a value that cannot be computed, may be where nothing is decided
         states = States(system, constants)
-        if states.settled and closure(states, current().states) is not None:
+        if states.traits.d0l and closure(states, current().states) is not None:
             return Growth(states)
     states = States(slice_system(system), constants)
-    check_settled(states, "Growth")
+    check_d0l(states, "Growth")
     if closure(states, current().states) is None:
         raise ModelLimitError(f"The states of this system do not end: more than {current().states:,} were met",
                               limit=current().states, needed=len(states),

@@ -14,11 +14,12 @@ from itertools import product
 
 from lsys_kit.derivation.core.chance import shares
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
-from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, function_of, names_in
-from lsys_kit.notation.model.system import Item, Module, Repeat, flat, joined, symbols
+from lsys_kit.notation.model.system import Item, Module, Repeat, flat, joined
 
 
 def by_symbol(states: States) -> Stages:
@@ -70,14 +71,14 @@ def _chances(rules: Sequence[Rule], states: States) -> Sequence[Value | None]:
     """How likely each rule of one kind is, where that is always the same: all ask for the same, and no weight for a value."""
     asked = {(rule.production.predecessor, rule.production.left, rule.production.right, rule.production.condition)
              for rule in rules}
-    weights = [_settled(rule.production.probability, states) for rule in rules]
+    weights = [_constant_value(rule.production.probability, states) for rule in rules]
     if len(asked) == 1:
         with suppress(ValueError, TypeError):  # no weights: one is missing, negative or unknown
             return shares(weights)  # type: ignore[arg-type]
     return [None] * len(rules)
 
 
-def _settled(expression: Expression | None, states: States) -> Value | None:
+def _constant_value(expression: Expression | None, states: States) -> Value | None:
     """The value of an expression that no parameter has a part in, else None."""
     order = {constant.name: index for index, constant in enumerate(states.system.constants)}
     if expression is None or not names_in(expression) <= order.keys():
@@ -107,7 +108,7 @@ def _parts(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, 
         if isinstance(item, Module):
             yield kind_of(item), 1, ""
             continue
-        count = _settled(item.count, states)
+        count = _constant_value(item.count, states)
         known = count is not None and count == int(count)
         for kind, times, factor in _parts(item.body, states):
             if known:
@@ -137,5 +138,5 @@ def _besides(states: States) -> Iterator[str]:
     """What no transition shows."""
     for rule in states.system.meta:
         yield str(rule)
-    if CUT in symbols(states.system):
+    if states.traits.cut:
         yield f"{CUT} cuts off the rest of its branch"

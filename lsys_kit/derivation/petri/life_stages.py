@@ -107,7 +107,7 @@ def ageing_in_steps(states: States) -> AgeingStates:
 def _lets_time_pass(rule: Rule, ageing: AgeModel) -> bool:
     """Whether all that a rule does is make a module of some kind older."""
     made = rule.production.successor
-    return (rule.settled and rule.condition is None and not rule.equalities and len(made) == 1
+    return (rule.d0l and rule.condition is None and not rule.equalities and len(made) == 1
             and isinstance(made[0], Module) and kind_of(made[0]) == kind_of(rule.production.predecessor) in ageing.parameters)
 
 

@@ -9,10 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lsys_kit.derivation.core.chance import shares
-from lsys_kit.derivation.core.rule_errors import rule_error
-from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.core.rule_errors import UNKNOWN, rule_error
+from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import symbols
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     except ValueError as fault:
         raise rule_error(states.system, module, matched[0][0], fault) from None
     except TypeError:
-        raise rule_error(states.system, module, matched[0][0], ValueError("it depends on an unknown constant")) from None
+        raise rule_error(states.system, module, matched[0][0], ValueError(UNKNOWN)) from None
     return tuple(Outcome(rule.number, states.replaced(rule, module), chance)
                  for (rule, _), chance in zip(lots, likely, strict=True))
 
@@ -69,9 +68,3 @@ def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None
             return None
         found.append(outcomes_of(states, len(found)))
     return found
-
-
-def has_fates(states: States) -> bool:
-    """Whether only a module itself, and a lot among its productions, decide what becomes of it."""
-    return (states.parts_settled and not (states.asks or states.system.meta or CUT in symbols(states.system))
-            and not any(rule.left or rule.right or rule.random for rules in states.rules.values() for rule in rules))

@@ -25,7 +25,7 @@ from lsys_kit.derivation.petri.net import Arc as Arc
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
-from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes, has_fates
+from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
@@ -122,7 +122,7 @@ def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
 def _ended(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
     """The fates of all states, if these come to an end and no neighbour decides."""
     with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
-        fates = all_outcomes(states, 4 * MOST_PLACES) if has_fates(states) else None
+        fates = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
         if fates is not None:
             yield fates
 

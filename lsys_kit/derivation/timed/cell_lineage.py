@@ -74,7 +74,7 @@ class CellDivisions:
     def of(self, state: int) -> CellPart:
         """What becomes of a settled state."""
         if state not in self._known:
-            module, rule = self.states.modules[state], self.states.fate(state)
+            module, rule = self.states.modules[state], self.states.rule(state)
             self._known[state] = self._replaced(module, module, rule, 0) if rule else self._decomposed(module, module, 0)
         return self._known[state]
 

@@ -116,7 +116,7 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
     if isinstance(what, LSystem):
         steps: Any = n if n is not None else what.steps if what.steps is not None else 5
         start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
-        if start.states.asks:
+        if start.states.traits.sensitive:
             raise ModelValueError("The system asks for what the turtle sees, and words alone do not tell that",
                                   hint="Derive it first, and ask for the lineage of the derivation.")
         return _of_words(start.to(steps))
@@ -145,12 +145,12 @@ def _of_words(derivation: Derivation) -> Lineage:
     words = [growth.places]
     for step in range(1, len(derivation)):
         before, growth.places = growth.places, []
-        parts = map(fates.of, derivation[step - 1].numbers()) if states.settled else _flat_parts(derivation, step)
+        parts = map(fates.of, derivation[step - 1].numbers()) if states.traits.d0l else _flat_parts(derivation, step)
         for owner, part in zip(before, parts, strict=True):
             growth.follow(part, owner, step, (normalised((step - 1) * length), normalised(step * length)))
         words.append(growth.places)
     end = normalised(derivation.steps * length)
-    if states.settled and fates.ageing.parameters:
+    if states.traits.d0l and fates.ageing.parameters:
         for owner, state in zip(growth.places, derivation[-1].numbers(), strict=True):
             due = growth.overdue(fates.of(state), end + length) if owner is not None else None
             if owner is not None and due is not None and due < end:

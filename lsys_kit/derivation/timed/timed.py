@@ -18,7 +18,7 @@ from itertools import repeat
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.closure import check_settled
+from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import kind_of, number_from
 from lsys_kit.derivation.core.states import States
@@ -156,7 +156,7 @@ def timed(system: LSystem, **constants: object) -> Timed:
         The system is no timed one.
     """
     states = States(system, constants)
-    check_settled(states, "The word at any time")
+    check_d0l(states, "The word at any time")
     for rules in states.rules.values():
         for rule in rules:
             if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:

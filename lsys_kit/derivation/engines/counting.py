@@ -1,0 +1,121 @@
+"""Counting: the engine of D0L systems, in which a module alone decides what becomes of it.
+
+How often each state occurs in a word follows from how often each occurs in the word before. So the size of every step is
+known before a word is built, and the word of any step is built without those between.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
+from lsys_kit.derivation.engines.engine import OFTEN, Origins, check_size, check_time
+from lsys_kit.derivation.engines.expansion import Letters, expand
+
+MOST_LISTED = 4_096
+"""Words up to this length are lists, which are quicker than arrays at that size."""
+DIFFERENT = 50
+"""From so many different modules on a word may become columns, if they are most of it."""
+
+
+class CountingEngine:
+    """The derivation of a D0L system, in columns where nearly all modules are different and `columns` are given."""
+
+    def __init__(self, states: States, columns: ColumnarSteps | None) -> None:
+        self.states = states
+        self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
+        self._words: dict[int, Word] = {}
+        self._letters = Letters(states)
+        self._columns = columns
+        self._late: list[ColumnWord] = []
+
+    @property
+    def known(self) -> int:
+        """The last step whose size is known."""
+        return len(self._steps) + len(self._late) - 1
+
+    def size(self, step: int) -> int:
+        """How many modules a known step has."""
+        return self._steps[step][1] if step < len(self._steps) else len(self.word(step))
+
+    def counts(self, step: int) -> Counter[int]:
+        """How often each state occurs at a known step."""
+        return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
+
+    def advance(self, until: float) -> None:
+        """Make one step more known."""
+        step, (before, size) = self.known + 1, self._steps[-1]
+        if self._columns and (self._late or (len(before) > DIFFERENT and 2 * len(before) > size)):
+            self._late.append(self._in_columns(self._columns, step, until))
+            return
+        if len(self.states.successors) < len(self.states):  # some have to be made: not for a step that is refused
+            check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
+        after = next_counts(self.states, before, partial(check_time, self.states, step, until))
+        check_time(self.states, step, until)
+        size = sum(after.values())
+        check_size(self.states, step, size)
+        self._steps.append((after, size))
+
+    def _in_columns(self, columns: ColumnarSteps, step: int, until: float) -> ColumnWord:
+        """The next word, where nearly all modules are different."""
+        before = self._late[-1] if self._late else columns.word(list(self.word(step - 1)))
+        check_time(self.states, step, until)
+        return columns.step(before, lambda size: check_size(self.states, step, size, columns.bytes(size)))
+
+    def word(self, step: int) -> Word:
+        """The word of a known step."""
+        if step >= len(self._steps):
+            return self._late[step - len(self._steps)]
+        if step not in self._words:
+            self._words[step] = self._built(step)
+        return self._words[step]
+
+    def _built(self, step: int) -> Word:
+        if step == 0:
+            return Word(self.states, list(self.states.axiom))
+        before, small = self._words.get(step - 1), self.size(step) <= MOST_LISTED
+        if small and before is not None:
+            return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
+        array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
+        return Word(self.states, array.tolist() if small else array)
+
+    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
+        """What becomes of a short word, given the states that occur in it."""
+        successors, letters = self.states.successors, self._letters
+        if present.keys() <= letters.known or all(letters.learnt(state, successors[state]) for state in present):
+            return letters.replaced(bytes(word.codes))
+        return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
+
+    def origins(self, step: int) -> Origins:
+        """Where the modules of a step's word come from."""
+        parents: list[int] = []
+        productions: list[int | None] = []
+        for position, state in enumerate(self.word(step - 1).numbers()):
+            made = len(self.states.successor(state))
+            parents += [position] * made
+            productions += [self.states.production(state)] * made
+        return Origins(parents, productions)
+
+    def sight(self, _: int) -> None:
+        """Nobody looks at words whose modules ask for nothing."""
+
+
+def next_counts(states: States, counts: Mapping[int, int], watch: Callable[[], None] = lambda: None) -> dict[int, int]:
+    """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
+    after: dict[int, int] = {}
+    already, successors = after.get, states.successors
+    for number, (state, count) in enumerate(counts.items(), 1):
+        row = successors[state]
+        for successor in row:
+            after[successor] = already(successor, 0) + count
+        if number % OFTEN == 0 or len(row) > OFTEN:
+            watch()
+    return after
