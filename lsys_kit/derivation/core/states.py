@@ -94,7 +94,8 @@ class States:
         self._parts: dict[tuple[object, ...], tuple[int, ...]] = {}
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
-        self.traits = replace(traits_of(system, arithmetic), unknown=any(map(is_symbolic, self.constants)))
+        known = traits_of(system, arithmetic)
+        self.traits = replace(known, unknown=True) if any(map(is_symbolic, self.constants)) else known
         self.axiom = tuple(self._axiom())
 
     def __len__(self) -> int:

@@ -1,21 +1,25 @@
-"""A step of a long word, all modules at once.
+"""A step by arrays: all modules of a word at once.
 
-Where rules look at no more than one neighbour on each side and leave nothing but the choice of a rule to chance, a module's
-case is three states. The cases that occur are looked up once each, and the new word is gathered from what they become.
+Where rules name no more than one neighbour on each side and leave nothing but the choice of a rule to chance, a module's case
+is three states. The cases that occur are looked up once each, and the new word is gathered from what they become. Cases are
+worked out by the stepwise engine, on words of up to three modules.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from lsys_kit.derivation.core.chance import units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
+from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.expansion import Letters, code_type
+from lsys_kit.derivation.engines.expansion import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CLOSING, OPENING
 
 Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
@@ -34,14 +38,15 @@ class Replacements:
         self.states = states
         self.replacements: list[Replacement] = []
         self._numbers: dict[Replacement, int] = {}
-        self._letters = Letters(states)
+        self._bytes = ByteTable(states)
 
     def number(self, replacement: Replacement) -> int:
         """The number of a replacement, a new one where it has not been met."""
         found = self._numbers.get(replacement)
         if found is None:
-            found = self._numbers[replacement] = len(self.replacements)
+            found = len(self.replacements)
             self.replacements.append(replacement)
+            self._numbers[replacement] = found  # last, so that an interrupt leaves no number without its replacement
         return found
 
     def sizes(self) -> Integers:
@@ -58,9 +63,9 @@ class Replacements:
 
     def replaced(self, chosen: Integers) -> Integers:
         """The replacements of some numbers, one after another."""
-        if chosen.dtype == np.uint8 and all(self._letters.learnt(number, replacement.states)
+        if chosen.dtype == np.uint8 and all(self._bytes.add(number, replacement.states)
                                             for number, replacement in enumerate(self.replacements)):
-            return self._letters.replaced(chosen.tobytes())
+            return self._bytes.replaced(chosen.tobytes())
         sizes = self.sizes()
         lengths = sizes[chosen]
         places = np.repeat((np.cumsum(sizes) - sizes)[chosen] - np.cumsum(lengths) + lengths, lengths)
@@ -70,25 +75,50 @@ class Replacements:
         return gathered
 
 
+@dataclass(frozen=True)
+class Choice:
+    """A case in which chance decides between several rules.
+
+    Attributes
+    ----------
+    state
+        The module.
+    rules
+        The rules, each with the values of the parameters that it names.
+    marks
+        Where in the line from 0 to `total` the stretch of each rule ends.
+    total
+        The sum of all weights.
+    """
+
+    state: int
+    rules: Sequence[tuple[Rule, tuple[Value, ...]]]
+    marks: Integers
+    total: float
+
+    def drawn(self, units: Integers) -> Integers:
+        """For each random number from 0 up to 1 the index of the rule that it chooses."""
+        return np.searchsorted(self.marks, units * self.total, side="right").clip(max=len(self.rules) - 1)
+
+
 class ContextEngine:
-    """The bulk steps of one system under one seed.
+    """The steps of one system under one seed, all modules of a word at once.
 
     Examples
     --------
     >>> from lsys_kit.derivation.core.states import States
     >>> from lsys_kit.notation.read import read
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
-    >>> bulk = ContextEngine(stepper)
-    >>> bulk.fates.replaced(bulk.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
+    >>> arrays = ContextEngine(stepper)
+    >>> arrays.outcomes.replaced(arrays.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
     [0, 0, 1]
     """
 
     def __init__(self, stepper: Stepper) -> None:
-        self.stepper, self.fates = stepper, Replacements(stepper.states)
-        self._roles: list[int] = []
-        self._fixed: list[int] = []
+        self.stepper, self.outcomes = stepper, Replacements(stepper.states)
+        self._roles: list[tuple[int, int]] = []
         self._numbers: dict[tuple[int, int, int], int] = {}
-        self._lots: list[tuple[list[int], Integers]] = []
+        self._choices: list[Choice] = []
         self._table: Integers = np.zeros(0, dtype=np.int64)
 
     def chosen(self, codes: Integers, step: int) -> Integers:
@@ -99,13 +129,14 @@ class ContextEngine:
         for state in range(len(self._roles), size):
             self._meet(state)
         roles = np.zeros(len(codes), dtype=np.uint8)
-        if any(self._roles):
-            roles = np.array(self._roles, dtype=np.uint8).take(codes)
+        if any(role for role, _ in self._roles):
+            roles = np.array([role for role, _ in self._roles], dtype=np.uint8).take(codes)
         where = np.flatnonzero(roles != SKIPPED)
         if len(where) == len(codes):
             return self._drawn(self._in_context(codes, roles, size), None, step)
         found = self._drawn(self._in_context(codes.take(where), roles.take(where), size), where, step)
-        chosen = np.array(self._fixed, dtype=code_type(len(self.fates.replacements))).take(codes)
+        fixed = [outcome for _, outcome in self._roles]
+        chosen = np.array(fixed, dtype=code_type(len(self.outcomes.replacements))).take(codes)
         chosen[where] = found
         return chosen
 
@@ -119,15 +150,15 @@ class ContextEngine:
         elif symbol in self.stepper.passed:
             role = PASSED
             if states.is_d0l(state):
-                role, fixed = SKIPPED, self.fates.number(Replacement(states.successor(state), states.production(state)))
-        self._roles.append(role)
-        self._fixed.append(fixed)
+                role, fixed = SKIPPED, self.outcomes.number(Replacement(states.successor(state), states.production(state)))
+        self._roles.append((role, fixed))
 
     def _in_context(self, codes: Integers, roles: Integers, size: int) -> Integers:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
         left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
         kind = code_type(size * (size + 1) ** 2)
-        keys = (left.astype(kind) * kind.type(size + 1) + right.astype(kind)) * kind.type(size) + codes.astype(kind)
+        keys = left.astype(kind) * kind.type(size + 1) + right.astype(kind, copy=False)
+        keys = keys * kind.type(size) + codes.astype(kind, copy=False)
 
         def case(key: int) -> tuple[int, int, int]:
             rest, code = divmod(key, size)
@@ -139,7 +170,7 @@ class ContextEngine:
     def _cases(self, keys: Integers, bound: int, case: Callable[[int], tuple[int, int, int]]) -> Integers:
         """For each module, whose case is told by a key below a bound, the number of what becomes of it, from 1 on.
 
-        Where lots are drawn it is below zero. What a key stands for is asked when it is met first.
+        Where chance decides it is below zero. What a key stands for is asked when it is met first.
         """
         if bound > LARGEST_TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
@@ -155,39 +186,52 @@ class ContextEngine:
         return found
 
     def _number(self, case: tuple[int, int, int]) -> int:
-        """The number of what becomes of a module in a case; where lots are drawn, that of the lots, below zero."""
+        """The number of what becomes of a module in a case; where chance decides, that of the choice, below zero."""
         if case not in self._numbers:
-            fates, weights = self._found(*case)
-            if len(fates) > 1:
-                self._lots.append((fates, np.cumsum(weights)))
-            self._numbers[case] = fates[0] + 1 if len(fates) == 1 else -len(self._lots)
+            found = self._found(*case)
+            if isinstance(found, Choice):
+                self._choices.append(found)
+            self._numbers[case] = -len(self._choices) if isinstance(found, Choice) else self.outcomes.number(found) + 1
         return self._numbers[case]
 
-    def _drawn(self, numbers: Integers, where: Integers | None, step: int) -> Integers:
-        """For each module the number of its replacement, after lots are drawn; `where` it stands, if not at its own place."""
-        kind = code_type(len(self.fates.replacements))
-        result = (numbers - 1).astype(kind)
-        for number, (fates, marks) in enumerate(self._lots, 1):
-            ours = np.flatnonzero(numbers == -number)
-            lots = units(self.stepper.seed, step, ours if where is None else where[ours]) * marks[-1]
-            drawn = np.searchsorted(marks, lots, side="right").clip(max=len(fates) - 1)
-            result[ours] = np.array(fates, dtype=kind)[drawn]
-        return result
-
-    def _found(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
-        """The same, tried on a word of just these modules: the possible replacements, and their weights."""
+    def _found(self, left: int, code: int, right: int) -> Replacement | Choice:
+        """What becomes of a module between two others, tried on a word of just these."""
         states = self.stepper.states
         if states.is_d0l(code):
-            return [self.fates.number(Replacement(states.successor(code), states.production(code)))], [1.0]
+            return Replacement(states.successor(code), states.production(code))
         word = [state for state in (left, code, right) if state != NO_NEIGHBOUR]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NO_NEIGHBOUR))
         if not matched:
-            return [self.fates.number(Replacement(states.parts(states.modules[code]), None))], [1.0]
+            return Replacement(states.parts(states.modules[code]), None)
         states.drawn(matched, None)  # refuses weights that are none
-        weights = [float(states.weight(rule, values)) for rule, values in matched if rule.probability]
-        made = [Replacement(states.replaced(rule, states.modules[code], values), rule.number)
-                for rule, values in (matched if weights else matched[:1])]
-        return [self.fates.number(replacement) for replacement in made], weights or [1.0]
+        weights = [states.weight(rule, values) for rule, values in matched if rule.probability]
+        if len(weights) < 2:
+            return self._applied(code, *matched[0])
+        return Choice(code, matched, np.cumsum(list(map(float, weights))), float(sum(weights)))
+
+    def _applied(self, code: int, rule: Rule, values: tuple[Value, ...]) -> Replacement:
+        states = self.stepper.states
+        return Replacement(states.replaced(rule, states.modules[code], values), rule.number)
+
+    def _drawn(self, numbers: Integers, where: Integers | None, step: int) -> Integers:
+        """For each module the number of its replacement, after chance; `where` it stands, if not at its own place."""
+        drawn = [self._choose(choice, np.flatnonzero(numbers == -number), where, step)
+                 for number, choice in enumerate(self._choices, 1)]
+        result: Integers = (numbers - 1).astype(code_type(len(self.outcomes.replacements)))
+        for ours, outcomes in drawn:
+            result[ours] = outcomes
+        return result
+
+    def _choose(self, choice: Choice, ours: Integers, where: Integers | None, step: int) -> tuple[Integers, Integers]:
+        """Where modules stand between whose rules chance decides, and the numbers of what they become.
+
+        What a rule makes is computed when it is drawn first: one that never is may have no value.
+        """
+        rules = choice.drawn(units(self.stepper.seed, step, ours if where is None else where[ours]))
+        outcomes = np.zeros(len(choice.rules), dtype=np.int64)
+        for rule in np.flatnonzero(np.bincount(rules, minlength=len(outcomes))).tolist():
+            outcomes[rule] = self.outcomes.number(self._applied(choice.state, *choice.rules[rule]))
+        return ours, outcomes[rules]
 
 
 def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from functools import cached_property, partial
 from itertools import chain
 from typing import Any
 
@@ -18,24 +18,25 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import OFTEN, Origins, check_size, check_time
-from lsys_kit.derivation.engines.expansion import Letters, expand
+from lsys_kit.derivation.engines.expansion import ByteTable, code_type, expand
 
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
 DIFFERENT = 50
-"""From so many different modules on a word may become columns, if they are most of it."""
+"""Where more new states than this are met in a step, and they are most of its word, words become columns."""
 
 
 class CountingEngine:
-    """The derivation of a D0L system, in columns where nearly all modules are different and `columns` are given."""
+    """The derivation of a D0L system, in columns from where on nearly all modules are different, if it is `columnar`."""
 
-    def __init__(self, states: States, columns: ColumnarSteps | None) -> None:
+    def __init__(self, states: States, columnar: bool) -> None:
         self.states = states
         self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
         self._words: dict[int, Word] = {}
-        self._letters = Letters(states)
-        self._columns = columns
-        self._late: list[ColumnWord] = []
+        self._bytes = ByteTable(states)
+        self._columnar = columnar
+        self._new = 0  # so many states were met first at the last step
+        self._late: list[Word] = []
 
     @property
     def known(self) -> int:
@@ -52,23 +53,48 @@ class CountingEngine:
 
     def advance(self, until: float) -> None:
         """Make one step more known."""
-        step, (before, size) = self.known + 1, self._steps[-1]
-        if self._columns and (self._late or (len(before) > DIFFERENT and 2 * len(before) > size)):
-            self._late.append(self._in_columns(self._columns, step, until))
+        step, (before, _) = self.known + 1, self._steps[-1]
+        if self._late or (self._columnar and self._nearly_all_new()):
+            self._late.append(self._next_word(step, until))
             return
-        if len(self.states.successors) < len(self.states):  # some have to be made: not for a step that is refused
+        met = len(self.states)
+        if len(self.states.successors) < met:  # some have to be made: not for a step that is refused
             check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
         after = next_counts(self.states, before, partial(check_time, self.states, step, until))
         check_time(self.states, step, until)
         size = sum(after.values())
         check_size(self.states, step, size)
+        self._new = len(self.states) - met
         self._steps.append((after, size))
 
-    def _in_columns(self, columns: ColumnarSteps, step: int, until: float) -> ColumnWord:
-        """The next word, where nearly all modules are different."""
-        before = self._late[-1] if self._late else columns.word(list(self.word(step - 1)))
+    def _nearly_all_new(self) -> bool:
+        """Whether most modules of the last word were met for the first time in it."""
+        return self._new > DIFFERENT and 2 * self._new > self._steps[-1][1]
+
+    @cached_property
+    def _columns(self) -> ColumnarSteps:
+        return ColumnarSteps(self.states)
+
+    def _next_word(self, step: int, until: float) -> Word:
+        """The next word, where nearly all modules are different: in columns, or from the table of states."""
+        before, columns = self.word(step - 1), self._columns
         check_time(self.states, step, until)
-        return columns.step(before, lambda size: check_size(self.states, step, size, columns.bytes(size)))
+        try:
+            return columns.step(before if isinstance(before, ColumnWord) else columns.word(before),
+                                partial(check_size, self.states, step))
+        except ArithmeticError:
+            return self._from_table(before.numbers(), step, until)
+
+    def _from_table(self, before: Sequence[int], step: int, until: float) -> Word:
+        """The next word, module by module."""
+        found: list[int] = []
+        for number, state in enumerate(before):
+            found += self.states.successors[state]
+            if number % OFTEN == 0:
+                check_time(self.states, step, until)
+                check_size(self.states, step, len(found))
+        check_size(self.states, step, len(found))
+        return Word(self.states, found if len(found) <= MOST_LISTED else np.array(found, code_type(len(self.states))))
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
@@ -89,9 +115,9 @@ class CountingEngine:
 
     def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
         """What becomes of a short word, given the states that occur in it."""
-        successors, letters = self.states.successors, self._letters
-        if present.keys() <= letters.known or all(letters.learnt(state, successors[state]) for state in present):
-            return letters.replaced(bytes(word.codes))
+        successors, table = self.states.successors, self._bytes
+        if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):
+            return table.replaced(bytes(word.codes))
         return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
 
     def origins(self, step: int) -> Origins:

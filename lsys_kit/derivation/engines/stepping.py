@@ -21,8 +21,6 @@ from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
 
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
-BULK = 64
-"""Words from this length on are stepped in bulk, where that is possible."""
 
 
 class SteppingEngine:
@@ -30,7 +28,7 @@ class SteppingEngine:
 
     def __init__(self, stepper: Stepper, arrays: ContextEngine | None, world: Observer | None = None) -> None:
         states = stepper.states
-        self.states, self._world, self._stepper, self._bulk = states, world, stepper, arrays
+        self.states, self._world, self._stepper, self._arrays = states, world, stepper, arrays
         self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
 
     @property
@@ -52,25 +50,25 @@ class SteppingEngine:
         if self._world:
             sight = self._world(before, partial(check_time, self.states, step, until))
             before, sees = sight.word, sight.sees
-        if self._bulk and len(before) > BULK:
-            made = self._in_bulk(self._bulk, before, step)
+        if self._arrays:
+            made = self._by_arrays(self._arrays, before, step)
         else:
             made = self._one_by_one(before.numbers(), step, until, sees)
         check_time(self.states, step, until)
         self._steps.append(made)
 
-    def _in_bulk(self, bulk: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
+    def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
-        codes = np.asarray(before.codes)
-        chosen = bulk.chosen(codes, step - 1)
-        check_size(self.states, step, bulk.fates.size(chosen))
-        word = Word(self.states, bulk.fates.replaced(chosen))
+        codes = np.asarray(before.codes, dtype=code_type(len(self.states)))
+        chosen = arrays.chosen(codes, step - 1)
+        check_size(self.states, step, arrays.outcomes.size(chosen))
+        word = Word(self.states, arrays.outcomes.replaced(chosen))
 
         def origins() -> Origins:
-            sizes = bulk.fates.sizes()[chosen]
-            productions = [replacement.production for replacement in bulk.fates.replacements]
+            sizes = arrays.outcomes.sizes()[chosen]
+            productions = [replacement.production for replacement in arrays.outcomes.replacements]
             return Origins(np.repeat(np.arange(len(chosen)), sizes).tolist(),
-                           [productions[fate] for fate in np.repeat(chosen, sizes).tolist()])
+                           [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()])
 
         return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
 

@@ -40,9 +40,8 @@ def serves(engine: type, traits: Traits) -> bool:
 def engine_for(states: States, seed: int, world: Observer | None = None) -> Engine:
     """The engine that derives a system; where it asks what the turtle sees, in a world that answers."""
     traits = states.traits
-    columns = serves(ColumnarSteps, traits) and states.arithmetic == "float"
     if serves(CountingEngine, traits):
-        return CountingEngine(states, ColumnarSteps(states) if columns else None)
+        return CountingEngine(states, serves(ColumnarSteps, traits))
     stepper = Stepper(states, seed)
     arrays = ContextEngine(stepper) if serves(ContextEngine, traits) else None
     return SteppingEngine(stepper, arrays, world if traits.sensitive else None)
