@@ -402,5 +402,5 @@ def test_the_rule_that_is_the_first_to_apply_ends_a_life() -> None:
 
 @pytest.mark.parametrize("name", ["J1", "J4", "P5", "K8", "K19"])
 def test_durations_that_no_rule_tells(name: str) -> None:
-    with pytest.raises(ModelValueError, match="How long a module lives is not told where"):
+    with pytest.raises(ModelValueError, match="How long a module lives cannot be told, since"):
         stages(catalogued(name), durations=True)

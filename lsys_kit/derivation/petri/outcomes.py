@@ -1,7 +1,7 @@
-"""Fates: what may become of a state in one step, and how likely that is.
+"""Outcomes: what may become of a state in one step, and how likely that is.
 
-Where a module alone decides what becomes of it, it has one fate; where it is left to chance which production rewrites it, one
-for each of them. All fates of all states together are a system's growth, and its stage diagram.
+Where a module alone decides what becomes of it, it has one outcome; where chance decides which production rewrites it, one for
+each of them. All outcomes of all states together are a system's stage diagram.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     """What may become of a state of a system without contexts; nothing where no production matches.
 
     >>> from lsys_kit.notation.read import read
-    >>> for fate in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
-    ...     print(fate.production, fate.successor, fate.chance)
+    >>> for outcome in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
+    ...     print(outcome.production, outcome.successor, outcome.chance)
     0 (0, 0) 1/3
     1 (0,) 2/3
     """
@@ -61,7 +61,7 @@ def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
 
 
 def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None:
-    """The fates of all states that may be met from the axiom on; None where they are more than `limit`."""
+    """The outcomes of all states that may be met from the axiom on; None where they are more than `limit`."""
     found: list[tuple[Outcome, ...]] = []
     while len(found) < len(states):
         if len(states) > limit:

@@ -20,12 +20,13 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
 from lsys_kit.derivation.petri.by_symbol import by_symbol
-from lsys_kit.derivation.petri.life_stages import AgeingStates, ageing_in_steps, ageing_in_time, life_stages
+from lsys_kit.derivation.petri.life_stages import ages_in_steps, life_stages
 from lsys_kit.derivation.petri.net import Arc as Arc
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
 from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
+from lsys_kit.derivation.timed.ages import AgeModel
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
@@ -43,7 +44,7 @@ class _Table:
 
     states: States
     modules: Sequence[Module]
-    fates: Sequence[tuple[Outcome, ...]]
+    outcomes: Sequence[tuple[Outcome, ...]]
     row: Callable[[Module], int | None]
     most: int = 10 * MOST_PLACES
 
@@ -89,42 +90,42 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
                                   hint="Write stages(timed(system, name=value)).")
-        return _in_time(ageing_in_time(system), polarity)
+        return _in_time(system.ages, polarity)
     states = States(system, constants)
     if durations:
-        return _in_time(ageing_in_steps(states), polarity)
+        return _in_time(ages_in_steps(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
     return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
                 None) or by_symbol(states)
 
 
-def _in_time(growing: AgeingStates, polarity: bool) -> Stages:
+def _in_time(ages: AgeModel, polarity: bool) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
-    found = life_stages(growing, MOST_PLACES)
-    return _net(_Table(growing.states, found.modules, found.fates, found.stretch), growing.states, polarity)
+    found = life_stages(ages, MOST_PLACES)
+    return _net(_Table(ages.states, found.modules, found.outcomes, found.stretch), ages.states, polarity)
 
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
     """The states of a system, then those without the parameters that decide nothing; only where they end."""
-    for fates in _ended(states):
-        yield _Table(states, states.modules, fates, {module: row for row, module in enumerate(states.modules)}.get)
+    for outcomes in _ended(states):
+        yield _Table(states, states.modules, outcomes, {module: row for row, module in enumerate(states.modules)}.get)
     system, kept = states.system, deciding_positions(states.system)
     model = slice_system(system)
     if (model.axiom, model.productions, model.decomposition) == (system.axiom, system.productions, system.decomposition):
         return
     whole = tuple(rule for rule in system.interpretation if without_arguments(rule.predecessor, kept) == rule.predecessor)
     fewer = States(replace(model, interpretation=whole), constants)
-    for fates in _ended(fewer):
+    for outcomes in _ended(fewer):
         rows = {module: row for row, module in enumerate(fewer.modules)}
-        yield _Table(fewer, fewer.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
+        yield _Table(fewer, fewer.modules, outcomes, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
 
 
 def _ended(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
-    """The fates of all states, if these come to an end and no neighbour decides."""
+    """The outcomes of all states, if these are finitely many and no neighbour decides."""
     with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
-        fates = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
-        if fates is not None:
-            yield fates
+        outcomes = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
+        if outcomes is not None:
+            yield outcomes
 
 
 def _row(rows: Mapping[Module, int], kept: Set[ArgumentPosition], module: Module) -> int | None:
@@ -156,8 +157,8 @@ def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], mo
 
 
 def _side_by_side(table: _Table, group: Sequence[int], classes: Sequence[int]) -> Iterator[tuple[Outcome, ...]]:
-    """The fates of the rows of one class, those together that lead to the same classes, in the order of the productions."""
-    ways = zip(*(sorted(table.fates[row], key=lambda fate: _likeness(fate, classes)) for row in group), strict=True)
+    """The outcomes of the rows of one class, those together that lead to the same classes, in the order of the productions."""
+    ways = zip(*(sorted(table.outcomes[row], key=lambda outcome: _likeness(outcome, classes)) for row in group), strict=True)
     return iter(sorted(ways, key=lambda way: way[0].production or 0))
 
 
@@ -171,20 +172,21 @@ def _targets(rows: Sequence[Sequence[int]]) -> Iterator[tuple[int, int, tuple[in
 def _merged(table: _Table) -> list[int]:
     """For each row its class: rows that look alike but for their polarity and become alike are one class.
 
-    The coarsest partition that is finer than the looks and under which fates are alike, found by refinement.
+    The coarsest partition that is finer than the looks and under which outcomes are alike, found by refinement.
     """
     classes = _numbered([_look(table.states, module) for module in table.modules])
     while True:
-        finer = _numbered([(classes[row], *sorted(_likeness(fate, classes) for fate in fates))
-                           for row, fates in enumerate(table.fates)])
+        finer = _numbered([(classes[row], *sorted(_likeness(outcome, classes) for outcome in outcomes))
+                           for row, outcomes in enumerate(table.outcomes)])
         if finer == classes:
             return classes
         classes = finer
 
 
-def _likeness(fate: Outcome, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
-    """What makes two fates alike."""
-    return fate.chance, -1 if fate.span is None else fate.span, tuple(sorted(classes[row] for row in fate.successor))
+def _likeness(outcome: Outcome, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
+    """What makes two outcomes alike."""
+    span = -1 if outcome.span is None else outcome.span
+    return outcome.chance, span, tuple(sorted(classes[row] for row in outcome.successor))
 
 
 def _numbered(keys: Sequence[Hashable]) -> list[int]:

@@ -68,7 +68,7 @@ class CellDivisions:
     """What becomes of each state within a step, with what comes and goes in between."""
 
     def __init__(self, states: States) -> None:
-        self.states, self.ageing = states, age_model(states)
+        self.states, self.ages = states, age_model(states)
         self._known: dict[int, CellPart] = {}
 
     def of(self, state: int) -> CellPart:
@@ -80,11 +80,11 @@ class CellDivisions:
 
     def _replaced(self, module: Module, at_birth: Module, rule: Rule, depth: int) -> CellPart:
         """A module with the parts by which a rule replaces it, as they are now and as they were at first."""
-        age, threshold = self.ageing.age(module), self.ageing.applies_from(rule, module)
-        made = [Module(*part) for part in self.states.made(rule, module)]
+        age, threshold = self.ages.age(module), self.ages.applies_from(rule, module)
+        made = self.ages.made(rule, module)
         if age is None or threshold is None:
             return CellPart(module, at_birth, tuple(self._decomposed(part, part, depth) for part in made))
-        first = [Module(*part) for part in self.states.made(rule, self.ageing.aged(module, threshold))]
+        first = self.ages.made(rule, self.ages.aged(module, threshold))
         parts = tuple(self._decomposed(part, was, depth) for part, was in zip(made, first, strict=True))
         return CellPart(module, at_birth, parts, age - threshold)
 

@@ -235,7 +235,7 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MOST_ORDER:
         raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {order!r}")
     growing, given = _given(system, constants)
-    fates = list(_fates(growing))
+    fates = list(_divisions(growing))
     lives = _lives(growing, fates)
     texts = written_functions(lengths, lives)
     functions = length_functions(growing, texts, given, lives)
@@ -263,13 +263,14 @@ def _plain(value: object) -> object:
 
 
 
-def _fates(growing: Timed) -> Iterator[CellFate]:
+def _divisions(growing: Timed) -> Iterator[tuple[Production, Module, list[Module]]]:
     """Each production, its mother at her terminal age, her daughters at their first ages."""
     for (symbol, _), (rule, *_) in growing.states.rules.items():
-        others = (unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])
-        mother = growing.at_end(Module(symbol, (0, *others)))
-        if mother is not None:
-            yield rule.production, mother, growing.daughters(mother)
+        letter = Module(symbol, (0, *(unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])))
+        end = growing.ages.end(letter)
+        if end is not None:
+            mother = growing.ages.aged(letter, end[1])
+            yield end[0].production, mother, growing.ages.daughters(mother)
 
 
 def _lives(growing: Timed, fates: Iterable[CellFate]) -> dict[str, sympy.Set]:

@@ -138,21 +138,21 @@ def _of_words(derivation: Derivation) -> Lineage:
     if sum(derivation.lengths) > MOST_CELLS:
         raise ModelLimitError(f"The words of a lineage may have {MOST_CELLS:,} modules together", limit=MOST_CELLS,
                               needed=sum(derivation.lengths), hint="Take fewer steps.")
-    growth, fates = CellGrowth(states), CellDivisions(states)
-    length = fates.ageing.step or 1
+    growth, divisions = CellGrowth(states), CellDivisions(states)
+    length = divisions.ages.step or 1
     for module in derivation[0]:
         growth.found(growth.born(None, 0, module) if growth.is_cell(module) else None, 0, module)
     words = [growth.places]
     for step in range(1, len(derivation)):
         before, growth.places = growth.places, []
-        parts = map(fates.of, derivation[step - 1].numbers()) if states.traits.d0l else _flat_parts(derivation, step)
+        parts = map(divisions.of, derivation[step - 1].numbers()) if states.traits.d0l else _flat_parts(derivation, step)
         for owner, part in zip(before, parts, strict=True):
             growth.follow(part, owner, step, (normalised((step - 1) * length), normalised(step * length)))
         words.append(growth.places)
     end = normalised(derivation.steps * length)
-    if states.traits.d0l and fates.ageing.parameters:
+    if states.traits.d0l and divisions.ages.step is not None:
         for owner, state in zip(growth.places, derivation[-1].numbers(), strict=True):
-            due = growth.overdue(fates.of(state), end + length) if owner is not None else None
+            due = growth.overdue(divisions.of(state), end + length) if owner is not None else None
             if owner is not None and due is not None and due < end:
                 growth.cells[owner] = replace(growth.cells[owner], due=due)
     found = tuple(tuple(cell for cell in word if cell is not None) for word in words)
@@ -181,12 +181,12 @@ def _in_time(system: Timed, end: Value) -> Lineage:
     first, growth.places = tuple(range(len(axiom))), []
     while todo:
         module, since, cell = todo.pop()
-        last = system.at_end(module)
-        moment: Value = end if last is None else since + (last.arguments[0] - module.arguments[0])  # type: ignore[operator]
+        last = system.ages.end(module)
+        moment: Value = end if last is None else since + (last[1] - (system.ages.age(module) or 0))
         if last is None or moment >= end:
             growth.found(cell, 1, word[len(growth.places)])
             continue
-        daughters = system.daughters(last)
+        daughters = system.ages.daughters(module)
         if len(daughters) != 1:
             growth.cells[cell] = replace(growth.cells[cell], ended=moment)
         numbers = [cell] if len(daughters) == 1 else [growth.born(cell, moment, daughter) for daughter in daughters]

@@ -14,22 +14,19 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import repeat
-from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.closure import check_d0l
-from lsys_kit.derivation.core.rule_errors import rule_error
-from lsys_kit.derivation.core.rules import kind_of, number_from
+from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.timed.ages import AgeModel, timed_age_model, undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
-from lsys_kit.notation.model.system import LSystem, Module, Production
+from lsys_kit.notation.model.system import LSystem, Module
 from lsys_kit.notation.write import as_written
-
-if TYPE_CHECKING:
-    pass
 
 OFTEN = 1_024
 """After how many cells somebody looks at the clock."""
@@ -46,6 +43,11 @@ class Timed:
     """
 
     states: States
+
+    @cached_property
+    def ages(self) -> AgeModel:
+        """How its modules grow older, and how their lives end."""
+        return timed_age_model(self.states)
 
     def word(self, at: object) -> Word:
         """The word at a time.
@@ -86,8 +88,8 @@ class Timed:
             module, left, instant = todo.pop()
             rest, daughters = self._division(module, left)
             if daughters is None:
-                aged = (*(age + left for age in module.arguments[:1]), *module.arguments[1:])  # type: ignore[operator]
-                found.append(self.states.number(module.symbol, aged))  # type: ignore[arg-type]
+                older = self.ages.aged(module, (self.ages.age(module) or 0) + left)
+                found.append(self.states.number(older.symbol, older.arguments))  # type: ignore[arg-type]
             elif instant > deepest:
                 raise ModelValueError(f"{module} divides without end in no time at all",
                                       hint="Let a daughter begin younger than the age at which she divides.")
@@ -103,41 +105,17 @@ class Timed:
                                       hint="Take an earlier time, or set limits(seconds=...).")
         return Word(self.states, found)
 
-    def at_end(self, module: Module) -> Module | None:
-        """A module at its terminal age; None where it lives for ever."""
-        rules = self.states.rules.get(kind_of(module))
-        if rules is None:
-            return None
-        try:
-            terminal = rules[0].equalities[0][1]((*module.arguments, *self.states.constants))
-        except (ArithmeticError, ValueError) as fault:
-            raise rule_error(self.states.system, module, rules[0], fault) from None
-        except TypeError:
-            raise self._undecided(module, rules[0].production) from None
-        return Module(module.symbol, (terminal, *module.arguments[1:]))
-
-    def daughters(self, module: Module) -> list[Module]:
-        """What a module at its terminal age becomes: its daughters at their first ages."""
-        return [Module(*made) for made in self.states.made(self.states.rules[kind_of(module)][0], module)]
-
     def _division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
         """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
-        at_end = self.at_end(module)
-        if at_end is None:
+        end = self.ages.end(module)
+        if end is None:
             return left, None
-        rest: Value = left - (at_end.arguments[0] - module.arguments[0])  # type: ignore[operator]
+        rule, terminal = end
+        rest: Value = left - (terminal - module.arguments[0])  # type: ignore[operator]
         try:
-            return (left, None) if rest <= 0 else (rest, self.daughters(at_end))
+            return (left, None) if rest <= 0 else (rest, self.ages.made(rule, self.ages.aged(module, terminal)))
         except TypeError:
-            raise self._undecided(module, self.states.rules[kind_of(module)][0].production) from None
-
-    def _undecided(self, module: Module, production: Production) -> ModelValueError:
-        """The age at which a module divides hangs on a constant that is not known."""
-        names = sorted({str(name) for value in self.states.constants for name in getattr(value, "free_symbols", ())})
-        start, end = production.at or (None, None)
-        return ModelValueError(f"At which age {module} becomes what {production} says cannot be decided",
-                               self.states.system.source or None, start, end,
-                               f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
+            raise undecided_age(self.states, module, rule.production) from None
 
 
 def timed(system: LSystem, **constants: object) -> Timed:
