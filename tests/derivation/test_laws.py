@@ -14,9 +14,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-import lsys_kit.derivation.engines.counting as counting
 import lsys_kit.derivation.engines.expansion as expansion
-import lsys_kit.derivation.engines.stepping as stepping
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.closure import closure
@@ -113,7 +111,7 @@ def test_the_last_word_is_the_same_without_those_between(system: LSystem, steps:
 def test_the_way_a_word_is_built_does_not_show(system: LSystem, plain_up_to: int, piece: int) -> None:
     expected = [plain(word) for word in exact(derive(system, STEPS))]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(counting, "MOST_LISTED", plain_up_to)
+        patch.setattr(expansion, "MOST_LISTED", plain_up_to)
         patch.setattr(expansion, "PIECE", piece)
         assert [plain(word) for word in reversed(derive(system, STEPS))] == expected[::-1]
         assert [plain(word) for word in derive(system, STEPS)] == expected
@@ -264,7 +262,7 @@ def test_words_by_arrays_are_those_of_one_by_one(kinds: tuple[str, ...], data: s
     system = data.draw(systems_with(*kinds))
     expected = defined(system, seed)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stepping, "MOST_LISTED", 3)
+        patch.setattr(expansion, "MOST_LISTED", 3)
         one_by_one = Derivation(SteppingEngine(Stepper(States(system), seed), None)).to(STEPS)
         assert [plain(word) for word in exact(one_by_one)] == expected
         chosen = derive(system, STEPS, seed=seed)

@@ -126,7 +126,7 @@ def choose(weights: Sequence[Value], unit: float) -> int:
     >>> choose((1, 1, 2), 0.49), choose((1, 1, 2), 0.5)
     (1, 2)
     """
-    total = _total(weights)
+    total = _total_weight(weights)
     mark, below = unit * float(total), 0.0
     for number, weight in enumerate(weights):
         below += float(weight)
@@ -141,12 +141,12 @@ def shares(weights: Sequence[Value]) -> list[Value]:
     >>> shares((1, 1, 2))
     [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]
     """
-    total = _total(weights)
+    total = _total_weight(weights)
     exact = all(isinstance(weight, int | Fraction) for weight in weights)
     return [normalised(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
 
 
-def _total(weights: Sequence[Value]) -> Value:
+def _total_weight(weights: Sequence[Value]) -> Value:
     total = sum(weights)
     if min(weights) < 0 or not total > 0:
         raise ValueError("probabilities are not negative, and one of them is greater than 0")

@@ -32,11 +32,11 @@ def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
     """What a module is drawn as; what that consists of is interpreted in turn, `depth` times in all."""
     rules = rules_of(states.system, states.arithmetic, "interpretation")
     chance = Chance(0, 0, 0)
-    rule = states.matching(module, rules, chance) if depth else None
+    rule = states.matching_rule(module, rules, chance) if depth else None
     if rule is None:
         yield module
         return
-    for made in states.made(rule, module, None, chance):
+    for made in states.apply(rule, module, None, chance):
         yield from _image(states, Module(*made), depth - 1)
 
 

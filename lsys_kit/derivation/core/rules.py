@@ -146,11 +146,11 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
     matched = [part for part in (production.condition, production.probability) if part is not None]
     return Rule(
-        number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
+        number, production, tuple(map(kind_of, reversed(production.left))), _branched_context(production.right),
         tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
-        _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
+        _templates(production.successor, order, len(arguments) + len(constants), arithmetic),
         any(map(is_random, [*matched, *made])), any(map(_looks, [*matched, *made])),
         any(is_random(part) or _looks(part) for part in matched),
         tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else ())
@@ -160,14 +160,14 @@ def _looks(expression: Expression) -> bool:
     return any(True for _ in sensed_in(expression))
 
 
-def _parts(items: Sequence[Item], order: Mapping[str, int], size: int,
+def _templates(items: Sequence[Item], order: Mapping[str, int], size: int,
            arithmetic: str) -> tuple[ModuleTemplate | RepeatTemplate, ...]:
     """A successor's functions; those of a repeated part take one value more, what counts in it."""
     found: list[ModuleTemplate | RepeatTemplate] = []
     for item in items:
         if isinstance(item, Repeat):
             inner = {**order, item.index: size} if item.index else order
-            body = _parts(item.body, inner, size + 1, arithmetic)
+            body = _templates(item.body, inner, size + 1, arithmetic)
             found.append(RepeatTemplate(function_of(item.count, order, arithmetic), body))
         else:
             found.append(ModuleTemplate(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))  # type: ignore[arg-type]
@@ -179,7 +179,7 @@ def is_branch(item: ModuleKind | Branch) -> TypeGuard[Branch]:
     return not item or not isinstance(item[0], str)
 
 
-def _nested(modules: Sequence[Module]) -> Branch:
+def _branched_context(modules: Sequence[Module]) -> Branch:
     """A right context with its branches as rows of their own."""
     rows: list[list[Any]] = [[]]
     for module in modules:

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.states import EXACT_BITS
+from lsys_kit.derivation.core.application import EXACT_BITS
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Expression, Name, Number
 

@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
 from lsys_kit.derivation.core.rules import Rule
@@ -22,7 +23,7 @@ from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CLOSING, OPENING
 
-Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """What a module is to contexts: `PASSED` is passed over but has a context itself, `SKIPPED` has none."""
 LARGEST_TABLE = 2**22
@@ -49,11 +50,11 @@ class Replacements:
             self._numbers[replacement] = found  # last, so that an interrupt leaves no number without its replacement
         return found
 
-    def sizes(self) -> Integers:
+    def sizes(self) -> IntegerArray:
         """How many modules each replacement has."""
         return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
 
-    def size(self, chosen: Integers) -> int:
+    def size(self, chosen: IntegerArray) -> int:
         """How many modules the replacements of some numbers have together."""
         sizes = [len(replacement.states) for replacement in self.replacements]
         others = [(number, size) for number, size in enumerate(sizes) if size != 1]
@@ -61,7 +62,7 @@ class Replacements:
             return int(np.dot(np.bincount(chosen, minlength=len(sizes)), sizes))
         return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
 
-    def replaced(self, chosen: Integers) -> Integers:
+    def replaced(self, chosen: IntegerArray) -> IntegerArray:
         """The replacements of some numbers, one after another."""
         if chosen.dtype == np.uint8 and all(self._bytes.add(number, replacement.states)
                                             for number, replacement in enumerate(self.replacements)):
@@ -71,12 +72,12 @@ class Replacements:
         places = np.repeat((np.cumsum(sizes) - sizes)[chosen] - np.cumsum(lengths) + lengths, lengths)
         places += np.arange(len(places))
         everything = [state for replacement in self.replacements for state in replacement.states]
-        gathered: Integers = np.array(everything, dtype=code_type(len(self.states)))[places]
+        gathered: IntegerArray = np.array(everything, dtype=code_type(len(self.states)))[places]
         return gathered
 
 
 @dataclass(frozen=True)
-class Choice:
+class RuleChoice:
     """A case in which chance decides between several rules.
 
     Attributes
@@ -92,11 +93,11 @@ class Choice:
     """
 
     state: int
-    rules: Sequence[tuple[Rule, tuple[Value, ...]]]
-    marks: Integers
+    rules: Sequence[Match]
+    marks: IntegerArray
     total: float
 
-    def drawn(self, units: Integers) -> Integers:
+    def drawn(self, units: IntegerArray) -> IntegerArray:
         """For each random number from 0 up to 1 the index of the rule that it chooses."""
         return np.searchsorted(self.marks, units * self.total, side="right").clip(max=len(self.rules) - 1)
 
@@ -118,10 +119,10 @@ class ContextEngine:
         self.stepper, self.outcomes = stepper, Replacements(stepper.states)
         self._roles: list[tuple[int, int]] = []
         self._numbers: dict[tuple[int, int, int], int] = {}
-        self._choices: list[Choice] = []
-        self._table: Integers = np.zeros(0, dtype=np.int64)
+        self._choices: list[RuleChoice] = []
+        self._table: IntegerArray = np.zeros(0, dtype=np.int64)
 
-    def chosen(self, codes: Integers, step: int) -> Integers:
+    def chosen(self, codes: IntegerArray, step: int) -> IntegerArray:
         """For each module of a word the number of the replacement that it gets."""
         size = len(self.stepper.states)
         if not self.stepper.in_context:
@@ -153,7 +154,7 @@ class ContextEngine:
                 role, fixed = SKIPPED, self.outcomes.number(Replacement(states.successor(state), states.production(state)))
         self._roles.append((role, fixed))
 
-    def _in_context(self, codes: Integers, roles: Integers, size: int) -> Integers:
+    def _in_context(self, codes: IntegerArray, roles: IntegerArray, size: int) -> IntegerArray:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
         left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
         kind = code_type(size * (size + 1) ** 2)
@@ -167,7 +168,7 @@ class ContextEngine:
 
         return self._cases(keys, size * (size + 1) ** 2, case)
 
-    def _cases(self, keys: Integers, bound: int, case: Callable[[int], tuple[int, int, int]]) -> Integers:
+    def _cases(self, keys: IntegerArray, bound: int, case: Callable[[int], tuple[int, int, int]]) -> IntegerArray:
         """For each module, whose case is told by a key below a bound, the number of what becomes of it, from 1 on.
 
         Where chance decides it is below zero. What a key stands for is asked when it is met first.
@@ -189,12 +190,12 @@ class ContextEngine:
         """The number of what becomes of a module in a case; where chance decides, that of the choice, below zero."""
         if case not in self._numbers:
             found = self._found(*case)
-            if isinstance(found, Choice):
+            if isinstance(found, RuleChoice):
                 self._choices.append(found)
-            self._numbers[case] = -len(self._choices) if isinstance(found, Choice) else self.outcomes.number(found) + 1
+            self._numbers[case] = -len(self._choices) if isinstance(found, RuleChoice) else self.outcomes.number(found) + 1
         return self._numbers[case]
 
-    def _found(self, left: int, code: int, right: int) -> Replacement | Choice:
+    def _found(self, left: int, code: int, right: int) -> Replacement | RuleChoice:
         """What becomes of a module between two others, tried on a word of just these."""
         states = self.stepper.states
         if states.is_d0l(code):
@@ -202,27 +203,28 @@ class ContextEngine:
         word = [state for state in (left, code, right) if state != NO_NEIGHBOUR]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NO_NEIGHBOUR))
         if not matched:
-            return Replacement(states.parts(states.modules[code]), None)
-        states.drawn(matched, None)  # refuses weights that are none
+            return Replacement(states.decompose(states.modules[code]), None)
+        states.choose_rule(matched, None)  # refuses weights that are none
         weights = [states.weight(rule, values) for rule, values in matched if rule.probability]
         if len(weights) < 2:
             return self._applied(code, *matched[0])
-        return Choice(code, matched, np.cumsum(list(map(float, weights))), float(sum(weights)))
+        return RuleChoice(code, matched, np.cumsum(list(map(float, weights))), float(sum(weights)))
 
     def _applied(self, code: int, rule: Rule, values: tuple[Value, ...]) -> Replacement:
         states = self.stepper.states
-        return Replacement(states.replaced(rule, states.modules[code], values), rule.number)
+        return Replacement(states.replacement(rule, states.modules[code], values), rule.number)
 
-    def _drawn(self, numbers: Integers, where: Integers | None, step: int) -> Integers:
+    def _drawn(self, numbers: IntegerArray, where: IntegerArray | None, step: int) -> IntegerArray:
         """For each module the number of its replacement, after chance; `where` it stands, if not at its own place."""
         drawn = [self._choose(choice, np.flatnonzero(numbers == -number), where, step)
                  for number, choice in enumerate(self._choices, 1)]
-        result: Integers = (numbers - 1).astype(code_type(len(self.outcomes.replacements)))
+        result: IntegerArray = (numbers - 1).astype(code_type(len(self.outcomes.replacements)))
         for ours, outcomes in drawn:
             result[ours] = outcomes
         return result
 
-    def _choose(self, choice: Choice, ours: Integers, where: Integers | None, step: int) -> tuple[Integers, Integers]:
+    def _choose(self, choice: RuleChoice, ours: IntegerArray, where: IntegerArray | None,
+                step: int) -> tuple[IntegerArray, IntegerArray]:
         """Where modules stand between whose rules chance decides, and the numbers of what they become.
 
         What a rule makes is computed when it is drawn first: one that never is may have no value.
@@ -234,7 +236,7 @@ class ContextEngine:
         return ours, outcomes[rules]
 
 
-def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:
+def context_neighbours(codes: IntegerArray, roles: IntegerArray, nobody: int) -> tuple[IntegerArray, IntegerArray]:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
@@ -264,7 +266,7 @@ def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[I
     return np.roll(behind, 1)[:size], ahead[1:]
 
 
-def _looked_at(roles: Integers, hanging: Integers, size: int) -> tuple[Integers, Integers]:
+def _looked_at(roles: IntegerArray, hanging: IntegerArray, size: int) -> tuple[IntegerArray, IntegerArray]:
     """For the places of brackets and of what is passed over whom one meets who comes to them, from the right and the left.
 
     Whoever comes to a branch from outside looks past it, from its inside at what is before it; behind its end is nobody.
@@ -284,7 +286,7 @@ def _looked_at(roles: Integers, hanging: Integers, size: int) -> tuple[Integers,
     return hanging[before] - 1, np.append(hanging, size - 1)[after[:last]] + 1
 
 
-def _pairs(role: Integers) -> tuple[Integers, Integers]:
+def _pairs(role: IntegerArray) -> tuple[IntegerArray, IntegerArray]:
     """Among brackets and others the ranks of those that close, and of those that open them: on one level they take turns."""
     brackets = np.flatnonzero(role != PASSED)
     opens = role[brackets] == OPENS

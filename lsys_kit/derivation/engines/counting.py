@@ -16,12 +16,11 @@ import numpy as np
 
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.engines import expansion
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
-from lsys_kit.derivation.engines.engine import OFTEN, Origins, check_size, check_time
-from lsys_kit.derivation.engines.expansion import ByteTable, code_type, expand
+from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Origins, check_size, check_time
+from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
 
-MOST_LISTED = 4_096
-"""Words up to this length are lists, which are quicker than arrays at that size."""
 DIFFERENT = 50
 """Where more new states than this are met in a step, and they are most of its word, words become columns."""
 
@@ -90,11 +89,11 @@ class CountingEngine:
         found: list[int] = []
         for number, state in enumerate(before):
             found += self.states.successors[state]
-            if number % OFTEN == 0:
+            if number % CLOCK_INTERVAL == 0:
                 check_time(self.states, step, until)
                 check_size(self.states, step, len(found))
         check_size(self.states, step, len(found))
-        return Word(self.states, found if len(found) <= MOST_LISTED else np.array(found, code_type(len(self.states))))
+        return Word(self.states, compact(found, len(self.states)))
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
@@ -107,7 +106,7 @@ class CountingEngine:
     def _built(self, step: int) -> Word:
         if step == 0:
             return Word(self.states, list(self.states.axiom))
-        before, small = self._words.get(step - 1), self.size(step) <= MOST_LISTED
+        before, small = self._words.get(step - 1), self.size(step) <= expansion.MOST_LISTED
         if small and before is not None:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
         array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
@@ -142,6 +141,6 @@ def next_counts(states: States, counts: Mapping[int, int], watch: Callable[[], N
         row = successors[state]
         for successor in row:
             after[successor] = already(successor, 0) + count
-        if number % OFTEN == 0 or len(row) > OFTEN:
+        if number % CLOCK_INTERVAL == 0 or len(row) > CLOCK_INTERVAL:
             watch()
     return after

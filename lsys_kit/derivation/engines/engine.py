@@ -17,7 +17,7 @@ from lsys_kit.notation.model.arithmetic import Value
 
 STATE_BYTES = 600
 """About what one state takes in the table."""
-OFTEN = 1_024
+CLOCK_INTERVAL = 1_024
 """After so many states or modules the clock is looked at."""
 
 
@@ -96,7 +96,7 @@ def check_size(states: States, step: int, size: int, word: int | None = None) ->
 
 def check_time(states: States, step: int, until: float) -> None:
     """Refuse a step that takes too long, or meets too many different modules."""
-    if len(states) > OFTEN:
+    if len(states) > CLOCK_INTERVAL:
         check_size(states, step, 0)
     if time.monotonic() > until:
         seconds = current().seconds

@@ -16,6 +16,8 @@ from lsys_kit.derivation.core.states import States
 
 BYTES = 256
 """How many different bytes there are."""
+MOST_LISTED = 4_096
+"""Words up to this length are lists, which are quicker than arrays at that size."""
 PIECE = 64
 """Pieces up to this length, at least 1, are put together as tuples and written at once."""
 
@@ -24,6 +26,11 @@ PIECE = 64
 def code_type(states: int) -> np.dtype[Any]:
     """The smallest unsigned type that numbers so many states."""
     return np.min_scalar_type(max(states - 1, 0))
+
+
+def compact(codes: Sequence[int], states: int) -> Sequence[int] | np.ndarray[Any, Any]:
+    """A word of a table of so many states: a list where it is short, else an array of the smallest type."""
+    return codes if len(codes) <= MOST_LISTED else np.array(codes, code_type(states))
 
 
 class ByteTable:

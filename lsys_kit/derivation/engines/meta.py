@@ -60,6 +60,6 @@ def _applied(states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]
         if tuple(map(kind_of, last)) != kinds:
             continue
         values: tuple[Value, ...] = tuple(value for module in last for value in module.arguments)  # type: ignore[misc]
-        if states.holds(rule, values, last[-1]):
-            return len(kinds), states.made_numbers(rule, last[-1], values)
+        if states.matches(rule, values, last[-1]):
+            return len(kinds), states.applied_states(rule, last[-1], values)
     return None

@@ -14,13 +14,10 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
-from lsys_kit.derivation.engines.engine import OFTEN, Observation, Observer, Origins, check_size, check_time
-from lsys_kit.derivation.engines.expansion import code_type
+from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Observation, Observer, Origins, check_size, check_time
+from lsys_kit.derivation.engines.expansion import code_type, compact
 from lsys_kit.derivation.engines.meta import apply_meta_rules
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
-
-MOST_LISTED = 4_096
-"""Words up to this length are lists, which are quicker than arrays at that size."""
 
 
 class SteppingEngine:
@@ -80,7 +77,7 @@ class SteppingEngine:
         for number, replacement in enumerate(self._stepper.replacements(codes, step - 1, sees)):
             made.append(replacement)
             size += len(replacement.states)
-            if number % OFTEN == 0 or len(replacement.states) > OFTEN:
+            if number % CLOCK_INTERVAL == 0 or len(replacement.states) > CLOCK_INTERVAL:
                 check_time(self.states, step, until)
                 check_size(self.states, step, size)
         check_size(self.states, step, size)
@@ -103,7 +100,7 @@ class SteppingEngine:
         return self._word(short), after
 
     def _word(self, codes: Sequence[int]) -> Word:
-        return Word(self.states, codes if len(codes) <= MOST_LISTED else np.array(codes, code_type(len(self.states))))
+        return Word(self.states, compact(codes, len(self.states)))
 
     def word(self, step: int) -> Word:
         """The word of a known step."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
+from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.matching import Neighbours, match_context, neighbours, neighbours_along, values_at
 from lsys_kit.derivation.core.rules import Rule, is_branch
@@ -19,8 +20,6 @@ from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CLOSING, OPENING, LSystem, Module
 
-Matches = list[tuple[Rule, tuple[Value, ...]]]
-"""The rules that match a module, in the order written, with the values of the parameters that they name."""
 SensingFunction: TypeAlias = Callable[..., Value]
 """What a module sees that asks the turtle: from its position, a function's number and the values that it is asked with."""
 
@@ -80,7 +79,7 @@ class Stepper:
         self.passed = ignored_symbols(states.system)
         self.in_context = states.traits.context > 0
         self._alone: dict[int, Replacement] = {}
-        self._matched: dict[tuple[object, ...], Matches] = {}
+        self._matched: dict[tuple[object, ...], list[Match]] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
 
     def old(self, codes: Sequence[int], sees: SensingFunction | None = None) -> ParentWord:
@@ -115,20 +114,20 @@ class Stepper:
     def _open(self, old: ParentWord, position: int, chance: Chance) -> Replacement:
         """What becomes of a module that does not decide it alone."""
         matched = self.matched(old, position, chance)
-        rule = self.states.drawn(matched, chance)
+        rule = self.states.choose_rule(matched, chance)
         if rule is None:
-            return Replacement(self.states.parts(old.modules[position], chance), None)
+            return Replacement(self.states.decompose(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
         key = old.codes[position], values, rule.number
         repeatable = not (rule.random or rule.looks or self.states.traits.varying_decomposition)
         if repeatable and key in self._made:
             return self._made[key]
-        replacement = Replacement(self.states.replaced(rule, old.modules[position], values, chance), rule.number)
+        replacement = Replacement(self.states.replacement(rule, old.modules[position], values, chance), rule.number)
         if repeatable:
             self._made[key] = replacement
         return replacement
 
-    def matched(self, old: ParentWord, position: int, chance: Chance | None = None) -> Matches:
+    def matched(self, old: ParentWord, position: int, chance: Chance | None = None) -> list[Match]:
         """The rules that match the module at a position."""
         rules = self.states.candidates(old.codes[position])
         case = self._case(rules, old, position)
@@ -156,14 +155,14 @@ class Stepper:
             return (position,)
         return match_context(rule, old.modules, old.symbols, old.around, position, self.passed)
 
-    def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> Matches:
-        found: Matches = []
+    def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> list[Match]:
+        found: list[Match] = []
         for rule in rules:
             at = self.context(rule, old, position)
             if at is None:
                 continue
             values = values_at(old.modules, at)
-            if self.states.holds(rule, values, old.modules[position], chance):
+            if self.states.matches(rule, values, old.modules[position], chance):
                 if not found and rule.probability is None:
                     return [(rule, values)]
                 if rule.probability is not None:

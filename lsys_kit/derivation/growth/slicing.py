@@ -36,8 +36,8 @@ def slice_system(system: LSystem) -> LSystem:
     kept = deciding_positions(system)
     return replace(
         system, axiom=tuple(without_arguments(module, kept) for module in system.axiom),
-        productions=tuple(_production(rule, kept) for rule in system.productions),
-        decomposition=tuple(_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
+        productions=tuple(_sliced_production(rule, kept) for rule in system.productions),
+        decomposition=tuple(_sliced_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
 
 
 def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
@@ -51,7 +51,7 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
     """
     rules = (*system.productions, *system.decomposition)
     constants = frozenset(constant.name for constant in system.constants)
-    found = {position for rule in rules for position in _asked(rule, constants)} | {
+    found = {position for rule in rules for position in _deciding(rule, constants)} | {
         (module.symbol, len(module.arguments), i) for rule in system.meta
         for module in (*rule.predecessors, *flat(rule.successor)) for i in range(len(module.arguments))}
     while True:
@@ -61,10 +61,10 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
         found |= more
 
 
-def _asked(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
+def _deciding(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
     """The parameters in a rule's condition, its probability and its counts of repetition, and those of a given value."""
     asked = [expression for expression in (rule.condition, rule.probability) if expression is not None]
-    yield from _named(rule, (*asked, *_repetitions(rule.successor)))
+    yield from _positions_of_names(rule, (*asked, *_repetitions(rule.successor)))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
             if not isinstance(argument, Name) or argument.name in constants:
@@ -76,10 +76,10 @@ def _sources(rule: Production, found: Set[ArgumentPosition]) -> Iterator[Argumen
     for module in flat(rule.successor):
         size = len(module.arguments)
         made = [argument for i, argument in enumerate(module.arguments) if (module.symbol, size, i) in found]
-        yield from _named(rule, made)  # type: ignore[arg-type]  # a production's arguments are expressions
+        yield from _positions_of_names(rule, made)  # type: ignore[arg-type]  # a production's arguments are expressions
 
 
-def _named(rule: Production, expressions: Iterable[Expression]) -> Iterator[ArgumentPosition]:
+def _positions_of_names(rule: Production, expressions: Iterable[Expression]) -> Iterator[ArgumentPosition]:
     names = frozenset().union(*map(names_in, expressions))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
@@ -104,15 +104,15 @@ def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosit
             for size in all_sizes for i in range(size)}
 
 
-def _production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
-    return replace(rule, predecessor=without_arguments(rule.predecessor, kept), successor=_items(rule.successor, kept),
+def _sliced_production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
+    return replace(rule, predecessor=without_arguments(rule.predecessor, kept), successor=_sliced_items(rule.successor, kept),
                    left=tuple(without_arguments(module, kept) for module in rule.left),
                    right=tuple(without_arguments(module, kept) for module in rule.right))
 
 
-def _items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:
-    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else without_arguments(item, kept)
-                 for item in items)
+def _sliced_items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:
+    return tuple(replace(item, body=_sliced_items(item.body, kept)) if isinstance(item, Repeat)
+                 else without_arguments(item, kept) for item in items)
 
 
 def without_arguments(module: Module, kept: Set[ArgumentPosition]) -> Module:

@@ -18,8 +18,8 @@ from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, Mark
 
 WALL_BYTES = 420
 """About what a wall takes in memory, with its share of vertices and cells."""
-OFTEN = 1_000
-"""After so many cells the time is looked at."""
+CELLS_BETWEEN_CHECKS = 1_000
+"""How many cells are divided between two looks at the clock."""
 
 
 class DividedWall(NamedTuple):
@@ -47,7 +47,7 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int, 
     partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in found.walls]
     cells, mothers = [], []
     for number, cell in enumerate(found.cells):
-        if number % OFTEN == 0:
+        if number % CELLS_BETWEEN_CHECKS == 0:
             _check_time(step, until)
         daughters = _divided(*_replaced(cell, partings), walls)
         cells += daughters

@@ -46,17 +46,17 @@ def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     1 (0,) 2/3
     """
     module = states.modules[state]
-    matched = states.matched(module, states.rules)
+    matched = states.matching_rules(module, states.rules)
     if not matched or matched[0][0].probability is None:
-        return tuple(Outcome(rule.number, states.replaced(rule, module)) for rule, _ in matched)
-    lots = [(rule, weight) for rule, weight in states.lots(matched) if weight != 0]
+        return tuple(Outcome(rule.number, states.replacement(rule, module)) for rule, _ in matched)
+    lots = [(rule, weight) for rule, weight in states.weighted(matched) if weight != 0]
     try:
         likely = shares([weight for _, weight in lots] or [0])
     except ValueError as fault:
         raise rule_error(states.system, module, matched[0][0], fault) from None
     except TypeError:
         raise rule_error(states.system, module, matched[0][0], ValueError(UNKNOWN)) from None
-    return tuple(Outcome(rule.number, states.replaced(rule, module), chance)
+    return tuple(Outcome(rule.number, states.replacement(rule, module), chance)
                  for (rule, _), chance in zip(lots, likely, strict=True))
 
 

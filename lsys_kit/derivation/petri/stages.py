@@ -90,16 +90,16 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
                                   hint="Write stages(timed(system, name=value)).")
-        return _in_time(system.ages, polarity)
+        return _timed_net(system.ages, polarity)
     states = States(system, constants)
     if durations:
-        return _in_time(ages_in_steps(states), polarity)
+        return _timed_net(ages_in_steps(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
     return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
                 None) or by_symbol(states)
 
 
-def _in_time(ages: AgeModel, polarity: bool) -> Stages:
+def _timed_net(ages: AgeModel, polarity: bool) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
     found = life_stages(ages, MOST_PLACES)
     return _net(_Table(ages.states, found.modules, found.outcomes, found.stretch), ages.states, polarity)
@@ -107,7 +107,7 @@ def _in_time(ages: AgeModel, polarity: bool) -> Stages:
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
     """The states of a system, then those without the parameters that decide nothing; only where they end."""
-    for outcomes in _ended(states):
+    for outcomes in _finite_outcomes(states):
         yield _Table(states, states.modules, outcomes, {module: row for row, module in enumerate(states.modules)}.get)
     system, kept = states.system, deciding_positions(states.system)
     model = slice_system(system)
@@ -115,12 +115,12 @@ def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
         return
     whole = tuple(rule for rule in system.interpretation if without_arguments(rule.predecessor, kept) == rule.predecessor)
     fewer = States(replace(model, interpretation=whole), constants)
-    for outcomes in _ended(fewer):
+    for outcomes in _finite_outcomes(fewer):
         rows = {module: row for row, module in enumerate(fewer.modules)}
-        yield _Table(fewer, fewer.modules, outcomes, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
+        yield _Table(fewer, fewer.modules, outcomes, lru_cache(4096)(partial(_row_without, rows, kept)), MOST_LUMPED)
 
 
-def _ended(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
+def _finite_outcomes(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
     """The outcomes of all states, if these are finitely many and no neighbour decides."""
     with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
         outcomes = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
@@ -128,7 +128,7 @@ def _ended(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
             yield outcomes
 
 
-def _row(rows: Mapping[Module, int], kept: Set[ArgumentPosition], module: Module) -> int | None:
+def _row_without(rows: Mapping[Module, int], kept: Set[ArgumentPosition], module: Module) -> int | None:
     return rows.get(without_arguments(module, kept))
 
 
@@ -174,9 +174,9 @@ def _merged(table: _Table) -> list[int]:
 
     The coarsest partition that is finer than the looks and under which outcomes are alike, found by refinement.
     """
-    classes = _numbered([_look(table.states, module) for module in table.modules])
+    classes = _class_numbers([_appearance(table.states, module) for module in table.modules])
     while True:
-        finer = _numbered([(classes[row], *sorted(_likeness(outcome, classes) for outcome in outcomes))
+        finer = _class_numbers([(classes[row], *sorted(_likeness(outcome, classes) for outcome in outcomes))
                            for row, outcomes in enumerate(table.outcomes)])
         if finer == classes:
             return classes
@@ -189,13 +189,13 @@ def _likeness(outcome: Outcome, classes: Sequence[int]) -> tuple[Value, Value, t
     return outcome.chance, span, tuple(sorted(classes[row] for row in outcome.successor))
 
 
-def _numbered(keys: Sequence[Hashable]) -> list[int]:
+def _class_numbers(keys: Sequence[Hashable]) -> list[int]:
     """Equal keys get equal numbers, in the order of first occurrence."""
     numbers: dict[Hashable, int] = {}
     return [numbers.setdefault(key, len(numbers)) for key in keys]
 
 
-def _look(states: States, module: Module) -> Hashable:
+def _appearance(states: States, module: Module) -> Hashable:
     """What a module looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
     state = states.number(module.symbol, module.arguments)  # type: ignore[arg-type]
     image = interpretations(states, (state,))[state]

@@ -87,7 +87,7 @@ class AgeModel:
 
     def made(self, rule: Rule, module: Module) -> list[Module]:
         """What a rule makes of a module, before any of that is decomposed."""
-        return [Module(*part) for part in self.states.made(rule, module)]
+        return [Module(*part) for part in self.states.apply(rule, module)]
 
     def applies_from(self, rule: Rule, module: Module) -> Value | None:
         """The age from which on a rule applies to a module; None where it does not depend on the age like this.
@@ -123,7 +123,7 @@ class AgeModel:
         if rule.production.condition is None and len(rule.equalities) == 1:
             return True
         asked = any(index == self.parameter(kind_of(module)) for index, _ in rule.equalities)
-        return self.states.holds(rule, self.aged(module, age if asked else age + 1).arguments, module)  # type: ignore[arg-type]
+        return self.states.matches(rule, self.aged(module, age if asked else age + 1).arguments, module)  # type: ignore[arg-type]
 
     def _bound(self, part: Expression, production: Production, module: Module) -> Value | None:
         """The age at which a comparison begins to hold, if it has the form age + something >= something."""

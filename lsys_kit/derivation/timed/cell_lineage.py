@@ -91,7 +91,7 @@ class CellDivisions:
     def _decomposed(self, module: Module, at_birth: Module, depth: int) -> CellPart:
         """A module with its parts, and theirs."""
         rule = None if depth == self.states.system.decomposition_depth else \
-            self.states.matching(module, self.states.decomposition)
+            self.states.matching_rule(module, self.states.decomposition)
         return CellPart(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
 
 

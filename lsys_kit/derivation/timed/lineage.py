@@ -119,9 +119,9 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
         if start.states.traits.sensitive:
             raise ModelValueError("The system asks for what the turtle sees, and words alone do not tell that",
                                   hint="Derive it first, and ask for the lineage of the derivation.")
-        return _of_words(start.to(steps))
+        return _derived_lineage(start.to(steps))
     if isinstance(what, Timed) and n is not None and not constants:
-        return _in_time(what, number_from(n, "time"))
+        return _timed_lineage(what, number_from(n, "time"))
     if isinstance(what, Timed):
         raise ModelValueError("For the lineage of a timed system the time at which it ends is needed, and nothing else",
                               hint="Ask for lineage(timed(system), 5).")
@@ -129,10 +129,10 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
         raise ModelValueError(f"Only systems, derivations and timed systems have a lineage, not {type(what).__name__}")
     if n is not None or constants:
         raise ModelValueError("Steps and constants are chosen when a system is derived, not when its lineage is asked for")
-    return _of_words(what)
+    return _derived_lineage(what)
 
 
-def _of_words(derivation: Derivation) -> Lineage:
+def _derived_lineage(derivation: Derivation) -> Lineage:
     """The lineage of a derivation."""
     states = derivation.states
     if sum(derivation.lengths) > MOST_CELLS:
@@ -168,7 +168,7 @@ def _flat_parts(derivation: Derivation, step: int) -> list[CellPart]:
     return [CellPart(module, module, tuple(parts)) for module, parts in zip(derivation[step - 1], made, strict=True)]
 
 
-def _in_time(system: Timed, end: Value) -> Lineage:
+def _timed_lineage(system: Timed, end: Value) -> Lineage:
     """The lineage of a timed system up to a time."""
     word, growth = system.word(end), CellGrowth(system.states)
     if len(word) > MOST_CELLS:

@@ -22,14 +22,12 @@ from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL
 from lsys_kit.derivation.timed.ages import AgeModel, timed_age_model, undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
 from lsys_kit.notation.model.system import LSystem, Module
 from lsys_kit.notation.write import as_written
-
-OFTEN = 1_024
-"""After how many cells somebody looks at the clock."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +98,7 @@ class Timed:
             if len(found) + len(todo) > most:
                 raise ModelLimitError(f"The word would have more than {most:,} modules", limit=most,
                                       hint="Take an earlier time, or set limits(modules=...).")
-            if visited % OFTEN == 0 and time.monotonic() > until:
+            if visited % CLOCK_INTERVAL == 0 and time.monotonic() > until:
                 raise ModelLimitError(f"The word was not reached in {current().seconds:g} seconds", limit=current().seconds,
                                       hint="Take an earlier time, or set limits(seconds=...).")
         return Word(self.states, found)
