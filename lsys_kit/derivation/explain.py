@@ -51,7 +51,7 @@ class ModuleOutcome:
 
 
 class Explanation(tuple[ModuleOutcome, ...]):
-    """The fates of all modules of a word, shown one below the other."""
+    """What became of all modules of a word, shown one below the other."""
 
     __slots__ = ()
 
@@ -60,7 +60,7 @@ class Explanation(tuple[ModuleOutcome, ...]):
 
 
 def explain(derivation: Derivation, step: int) -> Explanation:
-    """Why the word of a step is what it is: the fate of every module of the word before.
+    """Why the word of a step is what it is: what became of every module of the word before.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def _outcomes(stepper: Stepper, old: ParentWord, successors: dict[int, list[Modu
 
 
 def _applied_rule(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
-    """The rule that was applied; where it left nothing, the one that must have been."""
+    """The rule that was applied; where it left nothing, the first that matches."""
     if left_something:
         return next((rule for rule in matching if rule.number == applied), None)
     return matching[0] if matching else None
@@ -147,10 +147,10 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
         names = names_in(rule.production.condition) if rule.production.condition else frozenset()
         known = {a.name: value for a, value in zip(arguments, values, strict=True) if isinstance(a, Name)}
         known |= dict(zip((c.name for c in system.constants), stepper.states.constants, strict=True))
-        told = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
+        values_text = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
                           *(f"{as_written(system, question)} is {number_text(answer((*given, chance)))}"
                             for question, answer in rule.questions)])
-        return f"{as_written(system, rule.production.condition)} is false{f' where {told}' if told else ''}"
+        return f"{as_written(system, rule.production.condition)} is false{f' where {values_text}' if values_text else ''}"
     return None
 
 

@@ -370,7 +370,7 @@ def test_timed_nets_that_cannot_be() -> None:
         stages(timed(read(CELLS_OF_TWO_AGES))).expected(3)
     with pytest.raises(ModelValueError, match="when it is made"):
         stages(timed(read(CELLS_OF_TWO_AGES)), short=0)
-    with pytest.raises(ModelValueError, match=r"begins older than it divides, at the age 1"):
+    with pytest.raises(ModelValueError, match=r"is born older than it divides, at the age 1"):
         stages(timed(read("axiom: A(2)\nA(1) -> A(0)")))
     with pytest.raises(ModelValueError, match="depends on a constant that is not known"):
         stages(timed(read(CELLS_OF_TWO_AGES), short="short"))

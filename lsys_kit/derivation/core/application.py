@@ -49,7 +49,7 @@ class RuleApplication:
         return self.choose_rule(self.matching_rules(module, rules, chance), chance)
 
     def matching_rules(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[Match]:
-        """The rules that match a module, up to a first that leaves nothing to chance, each with the module's values."""
+        """The rules that match a module, up to the first that has no probability."""
         values: tuple[Value, ...] = module.arguments  # type: ignore[assignment]
         found: list[Match] = []
         for rule in rules.get(kind_of(module), ()):
@@ -60,7 +60,7 @@ class RuleApplication:
         return found
 
     def matches(self, rule: Rule, values: tuple[Value, ...], module: Module, chance: Chance | None = None) -> bool:
-        """Whether a rule's values are what it asks for and its condition is true."""
+        """Whether a rule accepts some values: they are equal to those it asks for, and its condition is true."""
         given = (*values, *self.constants, chance)
         try:
             return (all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities)
@@ -71,24 +71,24 @@ class RuleApplication:
             raise rule_error(self.system, module, rule, fault) from None
 
     def choose_rule(self, matched: Sequence[Match], chance: Chance | None) -> Rule | None:
-        """Of the rules that match the one that is applied: the first, or one by lot where the first has a probability."""
+        """The rule that is applied, of those that match: the first, or one at random where the first has a probability."""
         if not matched or matched[0][0].probability is None:
             return matched[0][0] if matched else None
-        lots = self.weighted(matched, chance)
+        weighted = self.weighted(matched, chance)
         unit = chance.unit() if chance else 0.0
         try:
-            return lots[choose([weight for _, weight in lots], unit)][0]
+            return weighted[choose([weight for _, weight in weighted], unit)][0]
         except ValueError as fault:
-            raise rule_error(self.system, lots[0][0].production.predecessor, lots[0][0], fault) from None
+            raise rule_error(self.system, weighted[0][0].production.predecessor, weighted[0][0], fault) from None
         except TypeError:
-            raise rule_error(self.system, lots[0][0].production.predecessor, lots[0][0], ValueError(UNKNOWN)) from None
+            raise rule_error(self.system, weighted[0][0].production.predecessor, weighted[0][0], ValueError(UNKNOWN)) from None
 
     def weighted(self, matched: Sequence[Match], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
-        """Of the rules that match those that are chosen by lot, each with its weight."""
+        """The rules with a probability, of those that match, each with its weight."""
         return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
 
     def weight(self, rule: Rule, values: tuple[Value, ...], chance: Chance | None = None) -> Value:
-        """How likely a rule that is left to chance is chosen, beside others."""
+        """The weight with which a rule is chosen at random."""
         assert rule.probability
         try:
             return finite(rule.probability((*values, *self.constants, chance)))

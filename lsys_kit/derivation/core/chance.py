@@ -1,5 +1,5 @@
-"""Chance that can be repeated: every random number is a function of the seed, the step, the module's position, and how many
-numbers it has drawn before.
+"""Reproducible chance: every random number is a function of the seed, the step, the module's position, and how many numbers
+it has drawn before.
 
 So a plant is the same on every machine, whatever is computed first or at once. The numbers are those of the generator
 splitmix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014), used as a hash.
@@ -67,7 +67,7 @@ class Chance:
     step, position
         Which module: its place in the word of which step.
     sees
-        What answers the module's questions to the turtle, given a function's number and values; None where nobody looks.
+        Answers what the module asks of the turtle, given a function's number and values; None without an observer.
 
     Examples
     --------

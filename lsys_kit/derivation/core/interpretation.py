@@ -1,4 +1,5 @@
-"""Interpretation rules: what each module of a word is drawn as, without changing the derivation (seed 002, section 7)."""
+"""Interpretation rules: what each module of a word is drawn as, without changing the derivation (Prusinkiewicz,
+Introduction to Modeling with L-systems, section 7)."""
 
 from __future__ import annotations
 

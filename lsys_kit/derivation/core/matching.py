@@ -1,9 +1,9 @@
-"""Contexts: who stands to the left and to the right of a module, across brackets (ABOP, section 1.8; seed 003).
+"""Contexts: the neighbours of a module to its left and right, across brackets (ABOP, section 1.8; Kurth, lecture slides).
 
 The left context of a module goes back along its branch: it passes finished side branches and crosses an opening bracket to the
 parent. The right context goes on along its branch and passes side branches, unless the pattern names one: a named branch must
 match the beginning of a branch that stands there, or all of it, where the pattern says that the branch ends. Ignored symbols
-are passed on both sides. Nothing lies beyond the ends of the word.
+are passed on both sides. Beyond the ends of the word there are no neighbours.
 """
 
 from __future__ import annotations

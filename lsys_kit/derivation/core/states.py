@@ -1,9 +1,9 @@
 """The table of states: each distinct module that a derivation meets, numbered in the order in which it is met.
 
-Where a module's fate depends on its symbol and values alone, its successor is computed once, here, however often the module
-occurs. A word is then an array of states, the growth matrix counts states in successors, and the stage diagram is this
-table drawn. Where neighbours or chance have a say, the table still numbers the modules, and what they become is computed
-for each combination that occurs.
+Where a module's symbol and values alone decide what becomes of it, its successor is computed once, here, however often the
+module occurs. A word is then an array of states, the growth matrix counts states in successors, and the stage diagram is this
+table drawn. Where neighbours or chance matter, the table still numbers the modules, and what they become is computed for
+each combination that occurs.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class States(RuleApplication):
     successors
         The successor of each state that alone decides it.
     inexact
-        The first module that was met with a value that had outgrown 128 bits and become a double, or None.
+        The first module with a value that outgrew 128 bits and became a double, or None.
 
     Examples
     --------

@@ -55,7 +55,7 @@ class ColumnRule:
 
 
 class ColumnWord(Word):
-    """A word as columns; it becomes a row of states when somebody looks at single modules.
+    """A word as columns; it becomes a row of states when single modules are asked for.
 
     Attributes
     ----------
@@ -137,7 +137,7 @@ class ColumnarSteps:
         return ColumnWord(self.states, kinds, columns.values(), self.kinds)
 
     def step(self, word: ColumnWord, check: Callable[[int, int], None] = lambda size, taken: None) -> ColumnWord:
-        """The next word; `check` is told its size and its bytes before it is built, and may raise an error.
+        """The next word; `check` is called with its size and its bytes before it is built, and may raise an error.
 
         Raises
         ------

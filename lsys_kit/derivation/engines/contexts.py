@@ -25,15 +25,15 @@ from lsys_kit.notation.model.system import CLOSING, OPENING
 
 IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
-"""What a module is to contexts: `PASSED` is passed over but has a context itself, `SKIPPED` has none."""
+"""The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
 LARGEST_TABLE = 2**22
-"""The largest table of cases that is looked up directly."""
+"""The largest table of cases that is indexed directly."""
 FEW_REPLACEMENTS = 12
-"""So many kinds of replacements are counted one after another."""
+"""Up to so many different replacements are counted one after another."""
 
 
 class Replacements:
-    """What modules may become, numbered, and how a word is made of it."""
+    """What modules may become, numbered, and how words are assembled from it."""
 
     def __init__(self, states: States) -> None:
         self.states = states
@@ -142,7 +142,7 @@ class ContextEngine:
         return chosen
 
     def _meet(self, state: int) -> None:
-        """The role of a state in contexts; of one that is passed over and asks for no context, what becomes of it, too."""
+        """Note the role of a new state; for one that is ignored and has no contexts itself, also what becomes of it."""
         states = self.stepper.states
         symbol = states.modules[state].symbol
         role, fixed = ORDINARY, 0
@@ -155,7 +155,7 @@ class ContextEngine:
         self._roles.append((role, fixed))
 
     def _in_context(self, codes: IntegerArray, roles: IntegerArray, size: int) -> IntegerArray:
-        """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
+        """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for none."""
         left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
         kind = code_type(size * (size + 1) ** 2)
         keys = left.astype(kind) * kind.type(size + 1) + right.astype(kind, copy=False)
@@ -169,9 +169,9 @@ class ContextEngine:
         return self._cases(keys, size * (size + 1) ** 2, case)
 
     def _cases(self, keys: IntegerArray, bound: int, case: Callable[[int], tuple[int, int, int]]) -> IntegerArray:
-        """For each module, whose case is told by a key below a bound, the number of what becomes of it, from 1 on.
+        """For each module, whose case is given by a key below a bound, the number of what becomes of it, from 1 on.
 
-        Where chance decides it is below zero. What a key stands for is asked when it is met first.
+        Where chance decides it is below zero. Each case is worked out when its key is first met.
         """
         if bound > LARGEST_TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
@@ -225,7 +225,7 @@ class ContextEngine:
 
     def _choose(self, choice: RuleChoice, ours: IntegerArray, where: IntegerArray | None,
                 step: int) -> tuple[IntegerArray, IntegerArray]:
-        """Where modules stand between whose rules chance decides, and the numbers of what they become.
+        """Where the modules of a choice stand, and the numbers of what they become.
 
         What a rule makes is computed when it is drawn first: one that never is may have no value.
         """
@@ -236,17 +236,17 @@ class ContextEngine:
         return ours, outcomes[rules]
 
 
-def context_neighbours(codes: IntegerArray, roles: IntegerArray, nobody: int) -> tuple[IntegerArray, IntegerArray]:
+def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int) -> tuple[IntegerArray, IntegerArray]:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
     ----------
     codes
-        The word's states, of a type that holds `nobody` too.
+        The word's states, of a type that holds `none` too.
     roles
         For each module `ORDINARY`, `OPENS`, `CLOSES` or `PASSED`.
-    nobody
-        What stands for a neighbour that is not there. What is found for brackets means nothing.
+    none
+        What stands for a missing neighbour. The neighbours of brackets mean nothing.
 
     Examples
     --------
@@ -256,7 +256,7 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, nobody: int) ->
     ([99, 10, 10, 10], [13, 99, 99, 99])
     """
     size = len(codes)
-    behind = np.append(codes, codes.dtype.type(nobody))  # whom one meets at each place, from the right; at the end nobody
+    behind = np.append(codes, codes.dtype.type(none))  # the neighbour found at each place, coming from the right
     ahead = behind
     hanging = np.flatnonzero(roles)
     if len(hanging):
@@ -267,15 +267,15 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, nobody: int) ->
 
 
 def _looked_at(roles: IntegerArray, hanging: IntegerArray, size: int) -> tuple[IntegerArray, IntegerArray]:
-    """For the places of brackets and of what is passed over whom one meets who comes to them, from the right and the left.
+    """For brackets and ignored modules where the neighbour stands that is found there, coming from the right and from the left.
 
-    Whoever comes to a branch from outside looks past it, from its inside at what is before it; behind its end is nobody.
+    From outside, a branch is passed; from inside, its beginning leads to the parent, and its end to no neighbour.
     """
     role, last = roles[hanging], len(hanging)
     closing, opening = _pairs(role)
-    before, after = np.arange(last), np.arange(last + 1)  # beside which of them one looks; beside number `last` is nobody
+    before, after = np.arange(last), np.arange(last + 1)  # where the search goes on; `last` ends it
     before[closing], after[opening], after[closing] = opening, closing, last
-    near = np.flatnonzero(np.diff(hanging) == 1)  # the next of them stands right behind it
+    near = np.flatnonzero(np.diff(hanging) == 1)  # those directly followed by another
     for pointers, step, there in ((before, -1, near + 1), (after, 1, near)):
         another = np.zeros(last + 1, dtype=bool)
         another[there] = True
@@ -287,7 +287,7 @@ def _looked_at(roles: IntegerArray, hanging: IntegerArray, size: int) -> tuple[I
 
 
 def _pairs(role: IntegerArray) -> tuple[IntegerArray, IntegerArray]:
-    """Among brackets and others the ranks of those that close, and of those that open them: on one level they take turns."""
+    """The ranks of closing brackets and of the brackets that open them: on one level of nesting they alternate."""
     brackets = np.flatnonzero(role != PASSED)
     opens = role[brackets] == OPENS
     level = np.cumsum(np.where(opens, 1, -1), dtype=np.int32) + ~opens

@@ -57,7 +57,7 @@ class CountingEngine:
             self._late.append(self._next_word(step, until))
             return
         met = len(self.states)
-        if len(self.states.successors) < met:  # some have to be made: not for a step that is refused
+        if len(self.states.successors) < met:  # some successors must be computed: not for a step that is refused
             check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
         after = next_counts(self.states, before, partial(check_time, self.states, step, until))
         check_time(self.states, step, until)
@@ -113,7 +113,7 @@ class CountingEngine:
         return Word(self.states, array.tolist() if small else array)
 
     def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
-        """What becomes of a short word, given the states that occur in it."""
+        """The successor of a short word, given the states that occur in it."""
         successors, table = self.states.successors, self._bytes
         if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):
             return table.replaced(bytes(word.codes))
@@ -130,11 +130,11 @@ class CountingEngine:
         return Origins(parents, productions)
 
     def sight(self, _: int) -> None:
-        """Nobody looks at words whose modules ask for nothing."""
+        """Nothing: the modules of a D0L system ask for nothing."""
 
 
-def next_counts(states: States, counts: Mapping[int, int], watch: Callable[[], None] = lambda: None) -> dict[int, int]:
-    """How often each state occurs one step later; `watch` is called now and then, and may raise an error."""
+def next_counts(states: States, counts: Mapping[int, int], check: Callable[[], None] = lambda: None) -> dict[int, int]:
+    """How often each state occurs one step later; `check` is called now and then, and may raise an error."""
     after: dict[int, int] = {}
     already, successors = after.get, states.successors
     for number, (state, count) in enumerate(counts.items(), 1):
@@ -142,5 +142,5 @@ def next_counts(states: States, counts: Mapping[int, int], watch: Callable[[], N
         for successor in row:
             after[successor] = already(successor, 0) + count
         if number % CLOCK_INTERVAL == 0 or len(row) > CLOCK_INTERVAL:
-            watch()
+            check()
     return after

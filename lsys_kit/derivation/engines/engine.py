@@ -22,7 +22,7 @@ CLOCK_INTERVAL = 1_024
 
 
 class Observation(Protocol):
-    """What is seen of a word."""
+    """What an observer sees of a word."""
 
     @property
     def word(self) -> Word:
@@ -33,7 +33,7 @@ class Observation(Protocol):
 
 
 Observer: TypeAlias = Callable[[Word, Callable[[], None]], Observation]
-"""What looks at a word before a step; it is also given what looks at the clock now and then, and may raise an error."""
+"""Looks at a word before a step. It is also given a function to call now and then, which raises an error when time is up."""
 
 
 @dataclass(frozen=True)
@@ -79,11 +79,11 @@ class Engine(Protocol):
         """Where the modules of a step's word come from."""
 
     def sight(self, step: int) -> Observation | None:
-        """What the next step sees of a known step's word; None where nobody looks."""
+        """What the next step sees of a known step's word; None without an observer."""
 
 
 def check_size(states: States, step: int, size: int, word: int | None = None) -> None:
-    """Refuse a step whose word would be past a limit; it takes `word` bytes, if not those of a row of states."""
+    """Refuse a step whose word would be past a limit; `word` is how many bytes it takes, if it is no row of states."""
     most = current()
     if size > most.modules:
         raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(most.modules)}",
@@ -105,6 +105,6 @@ def check_time(states: States, step: int, until: float) -> None:
 
 
 def grouped(number: float) -> str:
-    """A number with its digits in groups of three; a very long one by its number of digits."""
+    """A number with its digits in groups of three; a very long one as a power of ten."""
     text = f"{number:,}"
     return text if len(text) <= 40 else f"about 10^{len(str(int(number))) - 1}"

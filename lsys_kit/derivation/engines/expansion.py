@@ -1,7 +1,7 @@
-"""The word of a step, built at once.
+"""Expansion: the word of a step, built without the words of earlier steps.
 
-The length of what a state becomes in so many steps is known, so each piece has its place in one array: what a state becomes
-in k steps is written where it is first needed, and every later occurrence is a copy of that stretch.
+The length of what a state becomes in k steps is known beforehand, so each piece has its place in one array. What a state
+becomes in k steps is written where it is first needed, and every later occurrence is a copy of that stretch.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ BYTES = 256
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
 PIECE = 64
-"""Pieces up to this length, at least 1, are put together as tuples and written at once."""
+"""Pieces up to this length, at least 1, are assembled as tuples and written at once."""
 
 
 @lru_cache(maxsize=1_024)
 def code_type(states: int) -> np.dtype[Any]:
-    """The smallest unsigned type that numbers so many states."""
+    """The smallest unsigned type that can number so many states."""
     return np.min_scalar_type(max(states - 1, 0))
 
 
@@ -93,7 +93,7 @@ def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any
     states
         The table.
     present
-        For each step the states that occur in its word.
+        The states that occur in the word of each step.
 
     Returns
     -------

@@ -42,7 +42,7 @@ class SteppingEngine:
         return state_counts(self._steps[step][0])
 
     def advance(self, until: float) -> None:
-        """Make one step more known: nothing is kept of it before it is finished."""
+        """Make one step more known; nothing of it is kept before it is finished."""
         step, before, sees = self.known + 1, self._steps[-1][0], None
         if self._world:
             sight = self._world(before, partial(check_time, self.states, step, until))
@@ -111,5 +111,5 @@ class SteppingEngine:
         return self._steps[step][1]()
 
     def sight(self, step: int) -> Observation | None:
-        """What the next step sees of a known step's word; None where nobody looks."""
+        """What the next step sees of a known step's word; None without an observer."""
         return self._world(self.word(step), lambda: None) if self._world else None

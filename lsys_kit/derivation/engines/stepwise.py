@@ -1,7 +1,7 @@
-"""One step of a system in which neighbours or chance have a say: every module of the old word is replaced at once.
+"""One step of any system, module by module: all modules of a word are replaced, each by what the definition says.
 
-What a module becomes depends on its state, on the states that its rules' contexts name, and on the lot that it draws. Equal
-cases have equal results, which are computed once and kept; where a rule makes random values, every module is a case of its own.
+What a module becomes depends on its state, on the states that the contexts of its rules name, and on chance. Results of equal
+cases are computed once and kept, unless a rule draws random values or asks what the turtle sees.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CLOSING, OPENING, LSystem, Module
 
 SensingFunction: TypeAlias = Callable[..., Value]
-"""What a module sees that asks the turtle: from its position, a function's number and the values that it is asked with."""
+"""Answers a module: from its position, the number of a sensitive function and the function's arguments."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Replacement:
 
 @dataclass(frozen=True)
 class ParentWord:
-    """The word before a step: its states, modules and symbols, who stands beside whom, and what each module sees."""
+    """The word before a step: its states, modules and symbols, their neighbours, and what each module sees."""
 
     codes: Sequence[int]
     modules: Sequence[Module]
@@ -51,7 +51,7 @@ class ParentWord:
     sees: SensingFunction | None
 
     def chance(self, seed: int, step: int, position: int) -> Chance:
-        """What a module is given besides its neighbours: random numbers, and what it sees."""
+        """The random numbers of a module, with what it sees."""
         return Chance(seed, step, position, self.sees and partial(self.sees, position))
 
 
@@ -63,7 +63,7 @@ class Stepper:
     states
         The table of states.
     seed
-        Where chance begins.
+        The seed of all random numbers.
 
     Examples
     --------
@@ -83,7 +83,7 @@ class Stepper:
         self._made: dict[tuple[object, ...], Replacement] = {}
 
     def old(self, codes: Sequence[int], sees: SensingFunction | None = None) -> ParentWord:
-        """A word as a step needs it."""
+        """A word as the parent of the next one."""
         modules = [self.states.modules[code] for code in codes]
         symbols = [module.symbol for module in modules]
         return ParentWord(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
@@ -96,9 +96,9 @@ class Stepper:
         codes
             The word's states.
         step
-            The word's step, from which chance is drawn.
+            The word's step, on which its random numbers depend.
         sees
-            What answers the modules' questions to the turtle.
+            Answers what modules ask of the turtle.
         """
         old, nothing = self.old(codes, sees), Replacement((), None)
         for position, (code, kept) in enumerate(zip(codes, surviving(old.symbols), strict=True)):
@@ -112,7 +112,7 @@ class Stepper:
                 yield self._open(old, position, old.chance(self.seed, step, position))
 
     def _open(self, old: ParentWord, position: int, chance: Chance) -> Replacement:
-        """What becomes of a module that does not decide it alone."""
+        """What becomes of a module whose state does not decide that alone."""
         matched = self.matched(old, position, chance)
         rule = self.states.choose_rule(matched, chance)
         if rule is None:
@@ -138,7 +138,7 @@ class Stepper:
         return self._matched[case]
 
     def _case(self, rules: Sequence[Rule], old: ParentWord, position: int) -> tuple[object, ...] | None:
-        """The states on which the matching depends; None where that is what is seen, or a branch, which may hold any number."""
+        """The states on which matching depends; None where it depends on what is seen, on chance, or on whole branches."""
         if any(rule.matches_anew for rule in rules):
             return None
         if old.around is None:

@@ -1,7 +1,7 @@
-"""Lumping: modules that differ only in parameters that decide nothing are counted as one.
+"""Slicing: parameters that decide nothing are removed from a system, as program slicing removes variables (Weiser 1981).
 
-A leaf L(t) whose age t grows for ever never comes to an end as a state; but where no condition asks for t, and nothing that
-is asked for is made of it, all leaves behave alike, and counting needs `L` only.
+A leaf L(t) whose age t grows for ever has infinitely many states. Where no condition depends on t, nor on any value computed
+from it, all leaves behave alike, and counting needs `L` only.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ ArgumentPosition: TypeAlias = tuple[str, int, int]
 
 
 def slice_system(system: LSystem) -> LSystem:
-    """The system with only those parameters that have a say in which production rewrites any module, or how much it makes.
+    """The system with only those parameters that decide which production rewrites a module, or how many modules it makes.
 
     How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
     Interpretation rules, which only draw, are left out.
@@ -41,9 +41,9 @@ def slice_system(system: LSystem) -> LSystem:
 
 
 def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
-    """The parameters that have a say: those that a rule asks for, and those of which such a parameter is made.
+    """The parameters that decide something: those that a rule tests, and those from which such a parameter is computed.
 
-    Where two kinds of module would become the same, because their symbol is the same, they keep all their parameters.
+    Where two kinds of modules with the same symbol would become one, they keep all their parameters.
 
     >>> from lsys_kit.notation.read import read
     >>> sorted(deciding_positions(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))

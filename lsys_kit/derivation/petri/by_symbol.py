@@ -1,7 +1,7 @@
-"""The net of a system whose states do not end, or hang on their neighbours: a place stands for all modules of one symbol.
+"""The net of a system with infinitely many states, or with contexts: a place stands for all modules of one symbol.
 
-Its transitions carry what the productions ask for. A decomposition rule is a transition that takes no time, as in generalized
-stochastic Petri nets (Ajmone Marsan, Conte and Balbo 1984).
+Its transitions carry the conditions of the productions. A decomposition rule is a transition that takes no time, as in
+generalized stochastic Petri nets (Ajmone Marsan, Conte and Balbo 1984).
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def by_symbol(states: States) -> Stages:
                                           None if chance == 1 else chance, None, at_once))
     start = Counter(kind_of(states.modules[state]) for state in states.axiom)
     return Stages(system, tuple(Place(symbol, ()) for symbol, _ in kinds), tuple(transitions), tuple(arcs),
-                  tuple(start[kind] for kind in kinds), True, tuple(_untold(states)), partial(_place, where))
+                  tuple(start[kind] for kind in kinds), True, tuple(_unshown(states)), partial(_place, where))
 
 
 def _place(where: dict[ModuleKind, int], module: Module) -> int | None:
@@ -68,7 +68,7 @@ def _applicable(rules: Sequence[Rule]) -> Sequence[Rule]:
 
 
 def _chances(rules: Sequence[Rule], states: States) -> Sequence[Value | None]:
-    """How likely each rule of one kind is, where that is always the same: all ask for the same, and no weight for a value."""
+    """How likely each rule of one kind is, where that is constant: all have the same conditions, and constant weights."""
     asked = {(rule.production.predecessor, rule.production.left, rule.production.right, rule.production.condition)
              for rule in rules}
     weights = [_constant_value(rule.production.probability, states) for rule in rules]
@@ -79,7 +79,7 @@ def _chances(rules: Sequence[Rule], states: States) -> Sequence[Value | None]:
 
 
 def _constant_value(expression: Expression | None, states: States) -> Value | None:
-    """The value of an expression that no parameter has a part in, else None."""
+    """The value of an expression without parameters, else None."""
     order = {constant.name: index for index, constant in enumerate(states.system.constants)}
     if expression is None or not names_in(expression) <= order.keys():
         return None
@@ -134,8 +134,8 @@ def _requirements(rule: Rule, chance: Value | None) -> str:
     return ", ".join(filter(None, (text, weight)))
 
 
-def _untold(states: States) -> Iterator[str]:
-    """What no transition shows."""
+def _unshown(states: States) -> Iterator[str]:
+    """What the system does that no transition shows."""
     for rule in states.system.meta:
         yield str(rule)
     if states.traits.cut:

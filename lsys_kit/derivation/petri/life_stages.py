@@ -1,7 +1,8 @@
-"""Lives: the stretches into which the ages at which modules begin part the lives of modules that grow older.
+"""Life stages: the lives of ageing modules, divided at the ages at which modules are born.
 
-Where a long cell begins at the age at which a short one has become as long, as in seed 002, the life of a short cell has two
-stretches: a module that has reached the second is a long cell. So every module lies in just one stretch, whatever its age.
+Where a long cell is born at the age at which a short one has become as long, as in Prusinkiewicz (Introduction to Modeling with
+L-systems, section 6), the life of a short cell has two stages: in the second it is a long cell. So every module is in exactly
+one stage, whatever its age.
 """
 
 from __future__ import annotations
@@ -58,16 +59,16 @@ def _lets_time_pass(rule: Rule, ages: AgeModel) -> bool:
 
 @dataclass(frozen=True)
 class LifeStages:
-    """The stretches of all lives.
+    """The stages of all lives.
 
     Attributes
     ----------
     ages
         How the modules grow older.
     modules
-        For each stretch its module at its first age.
+        The module of each stage at its first age.
     outcomes
-        For each stretch what it becomes, and after how long: the next stretch, or the daughters.
+        For each stage what it becomes, and after how long: the next stage, or the daughters.
     """
 
     ages: AgeModel
@@ -75,8 +76,8 @@ class LifeStages:
     outcomes: tuple[tuple[Outcome, ...], ...]
     _first: Mapping[AgelessModule, tuple[int, Sequence[Value]]] = field(repr=False)
 
-    def stretch(self, module: Module) -> int | None:
-        """The number of the stretch in which a module is at its age."""
+    def stage(self, module: Module) -> int | None:
+        """The number of the stage in which a module is at its age."""
         kind, age = self.ages.ageless(module), self.ages.age(module) or 0
         if kind not in self._first:
             return None
@@ -85,14 +86,14 @@ class LifeStages:
 
 
 def life_stages(ages: AgeModel, limit: int) -> LifeStages:
-    """The stretches of all lives.
+    """The stages of all lives.
 
     Raises
     ------
     ModelLimitError
         They are more than `limit`.
     ModelValueError
-        An age is not known, or a module begins older than it divides.
+        An age is not known, or a module is born older than it divides.
 
     Examples
     --------
@@ -105,14 +106,14 @@ def life_stages(ages: AgeModel, limit: int) -> LifeStages:
     M(0.2) 4/5 M(0) M(0.2)
     """
     try:
-        return _stretched(ages, _first_ages(ages, limit))
+        return _divided_lives(ages, _first_ages(ages, limit))
     except TypeError:
         raise ModelValueError("How long a module lives depends on a constant that is not known",
                               hint="Choose a value for it.") from None
 
 
 def _first_ages(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, Module]]:
-    """For each kind of module those that begin, by their age."""
+    """For each kind of module those that are born, by their age."""
     found: dict[AgelessModule, dict[Value, Module]] = {}
     todo = [ages.states.modules[state] for state in ages.states.axiom][::-1]
     while todo:
@@ -122,13 +123,13 @@ def _first_ages(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, M
             continue
         found[kind][age] = module
         if sum(map(len, found.values())) > limit:
-            raise ModelLimitError(f"Modules begin at more than {limit} different ages", limit=limit,
-                                  hint="Let daughters begin at ages that do not depend on their mother's.")
+            raise ModelLimitError(f"Modules are born at more than {limit} different ages", limit=limit,
+                                  hint="Let the ages of daughters at birth not depend on the age of their mother.")
         todo += ages.daughters(module)[::-1]
     return found
 
 
-def _stretched(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, Module]]) -> LifeStages:
+def _divided_lives(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, Module]]) -> LifeStages:
     rows: dict[AgelessModule, tuple[int, Sequence[Value]]] = {}
     modules: list[Module] = []
     for kind, begun in first.items():
@@ -145,11 +146,11 @@ def _stretched(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, Modu
 
 
 def _last(found: LifeStages, module: Module, age: Value) -> tuple[Outcome, ...]:
-    """What becomes of a module in its last stretch."""
+    """What becomes of a module in its last stage."""
     end = found.ages.end(module)
     if end is None:
         return ()
     if end[1] < age:
-        raise ModelValueError(f"{module} begins older than it divides, at the age {number_text(end[1])}")
-    daughters = (found.stretch(daughter) for daughter in found.ages.daughters(module))
+        raise ModelValueError(f"{module} is born older than it divides, at the age {number_text(end[1])}")
+    daughters = (found.stage(daughter) for daughter in found.ages.daughters(module))
     return (Outcome(end[0].number, tuple(row for row in daughters if row is not None), 1, end[1] - age),)

@@ -1,11 +1,12 @@
-"""Stage diagrams: the Petri net of a system (seed 002, figure 2; Peterson 1981).
+"""Stage diagrams: the Petri net of a system (Prusinkiewicz, Introduction to Modeling with
+L-systems, figure 2; Peterson 1981).
 
-A place stands for one state. Cells that differ in their polarity only share a place, as in the paper, where tokens ignore
+A place stands for one state. Cells that differ only in their polarity share a place, as in that figure, where tokens ignore
 order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where a
-parameter that decides nothing keeps the states from ending, it is left out (see `lumping`); where they do not end all the
-same, or hang on their neighbours, a place stands for all modules of one symbol (see `grouping`).
+parameter that decides nothing makes the states infinitely many, it is left out (see `slicing`). Where they are infinitely many
+all the same, or depend on their neighbours, a place stands for all modules of one symbol (see `by_symbol`).
 
-In a timed system a place is a stretch of a module's life (see `life_stages`), and its transition says how long that is.
+In a timed system a place is a stage of a module's life (see `life_stages`), and its transition says how long that is.
 """
 
 from __future__ import annotations
@@ -33,14 +34,14 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import CELLS, LSystem, Module
 
 MOST_PLACES = 40
-"""A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""
+"""A diagram with more states than this is grouped by symbol, to be legible."""
 MOST_LUMPED = 16
-"""So is one that leaves out parameters, and has more transitions than this all the same: its few symbols tell more."""
+"""So is a diagram that leaves out parameters and still has more transitions than this."""
 
 
 @dataclass(frozen=True)
 class _Table:
-    """Modules, what may become of each, in which row a module of a word stands, and how many transitions can be read."""
+    """Modules, what may become of each, the row of each module of a word, and how many transitions are legible."""
 
     states: States
     modules: Sequence[Module]
@@ -69,7 +70,7 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         A value cannot be computed, a timed system is given new constants, or the productions of a system whose durations are
         asked for do more than let time pass.
     ModelLimitError
-        The modules of a timed system begin at too many different ages.
+        The modules of a timed system are born at too many different ages.
 
     Examples
     --------
@@ -102,11 +103,11 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
 def _timed_net(ages: AgeModel, polarity: bool) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
     found = life_stages(ages, MOST_PLACES)
-    return _net(_Table(ages.states, found.modules, found.outcomes, found.stretch), ages.states, polarity)
+    return _net(_Table(ages.states, found.modules, found.outcomes, found.stage), ages.states, polarity)
 
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
-    """The states of a system, then those without the parameters that decide nothing; only where they end."""
+    """The states of a system, then those without the parameters that decide nothing; each only where they are finitely many."""
     for outcomes in _finite_outcomes(states):
         yield _Table(states, states.modules, outcomes, {module: row for row, module in enumerate(states.modules)}.get)
     system, kept = states.system, deciding_positions(states.system)
@@ -122,7 +123,7 @@ def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
 
 def _finite_outcomes(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
     """The outcomes of all states, if these are finitely many and no neighbour decides."""
-    with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
+    with suppress(ModelValueError):  # some state has no successor; the sliced system may still have a diagram
         outcomes = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
         if outcomes is not None:
             yield outcomes

@@ -1,7 +1,7 @@
-"""Descent: what becomes of a cell within a step, with the cells that come and go between two words.
+"""Cell lineage within a step: divisions, with the cells that appear and divide again between two words.
 
-The parts by which a rule replaces a module are known as they are at the step's end; as they were at first follows from the age
-at which the rule began to apply.
+A rule gives the daughters of a cell as they are at the end of the step. What they were at birth follows from the age at which
+the rule began to apply.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class LineageCell:
     at_birth
         The module that it was then.
     ended
-        When it divided or died; None where it lives to the end.
+        When it divided or died; None where it is alive at the end.
     due
         When it should have divided, where that is before `ended`, or before the end.
     modules
@@ -72,7 +72,7 @@ class CellDivisions:
         self._known: dict[int, CellPart] = {}
 
     def of(self, state: int) -> CellPart:
-        """What becomes of a settled state."""
+        """What becomes of a state that alone decides it."""
         if state not in self._known:
             module, rule = self.states.modules[state], self.states.rule(state)
             self._known[state] = self._replaced(module, module, rule, 0) if rule else self._decomposed(module, module, 0)
@@ -96,11 +96,11 @@ class CellDivisions:
 
 
 class CellGrowth:
-    """A lineage that is put together step by step."""
+    """A lineage that is assembled step by step."""
 
     def __init__(self, states: States) -> None:
         self.cells: list[LineageCell] = []
-        self.places: list[int | None] = []  # for each module of the word whose cell it is
+        self.places: list[int | None] = []  # the cell of each module of the word
         self._kinds = cell_kinds(states.system)
 
     def is_cell(self, module: Module) -> bool:

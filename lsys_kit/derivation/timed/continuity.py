@@ -1,12 +1,13 @@
-"""Continuity: does a filament grow without a jump where its cells divide? (ABOP, section 6.2; seed 002, section 8)
+"""Continuity: does a filament grow without a jump where its cells divide? (ABOP,
+section 6.2; P. Prusinkiewicz, Introduction to Modeling with L-systems, section 8)
 
 A growth function g gives the length of a cell at an age. The length of the filament is continuous where
 
     R1  each growth function is continuous on the life span of its letter, from the first age to the terminal age;
     R2  at each division g(mother, terminal age) is the sum of g(daughter, first age) over the daughters.
 
-Of order k it is continuous where the same holds for the derivatives up to the k-th. Names in a growth function that nobody
-gave a value are unknown: R2 is then an equation that they must obey, such as a^t_div = a^t_s + a^t_l.
+Of order k it is continuous where the same holds for the derivatives up to the k-th. Names in a growth function that have
+no value are unknown: R2 is then an equation for them, such as a^t_div = a^t_s + a^t_l.
 """
 
 from __future__ import annotations
@@ -62,7 +63,7 @@ class Continuity:
 
     @property
     def equations(self) -> tuple[sympy.Eq, ...]:
-        """What the unknown names must obey."""
+        """The equations that the unknown names must satisfy."""
         import sympy
 
         return tuple(dict.fromkeys(sympy.Eq(division.mother, division.daughters) for division in self.divisions
@@ -115,9 +116,9 @@ class Continuity:
         if not found:
             where = "" if ends == [None, None] else " in that range"
             raise ModelValueError(f'No value of "{name}"{where} makes the length continuous')
-        told = ", ".join(f"{float(root):.6g}" for root in found)
-        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {told}',
-                              hint=f'Say between which numbers it lies, as in solve("{name}", 1, 10).')
+        values = ", ".join(f"{float(root):.6g}" for root in found)
+        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {values}',
+                              hint=f'Give the range in which it lies, as in solve("{name}", 1, 10).')
 
     def _equation(self, name: str) -> sympy.Expr:
         """What is 0 where the length is continuous, with no other unknown name in it."""
@@ -143,7 +144,7 @@ class Continuity:
         try:
             lengths = [(d.order, d.mother.subs(point), d.daughters.subs(point)) for d in asked]
             growth = [(function.subs(point), life.subs(point)) for function, life in self._growth]
-        except ValueError:  # it compares what is no real number
+        except ValueError:  # it compares numbers that are not real
             return False
         return (all(equal_lengths(before, after) and (order or before != 0) for order, before, after in lengths)
                 and all(is_continuous(function, life) is not False for function, life in growth))
@@ -256,6 +257,6 @@ def _total_length(modules: Iterable[Module], functions: Mapping[str, sympy.Expr]
     try:
         return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
                            for (symbol, age), number in cells.items()))
-    except ValueError:  # it compares what is no real number
-        told = " or ".join(symbol for symbol, _ in cells)
-        raise ModelValueError(f"The length of {told} has no value at a division") from None
+    except ValueError:  # it compares numbers that are not real
+        letters = " or ".join(symbol for symbol, _ in cells)
+        raise ModelValueError(f"The length of {letters} has no value at a division") from None

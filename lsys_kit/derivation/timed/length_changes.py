@@ -53,14 +53,14 @@ class Division:
 
 
 def equal_lengths(before: sympy.Expr, after: sympy.Expr) -> bool:
-    """Whether two lengths are equal whatever their unknown names are: they are compared where nothing is equal by chance."""
+    """Whether two lengths are equal whatever their unknown names are: compared where nothing is equal by coincidence."""
     import sympy
 
     symbols = sorted(before.free_symbols | after.free_symbols, key=str)
     point = {symbol: sympy.Float(f"1.{2345679 + 1357913 * i}", 20) for i, symbol in enumerate(symbols)}
     try:
         one, other, left = (abs(value.evalf(20, subs=point)).evalf() for value in (before, after, before - after))
-    except ValueError:  # it compares what is no real number
+    except ValueError:  # it compares numbers that are not real
         return False
     return all(value.is_Float or value.is_Rational for value in (one, other, left)) and bool(left <= TOLERANCE * (one + other))
 

@@ -1,6 +1,7 @@
-"""Lineages: which cell comes from which, and when each divides (seed 002, figures 5 and 6).
+"""Lineages: which cell comes from which, and when each divides (P. Prusinkiewicz, Introduction to Modeling with L-systems,
+figures 5 and 6).
 
-A step leads from one word to the next, but what happens in it has times of its own. Where a cell's age grows with time and a
+A step leads from one word to the next, but events within it have times of their own. Where a cell's age grows with time and a
 condition such as `t >= t_div` says at which age it divides, the age that it would have by the step's end tells how long ago it
 divided. So the lineage has a place in continuous time, however long the steps are; and it shows where a division is late,
 because the productions let a cell divide only once in a step.
@@ -101,7 +102,7 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
     ModelLimitError
         There are too many cells.
     ModelValueError
-        It is nothing that has a lineage, or a choice is missing or does not belong to it.
+        The argument has no lineage, or a choice is missing or does not apply to it.
 
     Examples
     --------
@@ -111,19 +112,19 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
     >>> tree, [float(time) for time in tree.divisions]
     (7 cells at time 2.8, after 6 divisions, [1.0, 1.8, 2.0, 2.6, 2.8, 2.8])
 
-    See seed 002, sections 5 and 6, figures 5 and 6.
+    See P. Prusinkiewicz, Introduction to Modeling with L-systems, sections 5 and 6, figures 5 and 6.
     """
     if isinstance(what, LSystem):
         steps: Any = n if n is not None else what.steps if what.steps is not None else 5
         start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
         if start.states.traits.sensitive:
-            raise ModelValueError("The system asks for what the turtle sees, and words alone do not tell that",
+            raise ModelValueError("The system asks what the turtle sees, which words alone do not say",
                                   hint="Derive it first, and ask for the lineage of the derivation.")
         return _derived_lineage(start.to(steps))
     if isinstance(what, Timed) and n is not None and not constants:
         return _timed_lineage(what, number_from(n, "time"))
     if isinstance(what, Timed):
-        raise ModelValueError("For the lineage of a timed system the time at which it ends is needed, and nothing else",
+        raise ModelValueError("The lineage of a timed system needs the time at which it ends, and nothing else",
                               hint="Ask for lineage(timed(system), 5).")
     if not isinstance(what, Derivation):
         raise ModelValueError(f"Only systems, derivations and timed systems have a lineage, not {type(what).__name__}")

@@ -1,4 +1,4 @@
-"""Timed systems: the word at any time, not only after whole steps (ABOP, chapter 6; seed 003).
+"""Timed systems: the word at any time, not only after whole steps (ABOP, chapter 6).
 
 A module's one parameter is its age. A production `ar(1) -> al(0) br(0)` says at which age a cell divides, its terminal age, and
 with which ages its daughters begin. With D(x, t) for what a word x becomes in a time t:
@@ -7,7 +7,7 @@ with which ages its daughters begin. With D(x, t) for what a word x becomes in a
     D(a(age), t) = a(age + t)                             while age + t <= terminal age
                  = D(successor, t - (terminal - age))     from then on
 
-At its terminal age a cell is not yet divided. How long the cells are is told in `continuity`; here is what its equations need.
+At its terminal age a cell is not yet divided. The lengths of cells are the subject of `continuity`.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Timed:
         Raises
         ------
         ModelValueError
-            The time is before the axiom, or cells divide without end in no time at all.
+            The time is before the axiom, or cells divide endlessly within one instant.
         ModelLimitError
             The word would be too large, or takes too long.
 
@@ -89,7 +89,7 @@ class Timed:
                 older = self.ages.aged(module, (self.ages.age(module) or 0) + left)
                 found.append(self.states.number(older.symbol, older.arguments))  # type: ignore[arg-type]
             elif instant > deepest:
-                raise ModelValueError(f"{module} divides without end in no time at all",
+                raise ModelValueError(f"{module} divides endlessly within one instant",
                                       hint="Let a daughter begin younger than the age at which she divides.")
             else:
                 instant = instant + 1 if rest == left else 0
@@ -117,7 +117,7 @@ class Timed:
 
 
 def timed(system: LSystem, **constants: object) -> Timed:
-    """A system whose modules' one parameter is their age.
+    """A timed system, in which the one parameter of each module is its age.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def timed(system: LSystem, **constants: object) -> Timed:
     Raises
     ------
     ModelValueError
-        The system is no timed one.
+        A production does not say at which age it applies, or depends on neighbours or chance.
     """
     states = States(system, constants)
     check_d0l(states, "The word at any time")
