@@ -19,11 +19,11 @@ from itertools import repeat
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.closure import check_d0l
-from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.core.rules import ModuleKind, kind_of, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL
-from lsys_kit.derivation.timed.ages import AgeModel, timed_age_model, undecided_age
+from lsys_kit.derivation.timed.ages import AgeModel, RuleAndAge, timed_age_model, undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
 from lsys_kit.notation.model.system import LSystem, Module
@@ -46,6 +46,11 @@ class Timed:
     def ages(self) -> AgeModel:
         """How its modules grow older, and how their lives end."""
         return timed_age_model(self.states)
+
+    @cached_property
+    def _ends(self) -> dict[ModuleKind, RuleAndAge | None]:
+        """How each kind of module ends: its terminal age depends on nothing else."""
+        return {}
 
     def word(self, at: object) -> Word:
         """The word at a time.
@@ -105,7 +110,10 @@ class Timed:
 
     def _division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
         """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
-        end = self.ages.end(module)
+        kind = kind_of(module)
+        if kind not in self._ends:
+            self._ends[kind] = self.ages.end(module)
+        end = self._ends[kind]
         if end is None:
             return left, None
         rule, terminal = end
