@@ -177,7 +177,7 @@ def test_a_lineage_is_told_in_a_line() -> None:
 
 @pytest.mark.parametrize(("what", "n", "choices", "said"), [
     ("P6", 2, {}, "not str"), (LOOKING, 2, {}, "Derive it first"),
-    (timed(TIMED), None, {}, "time at which it ends is needed"),
+    (timed(TIMED), None, {}, "needs the time at which it ends"),
     (derive(system("P6"), 2), 3, {}, "chosen when a system is derived"),
     (derive(system("P6"), 2), None, {"dt": 1}, "chosen when a system is derived"), (timed(TIMED), -1, {}, "before the axiom")])
 def test_what_has_no_lineage_is_explained(what: object, n: object, choices: dict[str, object], said: str) -> None:

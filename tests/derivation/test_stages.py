@@ -270,7 +270,7 @@ def test_without_chance_what_is_expected_is_what_happens() -> None:
 
 
 def test_lots_are_drawn_by_whoever_fires() -> None:
-    with pytest.raises(ModelValueError, match="left to chance") as caught:
+    with pytest.raises(ModelValueError, match="decided by chance") as caught:
         stages(catalogued("K8")).fired((1,) * 9)
     assert "expected(steps)" in str(caught.value.hint)
 
