@@ -55,7 +55,7 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
 
     sys.set_int_max_str_digits(0)
     system = _system(options)
-    counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).settled else \
+    counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).traits.d0l else \
         _words(system, options).lengths
     for step, modules in enumerate(counts):
         yield {"step": step, "modules": modules}
@@ -78,7 +78,7 @@ def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
     except ModelLimitError as mistake:
         if not isinstance(mistake.partial, Derivation):
             raise
-        counting = "; derive --counts counts the modules of any step" if mistake.partial.states.settled else ""
+        counting = "; derive --counts counts the modules of any step" if mistake.partial.states.traits.d0l else ""
         hint = f"Take -n {mistake.partial.steps} or less{counting}."
         raise ModelLimitError(mistake.message, limit=mistake.limit, needed=mistake.needed, hint=hint) from None
 

@@ -1,7 +1,6 @@
-"""Deriving: from the axiom to the word of any step.
+"""Derivation: from the axiom to the word of any step.
 
-Before a word is built its size is known exactly: how often each state occurs in it follows from how often each occurs in
-the word before, as a sum of whole numbers. The word of step n is then built without the words between.
+A `Derivation` asks its engine for one step after another, within the limits of size and time, and keeps the steps that fit.
 """
 
 from __future__ import annotations
@@ -15,20 +14,12 @@ from typing import Any, overload
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.closure import check_settled
+from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.engines.engines import (
-    CountingEngine,
-    Observation,
-    Observer,
-    Origins,
-    SteppingEngine,
-    check_size,
-    check_time,
-    engine_for,
-    next_counts,
-)
+from lsys_kit.derivation.engines.counting import next_counts
+from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size, check_time
+from lsys_kit.derivation.engines.table import engine_for
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.maps import MapSystem
@@ -41,16 +32,16 @@ def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: 
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
 def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
-    """Derive a system by its words alone: `lsys_kit.derive`, which is the same, also answers what modules ask of the turtle.
+    """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
 
     Parameters
     ----------
     system
-        Any L-system; or a map system, whose maps are derived, and which has none of the choices below.
+        Any L-system; or a map system, whose maps are derived and which takes none of the choices below.
     steps
         How many steps.
     seed
-        Where chance begins: the same seed gives the same words, on every machine. By default the system's own, else 0.
+        The seed of all random numbers: the same seed gives the same words on every machine. By default the system's, else 0.
     arithmetic
         "exact", or "float" to compute in doubles as cpfg and L-Py do.
     **choices
@@ -59,13 +50,13 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     Returns
     -------
     Derivation
-        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those between. For a map
-        system a `Development`, a sequence of `steps + 1` maps.
+        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those in between. For a
+        map system a `Development`, a sequence of `steps + 1` maps.
 
     Raises
     ------
     ModelLimitError
-        A step would be too large; the error has the step, the size and, in `partial`, the derivation of the steps that fit.
+        A step would be too large; the error gives the step, the size and, in `partial`, the derivation of the steps that fit.
     ModelValueError
         A value cannot be computed; the error names the module and the production.
 
@@ -82,13 +73,13 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
         return derive_observed(system, steps, None, **choices)
     if choices:
         raise ModelValueError(f'A map system has no "{next(iter(choices))}"',
-                              hint="Nothing in it is left to chance, or declared.")
+                              hint="It has neither chance nor declared constants.")
     return develop(system, steps)
 
 
 def derive_observed(system: LSystem, steps: int, world: Observer | None, /, *, seed: int | None = None,
                     arithmetic: str = "exact", **constants: object) -> Derivation:
-    """Derive an L-system, in a world that looks at each word before the step, if modules ask for what the turtle sees."""
+    """Derive an L-system; if its modules ask what the turtle sees, an observer looks at each word before the next step."""
     seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise ModelValueError(f"The seed must be a whole number, not {seed!r}")
@@ -106,12 +97,12 @@ class Derivation(Sequence[Word]):
         The last step.
     """
 
-    def __init__(self, course: CountingEngine | SteppingEngine, steps: int = 0) -> None:
-        self.steps, self._course = steps, course
-        self.states = course.states
+    def __init__(self, engine: Engine, steps: int = 0) -> None:
+        self.steps, self._engine = steps, engine
+        self.states = engine.states
 
     def to(self, steps: int) -> Derivation:
-        """The same derivation up to another step; what is known already is not computed again.
+        """The same derivation up to another step; known steps are not computed again.
 
         Raises
         ------
@@ -123,17 +114,17 @@ class Derivation(Sequence[Word]):
         until, reached = time.monotonic() + current().seconds, 0
         try:
             for reached in range(int(steps) + 1):
-                if reached > self._course.known:
-                    self._course.advance(until)
+                if reached > self._engine.known:
+                    self._engine.advance(until)
                 else:
-                    check_size(self.states, reached, self._course.size(reached))
+                    check_size(self.states, reached, self._engine.size(reached))
         except ModelLimitError as error:
             raise self._refusal(error, reached) from None
-        return Derivation(self._course, int(steps))
+        return Derivation(self._engine, int(steps))
 
     def _refusal(self, error: ModelLimitError, step: int) -> ModelLimitError:
-        """The error with the steps that are kept."""
-        error.partial = Derivation(self._course, step - 1) if step else None
+        """The error, with the steps that were finished."""
+        error.partial = Derivation(self._engine, step - 1) if step else None
         kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
         return error.with_hint(kept + (error.hint or ""))
 
@@ -150,7 +141,7 @@ class Derivation(Sequence[Word]):
         step = index + len(self) if index < 0 else index
         if not 0 <= step <= self.steps:
             raise IndexError(f"step {index} of a derivation of {self.steps} steps")
-        return self._course.word(step)
+        return self._engine.word(step)
 
     def __iter__(self) -> Iterator[Word]:
         return (self[step] for step in range(len(self)))
@@ -161,11 +152,11 @@ class Derivation(Sequence[Word]):
     @property
     def lengths(self) -> list[int]:
         """The number of modules at each step, known without building a word."""
-        return [self._course.size(step) for step in range(len(self))]
+        return [self._engine.size(step) for step in range(len(self))]
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is worth telling: names that were read as several symbols, values that are no longer exact.
+        """Remarks: names that were read as several symbols, values that are no longer exact.
 
         >>> from lsys_kit.notation.read import read
         >>> derive(read("axiom: F(0)\\nF(x) -> F(x^2 + 0.1)"), 8).notes
@@ -173,27 +164,27 @@ class Derivation(Sequence[Word]):
         """
         notes, inexact = self.states.system.notes, self.states.inexact
         for step in range(len(self) if inexact else 0):
-            if any(self.states.modules[state] == inexact for state in self._course.counts(step)):
+            if any(self.states.modules[state] == inexact for state in self._engine.counts(step)):
                 return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")
         return notes
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a step, known without building its word."""
-        return self._course.counts(step)
+        return self._engine.counts(step)
 
     def origins(self, step: int) -> Origins:
-        """Where the modules of a step's word come from: from which module of the word before, by which production.
+        """Where the modules of a step's word come from: which module of the previous word, and which production.
 
         >>> from lsys_kit.notation.read import read
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
         Origins(parents=[0, 0, 1], productions=[0, 0, 1])
         """
         if not 1 <= step <= self.steps:
-            raise ModelValueError(f"Only the words of steps 1 to {self.steps} come from a word before, not that of step {step}")
-        return self._course.origins(step)
+            raise ModelValueError(f"Only the words of steps 1 to {self.steps} have a previous word, not that of step {step}")
+        return self._engine.origins(step)
 
     def sight(self, step: int) -> Observation | None:
-        """What the next step sees of a step's word, which has its query modules filled in there; None where nobody looks.
+        """What the next step sees of a step's word, with its query modules filled in; None in a system that asks nothing.
 
         >>> from lsys_kit import derive, read
         >>> apex = derive(read("axiom: F A ?P(0,0)\\nA > ?P(x,y) : y < 3 -> F A"), 2)
@@ -201,10 +192,10 @@ class Derivation(Sequence[Word]):
         F F F A?P(0,2) and F F F A?P(0,3)
         """
         self[step]  # an IndexError, where there is no such step
-        return self._course.sight(step)
+        return self._engine.sight(step)
 
     def ancestors(self, step: int, before: int = 0) -> list[int]:
-        """For each module of a step's word the position, in the word of an earlier step, of the module that it descends from.
+        """For each module of a step's word the position of its ancestor in the word of an earlier step.
 
         >>> from lsys_kit.notation.read import read
         >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
@@ -218,14 +209,14 @@ class Derivation(Sequence[Word]):
         return positions
 
     def column(self, centred: bool = False, coding: Mapping[str, str] | None = None) -> Column:
-        """The words below one another, as in seed 000's `ColumnForm`.
+        """The words below one another, as `ColumnForm` shows them in Jacob, Modeling Growth with L-Systems & Mathematica.
 
         Parameters
         ----------
         centred
-            Whether each word stands in the middle.
+            Whether the words are centred.
         coding
-            For some modules what is written in their place (see `Word.coded`).
+            What is written in place of some modules (see `Word.coded`).
 
         Examples
         --------
@@ -243,7 +234,7 @@ class Derivation(Sequence[Word]):
 
 
 class Column(str):
-    """Lines of text that a notebook shows as they are."""
+    """Lines of text that a notebook shows without quotation marks."""
 
     __slots__ = ()
 
@@ -252,7 +243,7 @@ class Column(str):
 
 
 def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Iterator[int]:
-    """The number of modules at steps 0 to `steps`, however large: no word is built.
+    """The number of modules at steps 0 to `steps`, however large, without building a word.
 
     >>> from lsys_kit.notation.read import read
     >>> len(str(list(lengths(read("axiom: a\\na -> ab\\nb -> a"), 10_000))[-1]))
@@ -261,13 +252,13 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
     Raises
     ------
     ModelLimitError
-        Counting takes too long, because there are too many different modules.
+        Counting takes too long, since there are too many different modules.
     """
     states, left = States(system, constants, arithmetic), current().seconds
-    check_settled(states, "The number of modules of a step that is not derived")
+    check_d0l(states, "The number of modules of a step that is not derived")
     counts: Mapping[int, int] = Counter(states.axiom)
     for step in range(steps + 1):
         started = time.monotonic()
         counts = next_counts(states, counts, partial(check_time, states, step, started + left)) if step else counts
-        left -= time.monotonic() - started  # the time between two steps is the asker's
+        left -= time.monotonic() - started  # time that passes between two steps is not counted
         yield sum(counts.values())

@@ -52,7 +52,7 @@ class ModuleOutcome:
 
 
 class Explanation(tuple[ModuleOutcome, ...]):
-    """The fates of all modules of a word, shown one below the other."""
+    """What became of all modules of a word, shown one below the other."""
 
     __slots__ = ()
 
@@ -61,7 +61,7 @@ class Explanation(tuple[ModuleOutcome, ...]):
 
 
 def explain(derivation: Derivation, step: int) -> Explanation:
-    """Why the word of a step is what it is: the fate of every module of the word before.
+    """Why the word of a step is what it is: what became of every module of the word before.
 
     Parameters
     ----------
@@ -92,10 +92,10 @@ def explain(derivation: Derivation, step: int) -> Explanation:
     for code, parent, production in zip(new, origins.parents, origins.productions, strict=True):
         successors.setdefault(parent, []).append(derivation.states.modules[code])
         applied[parent] = production
-    return Explanation(_fates(stepper, old, successors, applied))
+    return Explanation(_outcomes(stepper, old, successors, applied))
 
 
-def _fates(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]],
+def _outcomes(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]],
            applied: dict[int, int | None]) -> Iterator[ModuleOutcome]:
     system = stepper.states.system
     for position, kept in enumerate(surviving(old.symbols)):
@@ -104,22 +104,22 @@ def _fates(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]
         rules = [rule for kind, found in stepper.states.rules.items() if kind[0] == module.symbol for rule in found]
         refusals = [(rule, _refusal(stepper, old, position, rule)) for rule in rules] if kept else []
         matching = [rule for rule, why in refusals if why is None]
-        chosen = _chosen(matching, applied.get(position), bool(made))
-        said = _said(system, chosen) if chosen else "it is cut off" if not kept else \
+        chosen = _applied_rule(matching, applied.get(position), bool(made))
+        said = _production_text(system, chosen) if chosen else "it is cut off" if not kept else \
             "no production matches" if rules else f"no production is for {module.symbol}"
-        why_not = tuple(f"{_said(system, rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals
+        why_not = tuple(f"{_production_text(system, rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals
                         if rule is not chosen)
         yield ModuleOutcome(position + 1, module, made, said, why_not, system.notation)
 
 
-def _chosen(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
-    """The rule that was applied; where it left nothing, the one that must have been."""
+def _applied_rule(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
+    """The rule that was applied; where it left nothing, the first that matches."""
     if left_something:
         return next((rule for rule in matching if rule.number == applied), None)
     return matching[0] if matching else None
 
 
-def _said(system: LSystem, rule: Rule) -> str:
+def _production_text(system: LSystem, rule: Rule) -> str:
     return f"production {rule.number + 1}, {as_written(system, rule.production)}"
 
 
@@ -144,14 +144,14 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
         if values[index] != wanted(given):
             return f"asks for {arguments[index]}, and there is {number_text(values[index])}"
     chance = old.chance(0, 0, position)
-    if not stepper.states.holds(rule, values, module, chance):
+    if not stepper.states.matches(rule, values, module, chance):
         names = names_in(rule.production.condition) if rule.production.condition else frozenset()
         known = {a.name: value for a, value in zip(arguments, values, strict=True) if isinstance(a, Name)}
         known |= dict(zip((c.name for c in system.constants), stepper.states.constants, strict=True))
-        told = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
+        values_text = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
                           *(f"{as_written(system, question)} is {number_text(answer((*given, chance)))}"
                             for question, answer in rule.questions)])
-        return f"{as_written(system, rule.production.condition)} is false{f' where {told}' if told else ''}"
+        return f"{as_written(system, rule.production.condition)} is false{f' where {values_text}' if values_text else ''}"
     return None
 
 

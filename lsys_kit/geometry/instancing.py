@@ -85,7 +85,7 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
     78,125 segments, width 732.47, height 2187
     """
     system, states = derivation.states.system, derivation.states
-    if not states.settled or any(command.action in ELSEWHERE for module in system.modules
+    if not states.traits.d0l or any(command.action in ELSEWHERE for module in system.modules
                                  for command in COMMANDS[system.turtle].get(module.symbol, ())):
         return None
     present = [derivation.counts(earlier) for earlier in range(step + 1)]

@@ -18,7 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from lsys_kit.derivation.core.rules import kind_of, number_from
-from lsys_kit.derivation.core.states import QUERIES, States
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.commands import initial_step

@@ -21,6 +21,7 @@ from lsys_kit import ModelLimitError, derive, growth, limits, read, system
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import lengths
 from lsys_kit.derivation.engines.columnar import ColumnWord
+from lsys_kit.derivation.engines.columns import FloatValues
 from tests.benchmarks.test_engine import FIBONACCI, PLANT, TEN_RULES
 
 P4, CHANCE = system("P4"), system("K7")
@@ -105,7 +106,10 @@ def seconds_of(benchmark, work: Callable[[], object], between: Callable[[], obje
 
 
 def array_of(word: Word) -> np.ndarray:
-    return word.values if isinstance(word, ColumnWord) else np.asarray(word.codes)
+    """What a copy of the word copies at least."""
+    if not isinstance(word, ColumnWord):
+        return np.asarray(word.codes)
+    return word.values.array if isinstance(word.values, FloatValues) else word.values.numerators
 
 
 def compare(benchmark, score: Score, goal: Goal, work: Callable[[], Word], visits: int | None = None) -> None:
@@ -184,6 +188,13 @@ def test_modules_that_are_all_different(benchmark, score):
     steps = 10 if benchmark.disabled else 20
     goal = Goal(f"A(x) -> A(.37x+.1) A(.59x+.2), step {steps}", 1e8)
     compare(benchmark, score, goal, lambda: derive(ALL_DIFFERENT, steps, arithmetic="float")[-1])
+
+
+def test_modules_that_are_all_different_and_exact(benchmark, score):
+    """4,096 of them, with denominators of 24 digits."""
+    steps = 8 if benchmark.disabled else 12
+    goal = Goal(f"the same, exact, step {steps}", 5e5)
+    compare(benchmark, score, goal, lambda: derive(ALL_DIFFERENT, steps)[-1])
 
 
 @pytest.mark.parametrize(("modules", "milliseconds"), [(100, 0.2), (1_000, 0.6), (3_000, 1)])

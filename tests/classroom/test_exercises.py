@@ -10,7 +10,7 @@ import pytest
 from lsys_kit import ModelNameError, ModelValueError, check, derive, read, system
 from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, leftmost_only, sequential
 from lsys_kit.classroom.exercises.check import exercise_of, lessons
-from lsys_kit.classroom.exercises.differences import proved_equal
+from lsys_kit.classroom.exercises.differences import differing_system, differing_word, proved_equal
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook, write_notebooks
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.derivation.core.states import States
@@ -323,3 +323,15 @@ def test_a_sheet_is_a_notebook_with_short_cells_one_title_and_a_way_back(lesson)
     assert f"(../notebooks/{lesson.name}.ipynb)" in text
     assert "no examination" in text
     assert all(len(cell["source"]) <= 6 for cell in notebook["cells"] if cell["cell_type"] == "code")
+
+
+def test_where_neighbours_have_a_say_the_first_difference_is_found_in_the_words():
+    """No module alone decides what becomes of it: both systems have the same productions for a module without a context."""
+    mine, wanted = (derive(read(f"axiom: b a a c\nb < a -> {made}\nc -> ε"), 2) for made in ("b", "b b"))
+    assert differing_system(mine, wanted, 1) == (
+        "Step 1, position 3: you have a, the system has b; look at your production for a, which is\n  b < a -> b")
+    assert "look at what becomes of the a at position 2 of step 0" in differing_word(mine, 1, [*mine[0][:1], *mine[0][3:]])
+    erased, kept = (derive(read(f"axiom: b a\nb < a -> {made}"), 1) for made in ("ε", "a"))
+    assert differing_system(erased, kept, 1).endswith("look at your productions for a, position 2 of step 0.")
+    unlucky, lucky = (derive(read(f"axiom: a\na -> {made} : 1"), 1) for made in ("b", "c"))
+    assert differing_system(unlucky, lucky, 1).endswith("which is\n  a -> b : 1")

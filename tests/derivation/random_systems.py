@@ -236,14 +236,15 @@ def decompositions(draw: st.DrawFn, kinds: Collection[str]) -> Production:
 
 
 @st.composite
-def metas(draw: st.DrawFn) -> MetaRule:
-    """A rule that joins two modules, or removes them."""
+def metas(draw: st.DrawFn, kinds: Collection[str]) -> MetaRule:
+    """A rule that joins two modules, or removes them, or makes of them what cuts off a branch."""
     if draw(st.booleans()):
         moves = Pattern("f", (Name("x"),)), Pattern("f", (Name("y"),))
         made = draw(st.sampled_from(((Pattern("f", (Apply("+", (Name("x"), Name("y"))),)),), ())))
         return MetaRule(moves, made, draw(conditions(("x", "y"), 0)) if draw(st.booleans()) else None)
     pair = tuple(Pattern(draw(st.sampled_from("ABF"))) for _ in range(2))
-    return MetaRule(pair, tuple(Pattern(symbol) for symbol in draw(st.sampled_from(("", "A", "F")))))
+    made = draw(st.sampled_from(("", "A", "F", *("%" if CUT in kinds else ""))))
+    return MetaRule(pair, tuple(map(Pattern, made)))
 
 
 @st.composite
@@ -257,7 +258,7 @@ def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
         rewriting.sort(key=lambda rule: not (rule.left or rule.right or rule.condition))  # what always applies stands last
     if draw(st.integers(0, 3)):
         rewriting.append(draw(apices(kinds)))
-    meta = tuple(draw(st.lists(metas(), min_size=1, max_size=3))) if META in kinds else ()
+    meta = tuple(draw(st.lists(metas(kinds), min_size=1, max_size=3))) if META in kinds else ()
     plain = tuple(kind for kind in kinds if kind not in (CHANCE, REPETITION, CUT))
     decomposed = (Pattern("D", (Number(draw(st.integers(1, 3))),)), Pattern("E")) if DECOMPOSITION in kinds else ()
     found = [m for rule in rewriting[:4] for m in (*rule.left, rule.predecessor, *rule.right)]

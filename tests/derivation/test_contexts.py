@@ -8,9 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lsys_kit.derivation.engines.contexts as bulk
-import lsys_kit.derivation.engines.engines as courses
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, neighbours
-from lsys_kit.derivation.derive import derive
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.engines.stepping import SteppingEngine
+from lsys_kit.derivation.engines.stepwise import Stepper
 from lsys_kit.notation.read import read
 
 ROLES = {"A": bulk.ORDINARY, "B": bulk.ORDINARY, "+": bulk.PASSED, "-": bulk.PASSED, "[": bulk.OPENS, "]": bulk.CLOSES}
@@ -46,9 +48,25 @@ def test_neighbours_are_found_at_once(word: str) -> None:
 @pytest.mark.parametrize(("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6)], ids=["signals", "growing", "chance"])
 def test_a_step_at_once_is_the_step_one_by_one(monkeypatch, text, steps, table):
     system = read(text)
-    monkeypatch.setattr(courses, "BULK", 10**9)
-    one_by_one = [str(word) for word in derive(system, steps, seed=5)]
-    monkeypatch.setattr(courses, "BULK", 0)
+    one_by_one = list(map(str, Derivation(SteppingEngine(Stepper(States(system), 5), None)).to(steps)))
     monkeypatch.setattr(bulk, "LARGEST_TABLE", table)
     assert [str(word) for word in derive(system, steps, seed=5)] == one_by_one
     assert len(one_by_one[-1]) > 100
+
+
+def test_a_rule_that_is_never_drawn_need_not_have_a_value():
+    """The engines agree on it: what a rule makes is computed when chance chooses the rule, and not before."""
+    system = read("axiom: A(0)\nA(x) -> A(x) B : 1\nA(x) -> C(1/x) : 0")
+    assert str(derive(system, 3)[-1]) == "A(0)B B B"
+
+
+def test_a_word_that_vanishes_stays_empty():
+    assert derive(read("axiom: A B\nA < B -> ε\nA -> ε"), 5).lengths == [2, 0, 0, 0, 0, 0]
+
+
+def test_weights_are_added_exactly():
+    """Ten tenths are one, however they are rounded: both engines draw on the same line."""
+    rules = "\n".join(f"A -> B({n}) : 0.1" for n in range(10))
+    system = read("axiom:" + " A" * 300 + f"\n{rules}")
+    one_by_one = Derivation(SteppingEngine(Stepper(States(system), 1), None)).to(1)
+    assert derive(system, 1, seed=1)[-1] == one_by_one[-1]

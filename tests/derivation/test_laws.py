@@ -14,7 +14,6 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-import lsys_kit.derivation.engines.engines as engine
 import lsys_kit.derivation.engines.expansion as expansion
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core.chance import Chance
@@ -22,6 +21,8 @@ from lsys_kit.derivation.core.closure import closure
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive, lengths
+from lsys_kit.derivation.engines.stepping import SteppingEngine
+from lsys_kit.derivation.engines.stepwise import Stepper
 from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError
@@ -110,7 +111,7 @@ def test_the_last_word_is_the_same_without_those_between(system: LSystem, steps:
 def test_the_way_a_word_is_built_does_not_show(system: LSystem, plain_up_to: int, piece: int) -> None:
     expected = [plain(word) for word in exact(derive(system, STEPS))]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(engine, "MOST_LISTED", plain_up_to)
+        patch.setattr(expansion, "MOST_LISTED", plain_up_to)
         patch.setattr(expansion, "PIECE", piece)
         assert [plain(word) for word in reversed(derive(system, STEPS))] == expected[::-1]
         assert [plain(word) for word in derive(system, STEPS)] == expected
@@ -256,13 +257,18 @@ def test_the_engine_follows_the_definition_of_every_kind(kinds: tuple[str, ...],
 @pytest.mark.parametrize("kinds", MIXED)
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], max_examples=40)
 @given(data=st.data(), seed=seeds)
-def test_words_in_bulk_are_those_of_one_by_one(kinds: tuple[str, ...], data: st.DataObject, seed: int) -> None:
+def test_words_by_arrays_are_those_of_one_by_one(kinds: tuple[str, ...], data: st.DataObject, seed: int) -> None:
+    """The stepwise engine serves every system: it gives the definition's words, and those of whatever engine is chosen."""
     system = data.draw(systems_with(*kinds))
     expected = defined(system, seed)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(engine, "MOST_LISTED", 3)
-        patch.setattr(engine, "BULK", 0)
-        assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
+        patch.setattr(expansion, "MOST_LISTED", 3)
+        one_by_one = Derivation(SteppingEngine(Stepper(States(system), seed), None)).to(STEPS)
+        assert [plain(word) for word in exact(one_by_one)] == expected
+        chosen = derive(system, STEPS, seed=seed)
+        assert list(chosen) == list(one_by_one)
+        assert [chosen.origins(step) for step in range(1, STEPS + 1)] == [
+            one_by_one.origins(step) for step in range(1, STEPS + 1)]
 
 
 @pytest.mark.parametrize("kinds", MIXED)

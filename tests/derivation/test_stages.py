@@ -271,7 +271,7 @@ def test_without_chance_what_is_expected_is_what_happens() -> None:
 
 
 def test_lots_are_drawn_by_whoever_fires() -> None:
-    with pytest.raises(ModelValueError, match="left to chance") as caught:
+    with pytest.raises(ModelValueError, match="decided by chance") as caught:
         stages(catalogued("K8")).fired((1,) * 9)
     assert "expected(steps)" in str(caught.value.hint)
 
@@ -371,7 +371,7 @@ def test_timed_nets_that_cannot_be() -> None:
         stages(timed(read(CELLS_OF_TWO_AGES))).expected(3)
     with pytest.raises(ModelValueError, match="when it is made"):
         stages(timed(read(CELLS_OF_TWO_AGES)), short=0)
-    with pytest.raises(ModelValueError, match=r"begins older than it divides, at the age 1"):
+    with pytest.raises(ModelValueError, match=r"is born older than it divides, at the age 1"):
         stages(timed(read("axiom: A(2)\nA(1) -> A(0)")))
     with pytest.raises(ModelValueError, match="depends on a constant that is not known"):
         stages(timed(read(CELLS_OF_TWO_AGES), short="short"))
@@ -403,5 +403,5 @@ def test_the_rule_that_is_the_first_to_apply_ends_a_life() -> None:
 
 @pytest.mark.parametrize("name", ["J1", "J4", "P5", "K8", "K19"])
 def test_durations_that_no_rule_tells(name: str) -> None:
-    with pytest.raises(ModelValueError, match="How long a module lives is not told where"):
+    with pytest.raises(ModelValueError, match="How long a module lives cannot be told, since"):
         stages(catalogued(name), durations=True)

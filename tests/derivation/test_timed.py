@@ -10,9 +10,12 @@ import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, read, system
+from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, lineage, read, stages, system
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.equations import growth_base, positive_root, roots
 from lsys_kit.derivation.timed.timed import timed
+from lsys_kit.notation.model.modules import Module
 
 ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"))
 TIMES = st.fractions(0, 4, max_denominator=12)
@@ -55,7 +58,7 @@ def test_a_production_gives_an_age(text: str) -> None:
 def test_no_time_before_the_axiom_and_no_division_without_end() -> None:
     with pytest.raises(ModelValueError, match="before the axiom"):
         ANABAENA.word(-1)
-    with pytest.raises(LSystemError, match=r"divides without end|more than"):
+    with pytest.raises(LSystemError, match=r"divides endlessly|more than"):
         timed(read("axiom: A(0)\nA(1) -> A(1) A(1)")).word(2)
     with limits(modules=100), pytest.raises(ModelLimitError, match="more than 100 modules"):
         ANABAENA.word(20)
@@ -159,3 +162,23 @@ def test_where_signs_change_twice_no_root_is_taken_for_the_only_one(equation: sy
     (root,) = roots(equation, 0.01, 0.9)
     (other,) = roots(equation, 0.95, 5)
     assert [equation.evalf(subs={X: found}) for found in (root, other)] == pytest.approx([0, 0], abs=1e-6)
+
+
+def test_the_first_age_at_which_a_production_applies_ends_a_life() -> None:
+    """Whichever production is written first: words, diagrams and lineages have one model of ageing."""
+    early_last = timed(read("axiom: a(0)\na(2) -> a(0) b(0)\na(1) -> c(0)"))
+    early_first = timed(read("axiom: a(0)\na(1) -> c(0)\na(2) -> a(0) b(0)"))
+    assert str(early_last.word("3/2")) == str(early_first.word("3/2")) == "c(0.5)"
+    assert [str(part) for part in early_last.ages.daughters(Module("a", (0,)))] == ["c(0)"]
+    assert repr(stages(early_last)) == repr(stages(early_first)) == "a(0) -> c(0) after 1"
+    assert str(lineage(early_last, 3).last) == "c(2)"
+
+
+def test_a_life_ends_alike_in_steps_and_in_time() -> None:
+    in_time = timed(read("axiom: M(0)\nM(3) -> M(0) M(1)")).ages
+    in_steps = age_model(States(read("axiom: M(0)\nM(t) -> M(t+1)\ndecomposition:\nM(t) : t >= 3 -> M(t-3) M(t-2)")))
+    young = Module("M", (1,))
+    assert in_time.end(young)[1] == in_steps.end(young)[1] == 3
+    assert in_time.daughters(young) == in_steps.daughters(young) == [Module("M", (0,)), Module("M", (1,))]
+    assert in_time.aged(young, 2) == in_steps.aged(young, 2) == Module("M", (2,))
+    assert in_time.ageless(young) == in_steps.ageless(young) == ("M", ())

@@ -40,7 +40,7 @@ def test_every_number_put_in_gives_the_word_of_that_number() -> None:
 def test_an_open_condition_is_named_with_what_to_choose() -> None:
     with pytest.raises(ModelValueError) as error:
         derive(system("P5"), 3, dt="dt")
-    assert str(error.value).startswith("Whether production 1, M(t,p) : t+dt < t_div -> M(t+dt, p), is for M(0,1) cannot be")
+    assert str(error.value).startswith("Whether production 1, M(t,p) : t+dt < t_div -> M(t+dt, p), applies to M(0,1) cannot be")
     assert error.value.hint == "It depends on dt: choose a value for dt."
 
 

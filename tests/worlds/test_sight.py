@@ -14,7 +14,8 @@ from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.engines.engines import SteppingEngine
+from lsys_kit.derivation.engines.stepping import SteppingEngine
+from lsys_kit.derivation.engines.stepwise import Stepper
 from lsys_kit.geometry.space import trace_in_space
 from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.modules import Pattern
@@ -61,7 +62,7 @@ plants = st.recursive(
 @settings(max_examples=60, deadline=None)
 def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem) -> None:
     alone = derive(system, 3, seed=5)
-    looked_at = Derivation(SteppingEngine(States(system), 5, observe)).to(3)
+    looked_at = Derivation(SteppingEngine(Stepper(States(system), 5), None, observe)).to(3)
     assert list(map(str, looked_at)) == list(map(str, alone))
     assert looked_at.lengths == alone.lengths
     assert alone.sight(2) is None

@@ -135,7 +135,7 @@ def _reply_to_word(exercise: Exercise, word: tuple[Module, ...], solution: tuple
         if word == tuple(derivation[step]):
             return Verdict("Almost", f"This is the word of step {step}, and step {exercise.steps} is asked for. "
                                      "Step 0 is the axiom itself.")
-    for rewritten, says in _NOT_PARALLEL:
+    for rewritten, says in _NOT_PARALLEL if derivation.states.traits.d0l else ():
         modules = derivation.states.modules
         if word == tuple(modules[state] for state in rewritten(derivation.states, exercise.steps)):
             return Verdict("Not yet", says)

@@ -31,7 +31,7 @@ def differing_word(derivation: Derivation, step: int, word: Sequence[Module]) ->
     at = _parting(word, derivation[step])
     if at == len(derivation[step]):
         return f"You have {len(word)} modules, the word has {at}: up to position {at} yours is right."
-    parent = _parent(derivation, step, at)
+    parent = derivation.origins(step).parents[at]
     return (f"Position {at + 1}: you have {_shown(word, at)}, the word has {derivation[step][at]}; look at what becomes of "
             f"the {derivation[step - 1][parent]} at position {parent + 1} of step {step - 1}.")
 
@@ -53,31 +53,37 @@ def differing_system(mine: Derivation, wanted: Derivation, step: int) -> str:
 
 def _blamed(mine: Derivation, wanted: Derivation, step: int) -> str:
     """The production of the first module that the two systems rewrite differently: up to here their words are equal."""
-    pairs = list(zip(mine[step - 1].numbers(), wanted[step - 1].numbers(), strict=True))
-    at = next(i for i, (own, other) in enumerate(pairs) if _made(mine, own) != _made(wanted, other))
-    module, production = mine[step - 1][at], mine.states.production(pairs[at][0])
+    own, other = _replacements(mine, step), _replacements(wanted, step)
+    at = next(i for i, (made, right) in enumerate(zip(own, other, strict=True)) if made != right)
+    return _about_production(mine, step, at, own[at])
+
+
+def _about_production(mine: Derivation, step: int, at: int, made: Sequence[Module]) -> str:
+    """Where to look, given the position of a module in the word before a step and what it became."""
+    module, origins = mine[step - 1][at], mine.origins(step)
+    if made:
+        production = origins.productions[origins.parents.index(at)]
+    elif mine.states.traits.d0l:
+        production = mine.states.production(mine[step - 1].numbers()[at])
+    else:
+        return f"look at your productions for {module}, position {at + 1} of step {step - 1}."
     if production is None:
         return f"you have no production for {module}, position {at + 1} of step {step - 1}, so that it stays as it is."
     return f"look at your production for {module}, which is\n  {mine.states.system.productions[production]}"
 
 
-def _made(derivation: Derivation, state: int) -> list[Module]:
-    return [derivation.states.modules[made] for made in derivation.states.successor(state)]
+def _replacements(derivation: Derivation, step: int) -> list[list[Module]]:
+    """What each module of the word before a step became."""
+    found: list[list[Module]] = [[] for _ in derivation[step - 1]]
+    for parent, module in zip(derivation.origins(step).parents, derivation[step], strict=True):
+        found[parent].append(module)
+    return found
 
 
 def _parting(mine: Sequence[Module], wanted: Sequence[Module]) -> int:
     """The first position, from 0, at which two words differ; the length of the shorter where it begins the longer."""
     shorter = min(len(mine), len(wanted))
     return next((i for i in range(shorter) if mine[i] != wanted[i]), shorter)
-
-
-def _parent(derivation: Derivation, step: int, at: int) -> int:
-    """The position in the previous word of the module that made the one at a position."""
-    for parent, state in enumerate(derivation[step - 1].numbers()):
-        at -= len(derivation.states.successor(state))
-        if at < 0:
-            return parent
-    raise IndexError("the position is behind the end of the word")
 
 
 def _shown(word: Sequence[Module], at: int) -> str:

@@ -1,5 +1,5 @@
-"""Chance that can be repeated: every random number is a function of the seed, the step, the module's position, and how many
-numbers it has drawn before.
+"""Reproducible chance: every random number is a function of the seed, the step, the module's position, and how many numbers
+it has drawn before.
 
 So a plant is the same on every machine, whatever is computed first or at once. The numbers are those of the generator
 splitmix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014), used as a hash.
@@ -67,7 +67,7 @@ class Chance:
     step, position
         Which module: its place in the word of which step.
     sees
-        What answers the module's questions to the turtle, given a function's number and values; None where nobody looks.
+        Answers what the module asks of the turtle, given a function's number and values; None without an observer.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def choose(weights: Sequence[Value], unit: float) -> int:
     >>> choose((1, 1, 2), 0.49), choose((1, 1, 2), 0.5)
     (1, 2)
     """
-    total = _total(weights)
+    total = _total_weight(weights)
     mark, below = unit * float(total), 0.0
     for number, weight in enumerate(weights):
         below += float(weight)
@@ -141,12 +141,12 @@ def shares(weights: Sequence[Value]) -> list[Value]:
     >>> shares((1, 1, 2))
     [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]
     """
-    total = _total(weights)
+    total = _total_weight(weights)
     exact = all(isinstance(weight, int | Fraction) for weight in weights)
     return [normalised(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
 
 
-def _total(weights: Sequence[Value]) -> Value:
+def _total_weight(weights: Sequence[Value]) -> Value:
     total = _sum(weights)
     if min(weights) < 0 or not total > 0:
         raise ValueError("probabilities are not negative, and one of them is greater than 0")
@@ -154,13 +154,13 @@ def _total(weights: Sequence[Value]) -> Value:
 
 
 def _sum(weights: Sequence[Value]) -> Value:
-    """The exact sum, or the double nearest to it: `sum` rounds doubles otherwise from Python 3.12 on."""
+    """The exact sum, or the double nearest to it: from Python 3.12 on, `sum` rounds doubles differently."""
     if not any(isinstance(weight, float) for weight in weights):
         return sum(weights)
     try:
         return math.fsum(weights)
     except OverflowError:
-        raise ValueError("together the probabilities are too large") from None
+        raise ValueError("the sum of the probabilities is too large") from None
 
 
 def _check_probability(probability: float) -> None:

@@ -1,4 +1,4 @@
-"""All the states of a system: those that may be met from the axiom on, where each decides for itself what becomes of it."""
+"""The closure of a system: all states that can be reached from the axiom, where each alone decides what becomes of it."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import ModelValueError
 
 
-def check_settled(states: States, what: str) -> None:
-    """Refuse a question that has an answer only where every module's fate depends on itself alone."""
-    if not states.settled:
+def check_d0l(states: States, what: str) -> None:
+    """Refuse a question that has an answer only where every module alone decides what becomes of it."""
+    if not states.traits.d0l:
         raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
-                              hint="Derive this system, and look at its words; where it leaves its productions to chance, "
-                                   "stages(system).expected(n) counts on average.")
+                              hint="Derive this system, and look at its words; where chance chooses its "
+                                   "productions, stages(system).expected(n) gives the average counts.")
 
 
 def closure(states: States, limit: int) -> Sequence[int] | None:
-    """All states that are met from the axiom on, in the order of their numbers; None where they are more than `limit`.
+    """All states that are reached from the axiom, in the order of their numbers; None where there are more than `limit`.
 
     >>> from lsys_kit.notation.read import read
     >>> closure(States(read("axiom: A\\nA -> A B")), 100)

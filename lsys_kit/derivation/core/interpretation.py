@@ -1,4 +1,5 @@
-"""Interpretation rules: what each module of a word is drawn as, without changing the derivation (seed 002, section 7)."""
+"""Interpretation rules: what each module of a word is drawn as, without changing the derivation (Prusinkiewicz,
+Introduction to Modeling with L-systems, section 7)."""
 
 from __future__ import annotations
 
@@ -33,11 +34,11 @@ def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
     """What a module is drawn as; what that consists of is interpreted in turn, `depth` times in all."""
     rules = rules_of(states.system, states.arithmetic, "interpretation")
     chance = Chance(0, 0, 0)
-    rule = states.matching(module, rules, chance) if depth else None
+    rule = states.matching_rule(module, rules, chance) if depth else None
     if rule is None:
         yield module
         return
-    for made in states.made(rule, module, None, chance):
+    for made in states.apply(rule, module, None, chance):
         yield from _image(states, Module(*made), depth - 1)
 
 

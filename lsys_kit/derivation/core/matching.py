@@ -1,9 +1,9 @@
-"""Contexts: who stands to the left and to the right of a module, across brackets (ABOP, section 1.8; seed 003).
+"""Contexts: the neighbours of a module to its left and right, across brackets (ABOP, section 1.8; Kurth, lecture slides).
 
 The left context of a module goes back along its branch: it passes finished side branches and crosses an opening bracket to the
 parent. The right context goes on along its branch and passes side branches, unless the pattern names one: a named branch must
 match the beginning of a branch that stands there, or all of it, where the pattern says that the branch ends. Ignored symbols
-are passed on both sides. Nothing lies beyond the ends of the word.
+are passed on both sides. Beyond the ends of the word there are no neighbours.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
-from lsys_kit.derivation.core.rules import Branch, Rule, is_branch
+from lsys_kit.derivation.core.rules import Branch, Rule, is_branch, kind_of
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
 
@@ -112,7 +112,7 @@ def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], ar
             ignored: Container[str]) -> tuple[int, ...] | None:
     """The positions of the modules that a rule names, in the order written, where its contexts match; else None."""
     left = neighbours_along(around.before, position, len(rule.left))
-    if len(left) < len(rule.left) or any(_kind(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
+    if len(left) < len(rule.left) or any(kind_of(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
         return None
     right = _followed(rule.right, word, symbols, around, position, ignored)
     return None if right is None else (*reversed(left), position, *right)
@@ -121,10 +121,6 @@ def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], ar
 def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
     """The values of the modules at some positions, one after another."""
     return tuple(value for at in positions for value in word[at].arguments)
-
-
-def _kind(module: Module) -> tuple[str, int]:
-    return module.symbol, len(module.arguments)
 
 
 def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
@@ -138,7 +134,7 @@ def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
     at = around.inside[position] if symbols[position] in OPENING else around.after[position]
     if first[0] == END:
         return () if at == NO_NEIGHBOUR else None
-    if at == NO_NEIGHBOUR or _kind(word[at]) != first:
+    if at == NO_NEIGHBOUR or kind_of(word[at]) != first:
         return None
     found = _followed(rest, word, symbols, around, at, ignored)
     return None if found is None else (at, *found)

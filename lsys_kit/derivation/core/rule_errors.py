@@ -1,4 +1,4 @@
-"""What goes wrong while a production is applied, told with the module and the production."""
+"""Errors in the application of a production, with the module and the production."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 
 AXIOM = Module("axiom")
-"""What the axiom is made of."""
+"""The module from which the axiom is made as a successor."""
+UNKNOWN = "it depends on an unknown constant"
+"""Why a value that depends on a constant without a value cannot be computed."""
 
 
 def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exception) -> LSystemError:
@@ -28,9 +30,9 @@ def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exc
 
 
 def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
-    """A condition that hangs on a constant that is not known."""
+    """A condition that depends on an unknown constant."""
     names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
-    said = (f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, is for "
+    said = (f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
             f"{dialect_named(system.notation).module(module)} cannot be decided")
     start, end = rule.production.at or (None, None)
     return ModelValueError(said, system.source or None, start, end,

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, TypeGuard
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
-from lsys_kit.notation.model.expressions import Apply, Function, Name, function_of, is_random, sensed_in
+from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Pattern, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read_number
@@ -61,9 +61,11 @@ class Rule:
     successor
         What it makes.
     random
-        Whether what it makes is left to chance.
+        Whether it draws random numbers.
     looks
-        Whether it asks for what the turtle sees.
+        Whether it asks what the turtle sees.
+    matches_anew
+        Whether its condition or its probability does so, so that equal modules may be matched differently.
     questions
         What its condition asks, each with the function of the answer.
     """
@@ -78,6 +80,7 @@ class Rule:
     successor: tuple[ModuleTemplate | RepeatTemplate, ...]
     random: bool
     looks: bool
+    matches_anew: bool
     questions: tuple[tuple[Apply, Function], ...]
 
     @cached_property
@@ -86,8 +89,8 @@ class Rule:
         return sum(isinstance(part, ModuleTemplate) for part in self.successor)
 
     @cached_property
-    def settled(self) -> bool:
-        """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that is seen."""
+    def d0l(self) -> bool:
+        """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that the turtle sees."""
         return not (self.left or self.right or self.random or self.looks or self.probability is not None)
 
 
@@ -136,31 +139,36 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     arguments = [argument for module in production.parameters for argument in module.arguments]
     order = {name: len(arguments) + index for index, name in enumerate(constants)}
     formal = [isinstance(a, Name) and a.name not in order for a in arguments]
-    order.update({a.name: i for i, a in enumerate(arguments) if isinstance(a, Name) and formal[i]})
+    order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
 
     def ready(expression: Any) -> Function:
         return function_of(expression, order, arithmetic)
 
-    made = [*expressions_of(production.successor)]
-    asked = [part for part in (production.condition, production.probability, *made) if part is not None]
+    made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
+    matched = [part for part in (production.condition, production.probability) if part is not None]
     return Rule(
-        number, production, tuple(map(kind_of, reversed(production.left))), _nested(production.right),
+        number, production, tuple(map(kind_of, reversed(production.left))), _branched_context(production.right),
         tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
-        _parts(production.successor, order, len(arguments) + len(constants), arithmetic),
-        any(map(is_random, made)), any(question for part in asked for question in sensed_in(part)),
+        _templates(production.successor, order, len(arguments) + len(constants), arithmetic),
+        any(map(is_random, [*matched, *made])), any(map(_looks, [*matched, *made])),
+        any(is_random(part) or _looks(part) for part in matched),
         tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else ())
 
 
-def _parts(items: Sequence[Item], order: Mapping[str, int], size: int,
+def _looks(expression: Expression) -> bool:
+    return any(True for _ in sensed_in(expression))
+
+
+def _templates(items: Sequence[Item], order: Mapping[str, int], size: int,
            arithmetic: str) -> tuple[ModuleTemplate | RepeatTemplate, ...]:
     """A successor's functions; those of a repeated part take one value more, what counts in it."""
     found: list[ModuleTemplate | RepeatTemplate] = []
     for item in items:
         if isinstance(item, Repeat):
             inner = {**order, item.index: size} if item.index else order
-            body = _parts(item.body, inner, size + 1, arithmetic)
+            body = _templates(item.body, inner, size + 1, arithmetic)
             found.append(RepeatTemplate(function_of(item.count, order, arithmetic), body))
         else:
             found.append(ModuleTemplate(item.symbol, tuple(function_of(a, order, arithmetic) for a in item.arguments)))
@@ -172,7 +180,7 @@ def is_branch(item: ModuleKind | Branch) -> TypeGuard[Branch]:
     return not item or not isinstance(item[0], str)
 
 
-def _nested(modules: Sequence[Pattern]) -> Branch:
+def _branched_context(modules: Sequence[Pattern]) -> Branch:
     """A right context with its branches as rows of their own."""
     rows: list[list[Any]] = [[]]
     for module in modules:

@@ -1,76 +1,38 @@
 """Words in which nearly every module is different: rows of numbers, and rules that are computed for whole columns.
 
 Numbering states does not pay where hardly one occurs twice. Then a word is a column of kinds (symbol and number of
-parameters) and a column for each parameter, in doubles, and each rule is computed once for all modules that it rewrites. Only
-operations that numpy computes to the last bit as Python does are used; a system with others keeps to its table of states.
+parameters) and a column for each parameter, and each rule is computed once for all modules that it rewrites. What columns
+cannot compute as the table of states does, a division by zero above all, raises an `ArithmeticError`: such a step is the
+table's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
-from lsys_kit.notation.model.modules import Module, Repeat
-from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.derivation.engines.columns import (
+    Array,
+    ColumnFunction,
+    ExactColumns,
+    ExactValues,
+    FloatColumns,
+    FloatValues,
+    column_function,
+    exact_number,
+)
+from lsys_kit.derivation.engines.expansion import code_type
+from lsys_kit.notation.model.expressions import Apply, Name, Number
+from lsys_kit.notation.model.modules import Module, flat
 
-Array: TypeAlias = np.ndarray[Any, Any]
-ColumnFunction: TypeAlias = Callable[..., Any]
-"""From the columns of the names to the column of an expression, which is written to `out` where that is given and there is
-something to compute."""
-BLOCK = 2**15
+BLOCK_ROWS = 2**15
 """So many rows are computed at a time: what lies between two operations stays in the processor's cache."""
-
-_SAME_TO_THE_LAST_BIT: Mapping[str, Callable[..., Any]] = {
-    "||": np.logical_or, "&&": np.logical_and, "!": np.logical_not, "==": np.equal, "!=": np.not_equal, "<": np.less,
-    "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal, "+": np.add, "-": np.subtract, "*": np.multiply,
-    "/": np.divide, "-x": np.negative, "abs": np.abs, "sqrt": np.sqrt, "floor": np.floor, "ceil": np.ceil,
-}
-
-
-def column_function(expression: Expression) -> ColumnFunction:
-    """The function of an expression for whole columns.
-
-    >>> run = column_function(Apply("*", (Name("x"), Number(2))))
-    >>> run({"x": np.array([1.0, 2.5])}).tolist()
-    [2.0, 5.0]
-    """
-    if isinstance(expression, Number):
-        value = float(expression.value)
-        return lambda columns, out=None: value
-    if isinstance(expression, Name):
-        name = expression.name
-        return lambda columns, out=None: columns[name]
-    operator = _SAME_TO_THE_LAST_BIT[expression.operator]
-    operands = [column_function(operand) for operand in expression.operands]
-    return lambda columns, out=None: operator(*[operand(columns) for operand in operands], out=out)
-
-
-def possible(states: States) -> bool:
-    """Whether a system's words can be columns: settled, in doubles, without decomposition and repetition."""
-    system = states.system
-    return (states.settled and states.arithmetic == "float" and not system.decomposition
-            and all(map(_plain, system.productions)))
-
-
-def _plain(production: Production) -> bool:
-    """Whether a production only does what columns can do."""
-    if any(isinstance(item, Repeat) for item in production.successor):
-        return False
-    expressions = [argument for module in production.modules for argument in module.arguments]
-    return all(map(_computed, [*expressions, *([production.condition] if production.condition is not None else [])]))
-
-
-def _computed(expression: object) -> bool:
-    if not isinstance(expression, Apply):
-        return True
-    return expression.operator in _SAME_TO_THE_LAST_BIT and all(map(_computed, expression.operands))
 
 
 @dataclass(frozen=True)
@@ -80,24 +42,34 @@ class ColumnRule:
     Attributes
     ----------
     names
-        The names of its parameters; None where the predecessor asks for a value.
+        The names of its parameters; `#0`, `#1`, ... where the predecessor asks for a value.
     tests
         What must be true.
     parts
         For each module of the successor its kind's number and the functions of its arguments.
     """
 
-    names: tuple[str | None, ...]
+    names: tuple[str, ...]
     tests: tuple[ColumnFunction, ...]
     parts: tuple[tuple[int, tuple[ColumnFunction, ...]], ...]
 
 
 class ColumnWord(Word):
-    """A word as columns; it becomes a row of states when somebody looks at single modules."""
+    """A word as columns; it becomes a row of states when single modules are asked for.
+
+    Attributes
+    ----------
+    kinds
+        For each module the number of its kind.
+    values
+        The values of all modules.
+    names
+        The kinds.
+    """
 
     __slots__ = ("_row", "kinds", "names", "values")
 
-    def __init__(self, states: States, kinds: Array, values: Array, names: Sequence[ModuleKind]) -> None:
+    def __init__(self, states: States, kinds: Array, values: FloatValues | ExactValues, names: Sequence[ModuleKind]) -> None:
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
         self._row: Array | None = None
 
@@ -108,8 +80,9 @@ class ColumnWord(Word):
     def codes(self) -> Array:  # type: ignore[override]
         """The numbers of the states, which are numbered now."""
         if self._row is None:
-            self._row = np.array([self.states.number(self.names[kind][0], tuple(row[:self.names[kind][1]]))
-                                  for kind, row in zip(self.kinds.tolist(), self.values.tolist(), strict=True)], dtype=np.int64)
+            numbers = [self.states.number(self.names[kind][0], row[:self.names[kind][1]])
+                       for kind, row in zip(self.kinds.tolist(), self.values.rows(), strict=True)]
+            self._row = np.array(numbers, dtype=code_type(len(self.states)))
         return self._row
 
 
@@ -119,126 +92,124 @@ class ColumnarSteps:
     Examples
     --------
     >>> from lsys_kit.notation.read import read
-    >>> states = States(read("axiom: A(1) B\\nA(x) : x < 3 -> A(x+1) A(x+2)"), {}, "float")
+    >>> states = States(read("axiom: A(1) B\\nA(x) : x < 3 -> A(x+1) A(x/2)"))
     >>> columns = ColumnarSteps(states)
     >>> word = columns.step(columns.word([states.modules[code] for code in states.axiom]))
     >>> str(word), len(word)
-    ('A(2)A(3)B', 3)
+    ('A(2)A(0.5)B', 3)
     """
 
     def __init__(self, states: States) -> None:
-        self.states = states
-        system = states.system
+        self.states, system = states, states.system
         modules = [*system.axiom, *(m for rule in system.productions for m in rule.modules)]
         self.kinds = list(dict.fromkeys(map(kind_of, modules)))
         self.width = max(arity for _, arity in self.kinds)
-        self._constants = dict(zip((constant.name for constant in system.constants), states.constants, strict=True))
-        self._rules = [[self._rule(rule, system) for rule in states.rules.get(kind, ())] for kind in self.kinds]
+        self._constants = [constant.name for constant in system.constants]
+        self._rules = [[*map(self._rule, states.rules.get(kind, ())), self._identity(kind)] for kind in self.kinds]
 
-    def _rule(self, rule: Rule, system: LSystem) -> ColumnRule:
+    def _rule(self, rule: Rule) -> ColumnRule:
+        def ready(expression: Any) -> ColumnFunction:
+            return column_function(expression, self.states.arithmetic)
+
         production = rule.production
         asked = production.predecessor.arguments
         formal = [isinstance(a, Name) and a.name not in self._constants for a in asked]
-        equal = [Apply("==", (Name(f"#{i}"), a)) for i, a in enumerate(asked) if not formal[i]]
+        names = tuple(a.name if formal[i] else f"#{i}" for i, a in enumerate(asked))  # type: ignore[union-attr]
+        equal = [Apply("==", (Name(names[i]), a)) for i, a in enumerate(asked) if not formal[i]]
         condition = [production.condition] if production.condition is not None else []
-        parts = tuple((self.kinds.index(kind_of(m)), tuple(map(column_function, m.arguments)))
-                      for m in production.modules if m is not production.predecessor)
-        return ColumnRule(tuple(a.name if isinstance(a, Name) and formal[i] else None for i, a in enumerate(asked)),
-                          tuple(map(column_function, [*equal, *condition])), parts)
+        parts = tuple((self.kinds.index(kind_of(m)), tuple(map(ready, m.arguments))) for m in flat(production.successor))
+        return ColumnRule(names, tuple(map(ready, [*equal, *condition])), parts)
+
+    def _identity(self, kind: ModuleKind) -> ColumnRule:
+        """The rule by which modules stay what they are."""
+        names = tuple(f"#{i}" for i in range(kind[1]))
+        same = tuple(column_function(Name(name), self.states.arithmetic) for name in names)
+        return ColumnRule(names, (), ((self.kinds.index(kind), same),))
 
     def word(self, modules: Sequence[Module]) -> ColumnWord:
-        """A row of modules as columns."""
+        """A row of modules as columns; an `ArithmeticError`, where a number is not exact and should be."""
         numbers = {kind: number for number, kind in enumerate(self.kinds)}
         kinds = np.array([numbers[kind_of(module)] for module in modules], dtype=np.min_scalar_type(len(self.kinds)))
-        values = np.zeros((len(modules), self.width))
+        columns = self._collected((len(modules), self.width))
         for row, module in enumerate(modules):
-            values[row, :len(module.arguments)] = module.arguments
-        return ColumnWord(self.states, kinds, values, self.kinds)
+            for parameter, value in enumerate(module.arguments):
+                columns.write(column_function(Number(value), self.states.arithmetic), {}, row, parameter)
+        return ColumnWord(self.states, kinds, columns.values(), self.kinds)
 
-    def bytes(self, modules: int) -> int:
-        """How much a word of so many modules takes."""
-        return modules * (8 * self.width + 2)
+    def step(self, word: ColumnWord, check: Callable[[int, int], None] = lambda size, taken: None) -> ColumnWord:
+        """The next word; `check` is called with its size and its bytes before it is built, and may raise an error.
 
-    def step(self, word: ColumnWord, check: Callable[[int], None] = lambda size: None) -> ColumnWord:
-        """The next word; `check` is told its size before it is built, and may raise an error."""
-        chosen = self._chosen(word)
-        if len(chosen) == 1:
-            sizes, starts = None, None
-            total = len(word) * (len(chosen[0][1].parts) if chosen[0][1] else 1)
-        else:
-            sizes = np.ones(len(word), dtype=np.int64)
-            for _, rule, rows in chosen:
-                sizes[rows] = len(rule.parts) if rule else 1
-            ends = np.cumsum(sizes)
-            total = int(ends[-1]) if len(ends) else 0
-            starts = ends - sizes
-        check(total)
-        after = ColumnWord(self.states, np.empty(total, dtype=word.kinds.dtype), np.zeros((total, self.width)), self.kinds)
-        for kind, rule, rows in chosen:
-            at = None if starts is None else starts[rows]
-            if rule is None:
-                places = slice(None) if at is None else at
-                after.kinds[places], after.values[places] = kind, word.values[rows]
-            else:
-                for low in range(0, len(word) if at is None else len(at), BLOCK):
-                    self._write(rule, word, rows, low, after, at)
-        return after
+        Raises
+        ------
+        ArithmeticError
+            A value cannot be computed in columns.
+        """
+        with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):
+            chosen = self._chosen(word)
+            starts, size = _places(word, chosen)
+            check(size, size * (word.values.bytes * self.width + 2))
+            kinds, columns = np.empty(size, dtype=word.kinds.dtype), self._collected((size, self.width))
+            for rule, rows in chosen:
+                for block, at in _blocks(rule, len(word), rows, starts):
+                    self._write(rule, self._named(rule, word, block), kinds, columns, at)
+            return ColumnWord(self.states, kinds, columns.values(), self.kinds)
 
-    def _write(self, rule: ColumnRule, word: ColumnWord, rows: Any, low: int, after: ColumnWord, starts: Array | None) -> None:
-        """Write what a rule makes of a block of rows: from given places on, or of all rows one after another."""
-        block = slice(low, min(low + BLOCK, len(word) if starts is None else len(starts)))
-        ours = block if starts is None else rows[block]
-        columns, every = self._columns(rule, word.values[ours]), len(rule.parts)
-        for offset, (made, arguments) in enumerate(rule.parts):
-            at: Any = (slice(block.start * every + offset, block.stop * every, every) if starts is None
-                       else starts[block] + offset)
-            after.kinds[at] = made
-            for place, argument in enumerate(arguments):
-                self._compute(argument, columns, after.values, (at, place), word, ours)
+    def _collected(self, shape: tuple[int, int]) -> FloatColumns | ExactColumns:
+        return ExactColumns(shape) if self.states.arithmetic == "exact" else FloatColumns(shape)
 
-    def _chosen(self, word: ColumnWord) -> list[tuple[int, ColumnRule | None, Any]]:
-        """For each kind and rule the rows that it rewrites, a slice where that is all; None for the rows that stay."""
-        found: list[tuple[int, ColumnRule | None, Array]] = []
-        if len(word) and (word.kinds == word.kinds[0]).all() and not any(rule.tests for rule in self._rules[word.kinds[0]]):
-            return [(word.kinds[0], next(iter(self._rules[word.kinds[0]]), None), slice(None))]
+    def _write(self, rule: ColumnRule, named: Mapping[str, Any], kinds: Array, columns: FloatColumns | ExactColumns,
+               at: Any) -> None:
+        """Write what a rule makes of a block of rows, from given places on."""
+        for offset, (kind, arguments) in enumerate(rule.parts):
+            places = slice(at.start + offset, at.stop, at.step) if isinstance(at, slice) else at + offset
+            kinds[places] = kind
+            for parameter, argument in enumerate(arguments):
+                columns.write(argument, named, places, parameter)
+
+    def _chosen(self, word: ColumnWord) -> list[tuple[ColumnRule, Any]]:
+        """For each rule the rows that it rewrites, a slice where that is all."""
+        if len(word) and not self._rules[word.kinds[0]][0].tests and (word.kinds == word.kinds[0]).all():
+            return [(self._rules[word.kinds[0]][0], slice(None))]
+        found: list[tuple[ColumnRule, Any]] = []
         for kind, rules in enumerate(self._rules):
             rows = np.flatnonzero(word.kinds == kind)
-            for rule in rules if len(rows) else ():
-                if not rule.tests:
-                    found.append((kind, rule, rows))
-                    rows = rows[:0]
+            for rule in rules:
+                if not len(rows):
                     break
-                columns = self._columns(rule, word.values[rows])
-                with np.errstate(all="ignore"):
-                    matches = np.ones(len(rows), dtype=bool)
-                    for test in rule.tests:
-                        matches &= test(columns)
-                found.append((kind, rule, rows[matches]))
+                named = self._named(rule, word, rows) if rule.tests else {}
+                matches = np.ones(len(rows), dtype=bool)
+                for test in rule.tests:
+                    matches &= test(named)
+                found.append((rule, rows[matches]))
                 rows = rows[~matches]
-            found.append((kind, None, rows))
-        return [(kind, rule, rows) for kind, rule, rows in found if len(rows)]
+        return [(rule, rows) for rule, rows in found if len(rows)]
 
-    def _columns(self, rule: ColumnRule, values: Array) -> dict[str, Any]:
+    def _named(self, rule: ColumnRule, word: ColumnWord, rows: Any) -> dict[str, Any]:
         """The columns of a rule's names."""
-        columns: dict[str, Any] = dict(self._constants)
-        for place, name in enumerate(rule.names):
-            columns[name or f"#{place}"] = values[:, place]
-        return columns
+        number = exact_number if self.states.arithmetic == "exact" else float
+        named: dict[str, Any] = {name: number(value) for name, value in
+                                 zip(self._constants, self.states.constants, strict=True)}
+        return named | dict(zip(rule.names, word.values.columns(rows, len(rule.names)), strict=True))
 
-    def _compute(self, argument: ColumnFunction, columns: Mapping[str, Any], values: Array, at: tuple[Any, int],
-                 word: ColumnWord, rows: Any) -> None:
-        """Write a column of numbers; where one is none, raise the error that its module gives."""
-        target = values[at] if isinstance(at[0], slice) else None
-        with np.errstate(all="ignore"):
-            found = argument(columns, out=target)
-            if target is None or found is not target:
-                values[at] = found
-            whole = np.sum(found)
-        if not np.isfinite(whole):
-            self._refuse(values[at], word, rows)
 
-    def _refuse(self, found: Array, word: ColumnWord, rows: Any) -> None:
-        """Raise the error of the first module whose value is none; a mere sum may be past all numbers."""
-        bad = np.flatnonzero(~np.isfinite(found))
-        if len(bad):
-            self.states.successor(int(word.codes[np.arange(len(word))[rows][bad[0]]]))
+def _places(word: ColumnWord, chosen: Sequence[tuple[ColumnRule, Any]]) -> tuple[Array | None, int]:
+    """Where in the next word what becomes of each module begins, None where one rule rewrites all; and its size."""
+    if len(chosen) == 1:
+        return None, len(word) * len(chosen[0][0].parts)
+    sizes = np.ones(len(word), dtype=np.int64)
+    for rule, rows in chosen:
+        sizes[rows] = len(rule.parts)
+    ends = np.cumsum(sizes)
+    return ends - sizes, int(ends[-1]) if len(ends) else 0
+
+
+def _blocks(rule: ColumnRule, size: int, rows: Any, starts: Array | None) -> Iterator[tuple[Any, Any]]:
+    """The rows that a rule rewrites, in blocks, each with the places where what it makes of them begins."""
+    every = len(rule.parts)
+    for low in range(0, size if starts is None else len(rows), BLOCK_ROWS):
+        if starts is None:
+            high = min(low + BLOCK_ROWS, size)
+            yield slice(low, high), slice(low * every, high * every, max(every, 1))
+        else:
+            block = rows[low:low + BLOCK_ROWS]
+            yield block, starts[block]

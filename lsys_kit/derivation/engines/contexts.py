@@ -1,65 +1,60 @@
-"""A step of a long word, all modules at once.
+"""A step by arrays: all modules of a word at once.
 
-Where rules look at no more than one neighbour on each side and leave nothing but the choice of a rule to chance, a module's
-case is three states. The cases that occur are looked up once each, and the new word is gathered from what they become.
+Where rules name no more than one neighbour on each side and leave nothing but the choice of a rule to chance, a module's case
+is three states. The cases that occur are looked up once each, and the new word is gathered from what they become. Cases are
+worked out by the stepwise engine, on words of up to three modules.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
-from lsys_kit.derivation.core.rules import is_branch
-from lsys_kit.derivation.core.states import CUT, States
-from lsys_kit.derivation.engines.expansion import Letters, code_type
+from lsys_kit.derivation.core.rules import Rule
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.engines.expansion import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
-Integers: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
-"""What a module is to contexts: `PASSED` is passed over but has a context itself, `SKIPPED` has none."""
+"""The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
 LARGEST_TABLE = 2**22
-"""The largest table of cases that is looked up directly."""
+"""The largest table of cases that is indexed directly."""
 FEW_REPLACEMENTS = 12
-"""So many kinds of replacements are counted one after another."""
-
-
-def possible(stepper: Stepper) -> bool:
-    """Whether a system's words can be stepped in bulk."""
-    rules = [rule for found in stepper.states.rules.values() for rule in found]
-    near = all(len(rule.left) <= 1 and len(rule.right) <= 1 and not any(map(is_branch, rule.right))
-               for rule in rules)
-    symbols = {module.symbol for rule in stepper.states.system.rules for module in rule.modules}
-    cuts = CUT in symbols or any(module.symbol == CUT for module in stepper.states.system.axiom)
-    return near and stepper.states.parts_settled and not cuts and not any(rule.random or rule.looks for rule in rules)
+"""Up to so many different replacements are counted one after another."""
 
 
 class Replacements:
-    """What modules may become, numbered, and how a word is made of it."""
+    """What modules may become, numbered, and how words are assembled from it."""
 
     def __init__(self, states: States) -> None:
         self.states = states
         self.replacements: list[Replacement] = []
         self._numbers: dict[Replacement, int] = {}
-        self._letters = Letters(states)
+        self._bytes = ByteTable(states)
 
     def number(self, replacement: Replacement) -> int:
         """The number of a replacement, a new one where it has not been met."""
         found = self._numbers.get(replacement)
         if found is None:
-            found = self._numbers[replacement] = len(self.replacements)
+            found = len(self.replacements)
             self.replacements.append(replacement)
+            self._numbers[replacement] = found  # last, so that an interrupt leaves no number without its replacement
         return found
 
-    def sizes(self) -> Integers:
+    def sizes(self) -> IntegerArray:
         """How many modules each replacement has."""
         return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
 
-    def size(self, chosen: Integers) -> int:
+    def size(self, chosen: IntegerArray) -> int:
         """How many modules the replacements of some numbers have together."""
         sizes = [len(replacement.states) for replacement in self.replacements]
         others = [(number, size) for number, size in enumerate(sizes) if size != 1]
@@ -67,42 +62,67 @@ class Replacements:
             return int(np.dot(np.bincount(chosen, minlength=len(sizes)), sizes))
         return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
 
-    def replaced(self, chosen: Integers) -> Integers:
+    def replaced(self, chosen: IntegerArray) -> IntegerArray:
         """The replacements of some numbers, one after another."""
-        if chosen.dtype == np.uint8 and all(self._letters.learnt(number, replacement.states)
+        if chosen.dtype == np.uint8 and all(self._bytes.add(number, replacement.states)
                                             for number, replacement in enumerate(self.replacements)):
-            return self._letters.replaced(chosen.tobytes())
+            return self._bytes.replaced(chosen.tobytes())
         sizes = self.sizes()
         lengths = sizes[chosen]
         places = np.repeat((np.cumsum(sizes) - sizes)[chosen] - np.cumsum(lengths) + lengths, lengths)
         places += np.arange(len(places))
         everything = [state for replacement in self.replacements for state in replacement.states]
-        gathered: Integers = np.array(everything, dtype=code_type(len(self.states)))[places]
+        gathered: IntegerArray = np.array(everything, dtype=code_type(len(self.states)))[places]
         return gathered
 
 
+@dataclass(frozen=True)
+class RuleChoice:
+    """A case in which chance decides between several rules.
+
+    Attributes
+    ----------
+    state
+        The module.
+    rules
+        The rules, each with the values of the parameters that it names.
+    marks
+        Where in the line from 0 to `total` the stretch of each rule ends.
+    total
+        The sum of all weights.
+    """
+
+    state: int
+    rules: Sequence[Match]
+    marks: IntegerArray
+    total: float
+
+    def drawn(self, units: IntegerArray) -> IntegerArray:
+        """For each random number from 0 up to 1 the index of the rule that it chooses."""
+        return np.searchsorted(self.marks, units * self.total, side="right").clip(max=len(self.rules) - 1)
+
+
 class ContextEngine:
-    """The bulk steps of one system under one seed.
+    """The steps of one system under one seed, all modules of a word at once.
 
     Examples
     --------
     >>> from lsys_kit.derivation.core.states import States
     >>> from lsys_kit.notation.read import read
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
-    >>> bulk = ContextEngine(stepper)
-    >>> bulk.fates.replaced(bulk.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
+    >>> arrays = ContextEngine(stepper)
+    >>> arrays.outcomes.replaced(arrays.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
     [0, 0, 1]
     """
 
     def __init__(self, stepper: Stepper) -> None:
-        self.stepper, self.fates = stepper, Replacements(stepper.states)
-        self._roles: list[int] = []
-        self._fixed: list[int] = []
+        self.stepper, self.outcomes = stepper, Replacements(stepper.states)
+        self._roles: list[tuple[int, int]] = []
         self._numbers: dict[tuple[int, int, int], int] = {}
-        self._lots: list[tuple[list[int], Integers]] = []
-        self._table: Integers = np.zeros(0, dtype=np.int64)
+        self._choices: list[RuleChoice] = []
+        self._table: IntegerArray = np.zeros(0, dtype=np.int64)
 
-    def chosen(self, codes: Integers, step: int) -> Integers:
+    def chosen(self, codes: IntegerArray, step: int) -> IntegerArray:
         """For each module of a word the number of the replacement that it gets."""
         size = len(self.stepper.states)
         if not self.stepper.in_context:
@@ -110,18 +130,19 @@ class ContextEngine:
         for state in range(len(self._roles), size):
             self._meet(state)
         roles = np.zeros(len(codes), dtype=np.uint8)
-        if any(self._roles):
-            roles = np.array(self._roles, dtype=np.uint8).take(codes)
+        if any(role for role, _ in self._roles):
+            roles = np.array([role for role, _ in self._roles], dtype=np.uint8).take(codes)
         where = np.flatnonzero(roles != SKIPPED)
         if len(where) == len(codes):
             return self._drawn(self._in_context(codes, roles, size), None, step)
         found = self._drawn(self._in_context(codes.take(where), roles.take(where), size), where, step)
-        chosen = np.array(self._fixed, dtype=code_type(len(self.fates.replacements))).take(codes)
+        fixed = [outcome for _, outcome in self._roles]
+        chosen = np.array(fixed, dtype=code_type(len(self.outcomes.replacements))).take(codes)
         chosen[where] = found
         return chosen
 
     def _meet(self, state: int) -> None:
-        """The role of a state in contexts; of one that is passed over and asks for no context, what becomes of it, too."""
+        """Note the role of a new state; for one that is ignored and has no contexts itself, also what becomes of it."""
         states = self.stepper.states
         symbol = states.modules[state].symbol
         role, fixed = ORDINARY, 0
@@ -129,16 +150,16 @@ class ContextEngine:
             role = OPENS if symbol in OPENING else CLOSES
         elif symbol in self.stepper.passed:
             role = PASSED
-            if states.is_settled(state):
-                role, fixed = SKIPPED, self.fates.number(Replacement(states.successor(state), states.production(state)))
-        self._roles.append(role)
-        self._fixed.append(fixed)
+            if states.is_d0l(state):
+                role, fixed = SKIPPED, self.outcomes.number(Replacement(states.successor(state), states.production(state)))
+        self._roles.append((role, fixed))
 
-    def _in_context(self, codes: Integers, roles: Integers, size: int) -> Integers:
-        """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for nobody."""
+    def _in_context(self, codes: IntegerArray, roles: IntegerArray, size: int) -> IntegerArray:
+        """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for none."""
         left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
         kind = code_type(size * (size + 1) ** 2)
-        keys = (left.astype(kind) * kind.type(size + 1) + right) * kind.type(size) + codes
+        keys = left.astype(kind) * kind.type(size + 1) + right.astype(kind, copy=False)
+        keys = keys * kind.type(size) + codes.astype(kind, copy=False)
 
         def case(key: int) -> tuple[int, int, int]:
             rest, code = divmod(key, size)
@@ -147,10 +168,10 @@ class ContextEngine:
 
         return self._cases(keys, size * (size + 1) ** 2, case)
 
-    def _cases(self, keys: Integers, bound: int, case: Callable[[int], tuple[int, int, int]]) -> Integers:
-        """For each module, whose case is told by a key below a bound, the number of what becomes of it, from 1 on.
+    def _cases(self, keys: IntegerArray, bound: int, case: Callable[[int], tuple[int, int, int]]) -> IntegerArray:
+        """For each module, whose case is given by a key below a bound, the number of what becomes of it, from 1 on.
 
-        Where lots are drawn it is below zero. What a key stands for is asked when it is met first.
+        Where chance decides it is below zero. Each case is worked out when its key is first met.
         """
         if bound > LARGEST_TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
@@ -166,52 +187,66 @@ class ContextEngine:
         return found
 
     def _number(self, case: tuple[int, int, int]) -> int:
-        """The number of what becomes of a module in a case; where lots are drawn, that of the lots, below zero."""
+        """The number of what becomes of a module in a case; where chance decides, that of the choice, below zero."""
         if case not in self._numbers:
-            fates, weights = self._found(*case)
-            if len(fates) > 1:
-                self._lots.append((fates, np.cumsum(weights)))
-            self._numbers[case] = fates[0] + 1 if len(fates) == 1 else -len(self._lots)
+            found = self._found(*case)
+            if isinstance(found, RuleChoice):
+                self._choices.append(found)
+            self._numbers[case] = -len(self._choices) if isinstance(found, RuleChoice) else self.outcomes.number(found) + 1
         return self._numbers[case]
 
-    def _drawn(self, numbers: Integers, where: Integers | None, step: int) -> Integers:
-        """For each module the number of its replacement, after lots are drawn; `where` it stands, if not at its own place."""
-        kind = code_type(len(self.fates.replacements))
-        result = (numbers - 1).astype(kind)
-        for number, (fates, marks) in enumerate(self._lots, 1):
-            ours = np.flatnonzero(numbers == -number)
-            lots = units(self.stepper.seed, step, ours if where is None else where[ours]) * marks[-1]
-            drawn = np.searchsorted(marks, lots, side="right").clip(max=len(fates) - 1)
-            result[ours] = np.array(fates, dtype=kind)[drawn]
-        return result
-
-    def _found(self, left: int, code: int, right: int) -> tuple[list[int], list[float]]:
-        """The same, tried on a word of just these modules: the possible replacements, and their weights."""
+    def _found(self, left: int, code: int, right: int) -> Replacement | RuleChoice:
+        """What becomes of a module between two others, tried on a word of just these."""
         states = self.stepper.states
-        if states.is_settled(code):
-            return [self.fates.number(Replacement(states.successor(code), states.production(code)))], [1.0]
+        if states.is_d0l(code):
+            return Replacement(states.successor(code), states.production(code))
         word = [state for state in (left, code, right) if state != NO_NEIGHBOUR]
         matched = self.stepper.matched(self.stepper.old(word), int(left != NO_NEIGHBOUR))
         if not matched:
-            return [self.fates.number(Replacement(states.parts(states.modules[code]), None))], [1.0]
-        states.drawn(matched, None)  # refuses weights that are none
-        weights = [float(states.weight(rule, values)) for rule, values in matched if rule.probability]
-        made = [Replacement(states.replaced(rule, states.modules[code], values), rule.number)
-                for rule, values in (matched if weights else matched[:1])]
-        return [self.fates.number(replacement) for replacement in made], weights or [1.0]
+            return Replacement(states.decompose(states.modules[code]), None)
+        states.choose_rule(matched, None)  # refuses weights that are none
+        weights = [states.weight(rule, values) for rule, values in matched if rule.probability]
+        if len(weights) < 2:
+            return self._applied(code, *matched[0])
+        return RuleChoice(code, matched, np.cumsum(list(map(float, weights))), float(sum(weights)))
+
+    def _applied(self, code: int, rule: Rule, values: tuple[Value, ...]) -> Replacement:
+        states = self.stepper.states
+        return Replacement(states.replacement(rule, states.modules[code], values), rule.number)
+
+    def _drawn(self, numbers: IntegerArray, where: IntegerArray | None, step: int) -> IntegerArray:
+        """For each module the number of its replacement, after chance; `where` it stands, if not at its own place."""
+        drawn = [self._choose(choice, np.flatnonzero(numbers == -number), where, step)
+                 for number, choice in enumerate(self._choices, 1)]
+        result: IntegerArray = (numbers - 1).astype(code_type(len(self.outcomes.replacements)))
+        for ours, outcomes in drawn:
+            result[ours] = outcomes
+        return result
+
+    def _choose(self, choice: RuleChoice, ours: IntegerArray, where: IntegerArray | None,
+                step: int) -> tuple[IntegerArray, IntegerArray]:
+        """Where the modules of a choice stand, and the numbers of what they become.
+
+        What a rule makes is computed when it is drawn first: one that never is may have no value.
+        """
+        rules = choice.drawn(units(self.stepper.seed, step, ours if where is None else where[ours]))
+        outcomes = np.zeros(len(choice.rules), dtype=np.int64)
+        for rule in np.flatnonzero(np.bincount(rules, minlength=len(outcomes))).tolist():
+            outcomes[rule] = self.outcomes.number(self._applied(choice.state, *choice.rules[rule]))
+        return ours, outcomes[rules]
 
 
-def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[Integers, Integers]:
+def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int) -> tuple[IntegerArray, IntegerArray]:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
     ----------
     codes
-        The word's states, of a type that holds `nobody` too.
+        The word's states, of a type that holds `none` too.
     roles
         For each module `ORDINARY`, `OPENS`, `CLOSES` or `PASSED`.
-    nobody
-        What stands for a neighbour that is not there. What is found for brackets means nothing.
+    none
+        What stands for a missing neighbour. The neighbours of brackets mean nothing.
 
     Examples
     --------
@@ -221,7 +256,7 @@ def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[I
     ([99, 10, 10, 10], [13, 99, 99, 99])
     """
     size = len(codes)
-    behind = np.append(codes, codes.dtype.type(nobody))  # whom one meets at each place, from the right; at the end nobody
+    behind = np.append(codes, codes.dtype.type(none))  # the neighbour found at each place, coming from the right
     ahead = behind
     hanging = np.flatnonzero(roles)
     if len(hanging):
@@ -231,16 +266,16 @@ def context_neighbours(codes: Integers, roles: Integers, nobody: int) -> tuple[I
     return np.roll(behind, 1)[:size], ahead[1:]
 
 
-def _looked_at(roles: Integers, hanging: Integers, size: int) -> tuple[Integers, Integers]:
-    """For the places of brackets and of what is passed over whom one meets who comes to them, from the right and the left.
+def _looked_at(roles: IntegerArray, hanging: IntegerArray, size: int) -> tuple[IntegerArray, IntegerArray]:
+    """For brackets and ignored modules where the neighbour stands that is found there, coming from the right and from the left.
 
-    Whoever comes to a branch from outside looks past it, from its inside at what is before it; behind its end is nobody.
+    From outside, a branch is passed; from inside, its beginning leads to the parent, and its end to no neighbour.
     """
     role, last = roles[hanging], len(hanging)
     closing, opening = _pairs(role)
-    before, after = np.arange(last), np.arange(last + 1)  # beside which of them one looks; beside number `last` is nobody
+    before, after = np.arange(last), np.arange(last + 1)  # where the search goes on; `last` ends it
     before[closing], after[opening], after[closing] = opening, closing, last
-    near = np.flatnonzero(np.diff(hanging) == 1)  # the next of them stands right behind it
+    near = np.flatnonzero(np.diff(hanging) == 1)  # those directly followed by another
     for pointers, step, there in ((before, -1, near + 1), (after, 1, near)):
         another = np.zeros(last + 1, dtype=bool)
         another[there] = True
@@ -251,8 +286,8 @@ def _looked_at(roles: Integers, hanging: Integers, size: int) -> tuple[Integers,
     return hanging[before] - 1, np.append(hanging, size - 1)[after[:last]] + 1
 
 
-def _pairs(role: Integers) -> tuple[Integers, Integers]:
-    """Among brackets and others the ranks of those that close, and of those that open them: on one level they take turns."""
+def _pairs(role: IntegerArray) -> tuple[IntegerArray, IntegerArray]:
+    """The ranks of closing brackets and of the brackets that open them: on one level of nesting they alternate."""
     brackets = np.flatnonzero(role != PASSED)
     opens = role[brackets] == OPENS
     level = np.cumsum(np.where(opens, 1, -1), dtype=np.int32) + ~opens

@@ -1,4 +1,4 @@
-"""Meta-rules: a word is shortened after a step, until no meta-rule applies (seed 003, on the movement of organisms)."""
+"""Meta-rules: a word is shortened after a step, until no meta-rule applies (Kurth, lecture slides, on sessile organisms)."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 @lru_cache(maxsize=64)
 def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[ModuleKind, ...], Rule], ...]:
-    """A system's meta-rules: the modules that each asks for, and the rule that replaces them.
+    """The meta-rules of a system: the kinds of the modules that each replaces, and the rule that replaces them.
 
-    The modules before the last are to the rule what a left context is to a production.
+    All modules but the last are treated like the left context of a production.
     """
     found = []
     for number, meta in enumerate(system.meta):
@@ -60,6 +60,6 @@ def _applied(states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]
         if tuple(map(kind_of, last)) != kinds:
             continue
         values: tuple[Value, ...] = tuple(value for module in last for value in module.arguments)
-        if states.holds(rule, values, last[-1]):
-            return len(kinds), states.made_numbers(rule, last[-1], values)
+        if states.matches(rule, values, last[-1]):
+            return len(kinds), states.applied_states(rule, last[-1], values)
     return None

@@ -1,7 +1,7 @@
-"""One step of a system in which neighbours or chance have a say: every module of the old word is replaced at once.
+"""One step of any system, module by module: all modules of a word are replaced, each by what the definition says.
 
-What a module becomes depends on its state, on the states that its rules' contexts name, and on the lot that it draws. Equal
-cases have equal results, which are computed once and kept; where a rule makes random values, every module is a case of its own.
+What a module becomes depends on its state, on the states that the contexts of its rules name, and on chance. Results of equal
+cases are computed once and kept, unless a rule draws random values or asks what the turtle sees.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
+from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.matching import Neighbours, match_context, neighbours, neighbours_along, values_at
 from lsys_kit.derivation.core.rules import Rule, is_branch
-from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 from lsys_kit.notation.model.system import LSystem
 
-Matches = list[tuple[Rule, tuple[Value, ...]]]
-"""The rules that match a module, in the order written, with the values of the parameters that they name."""
 SensingFunction: TypeAlias = Callable[..., Value]
-"""What a module sees that asks the turtle: from its position, a function's number and the values that it is asked with."""
+"""Answers a module: from its position, the number of a sensitive function and the function's arguments."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Replacement:
 
 @dataclass(frozen=True)
 class ParentWord:
-    """The word before a step: its states, modules and symbols, who stands beside whom, and what each module sees."""
+    """The word before a step: its states, modules and symbols, their neighbours, and what each module sees."""
 
     codes: Sequence[int]
     modules: Sequence[Module]
@@ -52,7 +52,7 @@ class ParentWord:
     sees: SensingFunction | None
 
     def chance(self, seed: int, step: int, position: int) -> Chance:
-        """What a module is given besides its neighbours: random numbers, and what it sees."""
+        """The random numbers of a module, with what it sees."""
         return Chance(seed, step, position, self.sees and partial(self.sees, position))
 
 
@@ -64,7 +64,7 @@ class Stepper:
     states
         The table of states.
     seed
-        Where chance begins.
+        The seed of all random numbers.
 
     Examples
     --------
@@ -78,13 +78,13 @@ class Stepper:
     def __init__(self, states: States, seed: int) -> None:
         self.states, self.seed = states, seed
         self.passed = ignored_symbols(states.system)
-        self.in_context = any(rule.left or rule.right for rules in states.rules.values() for rule in rules)
-        self._settled: dict[int, Replacement] = {}
-        self._matched: dict[tuple[object, ...], Matches] = {}
+        self.in_context = states.traits.context > 0
+        self._alone: dict[int, Replacement] = {}
+        self._matched: dict[tuple[object, ...], list[Match]] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
 
     def old(self, codes: Sequence[int], sees: SensingFunction | None = None) -> ParentWord:
-        """A word as a step needs it."""
+        """A word as the parent of the next one."""
         modules = [self.states.modules[code] for code in codes]
         symbols = [module.symbol for module in modules]
         return ParentWord(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
@@ -97,38 +97,38 @@ class Stepper:
         codes
             The word's states.
         step
-            The word's step, from which chance is drawn.
+            The word's step, on which its random numbers depend.
         sees
-            What answers the modules' questions to the turtle.
+            Answers what modules ask of the turtle.
         """
         old, nothing = self.old(codes, sees), Replacement((), None)
         for position, (code, kept) in enumerate(zip(codes, surviving(old.symbols), strict=True)):
             if not kept:
                 yield nothing
-            elif code in self._settled:
-                yield self._settled[code]
-            elif self.states.is_settled(code):
-                yield self._settled.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
+            elif code in self._alone:
+                yield self._alone[code]
+            elif self.states.is_d0l(code):
+                yield self._alone.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
             else:
                 yield self._open(old, position, old.chance(self.seed, step, position))
 
     def _open(self, old: ParentWord, position: int, chance: Chance) -> Replacement:
-        """What becomes of a module whose fate is not settled by itself."""
+        """What becomes of a module whose state does not decide that alone."""
         matched = self.matched(old, position, chance)
-        rule = self.states.drawn(matched, chance)
+        rule = self.states.choose_rule(matched, chance)
         if rule is None:
-            return Replacement(self.states.parts(old.modules[position], chance), None)
+            return Replacement(self.states.decompose(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
         key = old.codes[position], values, rule.number
-        settled = not (rule.random or rule.looks) and self.states.parts_settled
-        if settled and key in self._made:
+        repeatable = not (rule.random or rule.looks or self.states.traits.varying_decomposition)
+        if repeatable and key in self._made:
             return self._made[key]
-        replacement = Replacement(self.states.replaced(rule, old.modules[position], values, chance), rule.number)
-        if settled:
+        replacement = Replacement(self.states.replacement(rule, old.modules[position], values, chance), rule.number)
+        if repeatable:
             self._made[key] = replacement
         return replacement
 
-    def matched(self, old: ParentWord, position: int, chance: Chance | None = None) -> Matches:
+    def matched(self, old: ParentWord, position: int, chance: Chance | None = None) -> list[Match]:
         """The rules that match the module at a position."""
         rules = self.states.candidates(old.codes[position])
         case = self._case(rules, old, position)
@@ -139,8 +139,8 @@ class Stepper:
         return self._matched[case]
 
     def _case(self, rules: Sequence[Rule], old: ParentWord, position: int) -> tuple[object, ...] | None:
-        """The states on which the matching depends; None where that is what is seen, or a branch, which may hold any number."""
-        if any(rule.looks for rule in rules):
+        """The states on which matching depends; None where it depends on what is seen, on chance, or on whole branches."""
+        if any(rule.matches_anew for rule in rules):
             return None
         if old.around is None:
             return (old.codes[position],)
@@ -156,14 +156,14 @@ class Stepper:
             return (position,)
         return match_context(rule, old.modules, old.symbols, old.around, position, self.passed)
 
-    def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> Matches:
-        found: Matches = []
+    def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> list[Match]:
+        found: list[Match] = []
         for rule in rules:
             at = self.context(rule, old, position)
             if at is None:
                 continue
             values = values_at(old.modules, at)
-            if self.states.holds(rule, values, old.modules[position], chance):
+            if self.states.matches(rule, values, old.modules[position], chance):
                 if not found and rule.probability is None:
                     return [(rule, values)]
                 if rule.probability is not None:

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.chance import splitmix64
-from lsys_kit.derivation.core.closure import check_settled, closure
+from lsys_kit.derivation.core.closure import check_d0l, closure
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.engines import next_counts
+from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.growth.recurrences import (
     closed_form,
     generating_function,
@@ -44,7 +44,7 @@ DIGITS = 3_000_000
 
 @dataclass(frozen=True)
 class Growth:
-    """The growth of a system whose states come to an end.
+    """The growth of a system with finitely many states.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class Growth:
         return sympy.Matrix(size, size, lambda i, j: rows[i][j])
 
     def counts(self, step: int) -> tuple[int, ...]:
-        """How often each state occurs at a step, exactly, however late that is.
+        """How often each state occurs at a step, exactly, however late the step is.
 
         >>> from lsys_kit.notation.read import read
         >>> found = growth(read("axiom: a\\na -> ab\\nb -> a"))
@@ -122,7 +122,7 @@ class Growth:
         return tuple(counts.get(state, 0) for state in range(len(self.table)))
 
     def _check(self, step: int) -> None:
-        """Refuse a step that is none, or so late that its numbers are past all use."""
+        """Refuse a step that is no whole number, or so late that its counts would be too long to use."""
         if isinstance(step, bool) or not isinstance(step, int) or step < 0:
             raise ModelValueError(f"The step must be a whole number from 0 on, not {step!r}")
         digits = step * math.log10(max(greatest_root(self.recurrence, exact=False), 1)) if step > DIGITS else 0
@@ -168,14 +168,14 @@ class Growth:
 
     @cached_property
     def _terms(self) -> list[int]:
-        """So many lengths that they have one shortest rule (Massey 1969)."""
+        """As many lengths as determine their shortest rule (Massey 1969)."""
         return self.lengths(2 * len(self.table) + 1)
 
     @cached_property
     def _orbit(self) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
         """The shortest rule that the counts of all states obey together, and as many rows of counts.
 
-        It is that of a sum of the counts with weights, unless the weights are unlucky: so it is tried on the counts.
+        It is the rule of a weighted sum of the counts, unless the weights are unlucky; so it is checked against the counts.
         """
         rows = [self._vector(counts) for counts in islice(self._followed(), 2 * len(self.table) + 2)]
         for trial in count():
@@ -216,7 +216,7 @@ class Growth:
 
     @property
     def closed_form(self) -> sympy.Expr | None:
-        """A formula for the length at step t; None where it would need a multiple root of a polynomial past degree two.
+        """A formula for the length at step t; None where it would need a multiple root of a polynomial of degree three or more.
 
         >>> from lsys_kit.notation.read import read
         >>> growth(read("axiom: b\\na -> ab\\nb -> a")).closed_form
@@ -230,7 +230,7 @@ class Growth:
     def rate(self) -> float:
         """By what factor the word grows in one step, in the long run: the largest root of the recurrence's polynomial.
 
-        Where the lengths swing, as those of A -> BB, B -> A do, it is the factor of a whole swing, spread over its steps.
+        Where the lengths oscillate, as those of A -> BB, B -> A do, it is the factor of a whole period, spread over its steps.
 
         >>> from lsys_kit.notation.read import read
         >>> round(growth(read("axiom: A\\nA -> BB\\nB -> A")).rate**2, 9)
@@ -240,7 +240,7 @@ class Growth:
 
     @property
     def frequencies(self) -> tuple[float, ...] | None:
-        """What share of the word each state has in the long run; None where the shares go on changing, or nothing is left.
+        """What share of the word each state has in the long run; None where they do not converge, or the word vanishes.
 
         >>> from lsys_kit.notation.read import read
         >>> [round(share, 6) for share in growth(read("axiom: a\\na -> ab\\nb -> a")).frequencies]
@@ -269,17 +269,17 @@ def growth(system: LSystem, **constants: object) -> Growth:
     Parameters
     ----------
     system
-        A system whose states come to an end: following it from the axiom, no new module appears after a while. Where they
-        do not, modules that differ only in parameters that decide nothing are counted as one (see `slice_system`).
+        A system with finitely many states: from some step on, no new module appears. Where there are too many, modules that
+        differ only in parameters that decide nothing are counted as one (see `slice_system`).
     **constants
         New values for declared constants.
 
     Raises
     ------
     ModelLimitError
-        The states do not end.
+        The system reaches too many distinct modules.
     ModelValueError
-        A module's fate depends on its neighbours or on chance.
+        What becomes of a module depends on its neighbours or on chance.
 
     Examples
     --------
@@ -287,15 +287,15 @@ def growth(system: LSystem, **constants: object) -> Growth:
     >>> growth(read("axiom: a\\na -> ab\\nb -> a"))
     2 states; lengths 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, ...; N(t) = N(t-1) + N(t-2); growth per step 1.6180
     """
-    with suppress(ModelValueError):  # chance, or a value that cannot be computed, may be where nothing is decided
+    with suppress(ModelValueError):  # what cannot be counted may not matter, and be sliced away
         states = States(system, constants)
-        if states.settled and closure(states, current().states) is not None:
+        if states.traits.d0l and closure(states, current().states) is not None:
             return Growth(states)
     states = States(slice_system(system), constants)
-    check_settled(states, "Growth")
+    check_d0l(states, "Growth")
     if closure(states, current().states) is None:
-        raise ModelLimitError(f"The states of this system do not end: more than {current().states:,} were met",
-                              limit=current().states, needed=len(states),
-                              hint=f"The last one was {states.modules[-1]}; a parameter that grows for ever, and on which a "
-                                   "condition depends, has no growth matrix.")
+        raise ModelLimitError("The system reaches too many distinct modules for a finite growth matrix: more than "
+                              f"{current().states:,}", limit=current().states, needed=len(states),
+                              hint=f"The last one was {states.modules[-1]}; where a condition depends on a parameter that "
+                                   "grows for ever, there is no growth matrix.")
     return Growth(states)

@@ -1,7 +1,7 @@
-"""Sequences of whole numbers in which each term follows from those before by one linear rule: the lengths of a D0L system's
-words are such a sequence (Rozenberg and Salomaa, The Mathematical Theory of L Systems, 1980).
+"""Linear recurrences: sequences of whole numbers in which each term is a fixed linear combination of the terms before it.
 
-A rule is a tuple of coefficients c: a(t) = c1 a(t-1) + ... + cd a(t-d) for all t from d on. Its polynomial is
+The lengths of a D0L system's words are such a sequence (Rozenberg and Salomaa, The Mathematical Theory of L Systems, 1980). A
+rule is a tuple of coefficients c: a(t) = c1 a(t-1) + ... + cd a(t-d) for all t from d on. Its polynomial is
 x^d - c1 x^(d-1) - ... - cd.
 """
 
@@ -18,7 +18,7 @@ import numpy as np
 if TYPE_CHECKING:
     import sympy
 
-ALIKE = 1e-9
+RELATIVE_ZERO = 1e-9
 """A polynomial's value that is no larger than this share of its summands is 0."""
 
 MERSENNE = (61, 127, 521, 1279, 4423)
@@ -211,7 +211,7 @@ def _swings(rule: Sequence[int], root: float) -> bool:
         shares[k] = share
     for order in range(2, len(rule) + 1):
         folded = np.bincount(np.arange(len(shares)) % order, weights=shares)
-        if np.any(abs(np.fft.fft(folded)[1:]) < ALIKE * abs(shares).sum()):
+        if np.any(abs(np.fft.fft(folded)[1:]) < RELATIVE_ZERO * abs(shares).sum()):
             return True
     return False
 

@@ -1,7 +1,7 @@
-"""Lumping: modules that differ only in parameters that decide nothing are counted as one.
+"""Slicing: parameters that decide nothing are removed from a system, as program slicing removes variables (Weiser 1981).
 
-A leaf L(t) whose age t grows for ever never comes to an end as a state; but where no condition asks for t, and nothing that
-is asked for is made of it, all leaves behave alike, and counting needs `L` only.
+A leaf L(t) whose age t grows for ever has infinitely many states. Where no condition depends on t, nor on any value computed
+from it, all leaves behave alike, and counting needs `L` only.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _UnitT = TypeVar("_UnitT", Module, Pattern)
 
 
 def slice_system(system: LSystem) -> LSystem:
-    """The system with only those parameters that have a say in which production rewrites any module, or how much it makes.
+    """The system with only those parameters that decide which production rewrites a module, or how many modules it makes.
 
     How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
     Interpretation rules, which only draw, are left out.
@@ -38,14 +38,14 @@ def slice_system(system: LSystem) -> LSystem:
     kept = deciding_positions(system)
     return replace(
         system, axiom=tuple(without_arguments(module, kept) for module in system.axiom),
-        productions=tuple(_production(rule, kept) for rule in system.productions),
-        decomposition=tuple(_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
+        productions=tuple(_sliced_production(rule, kept) for rule in system.productions),
+        decomposition=tuple(_sliced_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
 
 
 def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
-    """The parameters that have a say: those that a rule asks for, and those of which such a parameter is made.
+    """The parameters that decide something: those that a rule tests, and those from which such a parameter is computed.
 
-    Where two kinds of module would become the same, because their symbol is the same, they keep all their parameters.
+    Where two kinds of modules with the same symbol would become one, they keep all their parameters.
 
     >>> from lsys_kit.notation.read import read
     >>> sorted(deciding_positions(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))
@@ -53,7 +53,7 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
     """
     rules = (*system.productions, *system.decomposition)
     constants = frozenset(constant.name for constant in system.constants)
-    found = {position for rule in rules for position in _asked(rule, constants)} | {
+    found = {position for rule in rules for position in _deciding(rule, constants)} | {
         (module.symbol, len(module.arguments), i) for rule in system.meta
         for module in (*rule.predecessors, *flat(rule.successor)) for i in range(len(module.arguments))}
     while True:
@@ -63,10 +63,10 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
         found |= more
 
 
-def _asked(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
+def _deciding(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
     """The parameters in a rule's condition, its probability and its counts of repetition, and those of a given value."""
     asked = [expression for expression in (rule.condition, rule.probability) if expression is not None]
-    yield from _named(rule, (*asked, *_repetitions(rule.successor)))
+    yield from _positions_of_names(rule, (*asked, *_repetitions(rule.successor)))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
             if not isinstance(argument, Name) or argument.name in constants:
@@ -78,10 +78,10 @@ def _sources(rule: Production, found: Set[ArgumentPosition]) -> Iterator[Argumen
     for module in flat(rule.successor):
         size = len(module.arguments)
         made = [argument for i, argument in enumerate(module.arguments) if (module.symbol, size, i) in found]
-        yield from _named(rule, made)
+        yield from _positions_of_names(rule, made)  # a production's arguments are expressions
 
 
-def _named(rule: Production, expressions: Iterable[Expression]) -> Iterator[ArgumentPosition]:
+def _positions_of_names(rule: Production, expressions: Iterable[Expression]) -> Iterator[ArgumentPosition]:
     names = frozenset().union(*map(names_in, expressions))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
@@ -106,15 +106,15 @@ def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosit
             for size in all_sizes for i in range(size)}
 
 
-def _production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
-    return replace(rule, predecessor=without_arguments(rule.predecessor, kept), successor=_items(rule.successor, kept),
+def _sliced_production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
+    return replace(rule, predecessor=without_arguments(rule.predecessor, kept), successor=_sliced_items(rule.successor, kept),
                    left=tuple(without_arguments(module, kept) for module in rule.left),
                    right=tuple(without_arguments(module, kept) for module in rule.right))
 
 
-def _items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:
-    return tuple(replace(item, body=_items(item.body, kept)) if isinstance(item, Repeat) else without_arguments(item, kept)
-                 for item in items)
+def _sliced_items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:
+    return tuple(replace(item, body=_sliced_items(item.body, kept)) if isinstance(item, Repeat)
+                 else without_arguments(item, kept) for item in items)
 
 
 def without_arguments(module: _UnitT, kept: Set[ArgumentPosition]) -> _UnitT:

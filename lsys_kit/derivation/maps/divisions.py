@@ -1,7 +1,7 @@
 """One step of a map: walls are replaced, then cells divided (The Algorithmic Beauty of Plants, section 7.1.2).
 
 Each wall is replaced by its successor, and the markers between the new walls are handed to the cells on their sides; then each
-cell joins two markers that match, at most once. Nothing else changes, so that a step is as quick as its walls are many.
+cell joins two markers that match, at most once. Nothing else changes, so the time of a step is proportional to the walls.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, Mark
 
 WALL_BYTES = 420
 """About what a wall takes in memory, with its share of vertices and cells."""
-OFTEN = 1_000
-"""After so many cells the time is looked at."""
+CELLS_BETWEEN_CHECKS = 1_000
+"""How many cells are divided between two looks at the clock."""
 
 
 class DividedWall(NamedTuple):
-    """What a wall has become: its new walls, one after another, and between them vertices with their markers."""
+    """A wall after its replacement: the new walls in order, and between them the vertices with their markers."""
 
     walls: range
     turned: Sequence[bool]
@@ -32,7 +32,7 @@ class DividedWall(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """A marker as a cell has it: behind how many of its sides it stands, on which wall of the map before, at which vertex."""
+    """A marker seen from a cell: after how many of its sides it stands, on which wall of the previous map, at which vertex."""
 
     place: int
     wall: int
@@ -47,7 +47,7 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int, 
     partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in found.walls]
     cells, mothers = [], []
     for number, cell in enumerate(found.cells):
-        if number % OFTEN == 0:
+        if number % CELLS_BETWEEN_CHECKS == 0:
             _check_time(step, until)
         daughters = _divided(*_replaced(cell, partings), walls)
         cells += daughters
@@ -126,7 +126,7 @@ def matching(marks: Sequence[Mark]) -> tuple[Mark, Mark] | None:
     Markers match that have the same label, come from different walls, and point one away from its wall, one toward it; or both
     nowhere.
     """
-    passed: dict[Edge, Mark] = {}  # the first of a kind is enough: the markers of one wall stand side by side
+    passed: dict[Edge, Mark] = {}  # keep only the first marker of each kind: the markers of one wall stand side by side
     for mark in marks:
         other = passed.get(mark.edge.turned)
         if other and other.wall != mark.wall:

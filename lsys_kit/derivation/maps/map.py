@@ -1,7 +1,7 @@
 """Maps: cells side by side in the plane, each with the walls around it (The Algorithmic Beauty of Plants, chapter 7).
 
-A map is kept as its walls and, for each cell, the walls around it as a cyclic word, read clockwise. Where things lie is no
-part of it: the geometry room finds that.
+A map is kept as its walls and, for each cell, the walls around it as a cyclic word, read clockwise. Positions are no part of
+it; geometry computes them.
 """
 
 from __future__ import annotations
@@ -27,8 +27,7 @@ class Wall(NamedTuple):
 
 
 class Side(NamedTuple):
-    """A wall as a cell has it: its number, and whether one walks along it from its beginning to its end, with the cell on the
-    right hand."""
+    """A wall seen from a cell: its number, and whether its direction runs clockwise around the cell."""
 
     wall: int
     forward: bool
@@ -97,7 +96,7 @@ class Map:
 
 
 def cell_words(found: Map) -> Iterator[tuple[Edge, ...]]:
-    """For each cell the letters around it, from where they read least: the same for cells that are alike."""
+    """For each cell the letters around it, rotated to the least word: the same for cells that are alike."""
     for cell in found.cells:
         word = found.word(cell)
         first = least_rotation([(edge.label, edge.arrow) for edge in word])
@@ -105,7 +104,7 @@ def cell_words(found: Map) -> Iterator[tuple[Edge, ...]]:
 
 
 def least_rotation(row: Sequence[tuple[str, str]]) -> int:
-    """Where a cyclic word must begin to read least.
+    """Where a cyclic word begins when it is rotated to its least form (Booth 1980).
 
     >>> least_rotation([("B", ""), ("A", ""), ("B", ""), ("A", "")])
     1

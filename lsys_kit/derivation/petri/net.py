@@ -1,4 +1,5 @@
-"""Petri nets with the tokens of a word (Peterson 1981; seed 002, figure 2).
+"""Petri nets with the tokens of a word (Peterson 1981; Prusinkiewicz, Introduction to Modeling
+with L-systems, figure 2).
 
 Places are the states a module passes through, transitions the productions that take it from one to the next, tokens the
 modules of a word. In an ordinary Petri net one transition fires at a time; here all tokens move in every step. Where several
@@ -52,7 +53,7 @@ class Transition:
     condition
         What the production asks for where the net is grouped by symbol: contexts and condition as they are written, else empty.
     chance
-        How likely a token takes this way; None where no lot is drawn, or where its likelihood changes.
+        How likely a token takes this way; None where there is no choice, or where its probability varies.
     span
         How long a token stays; None where that is a step.
     at_once
@@ -141,7 +142,7 @@ class Stages:
         tokens
             How many lie in each place before.
         chance
-            What draws the lots, where each token takes one of several ways.
+            The random numbers by which each token takes one of several ways.
 
         Raises
         ------
@@ -159,7 +160,7 @@ class Stages:
         [94, 104, 92, 104]
         """
         self._check_moving()
-        return tuple(map(int, self._moved(tokens, self._lots(tokens, chance))))
+        return tuple(map(int, self._moved(tokens, self._firings(tokens, chance))))
 
     def expected(self, steps: int, tokens: Sequence[Value] | None = None) -> tuple[Value, ...]:
         """How many tokens are expected in each place after some steps: the mean over all that chance may do, exactly.
@@ -190,8 +191,8 @@ class Stages:
                                         for way in self.transitions])
         return found
 
-    def _lots(self, tokens: Sequence[int], chance: Chance | None) -> list[int]:
-        """How often each transition fires in a step, each token taking one of its ways by lot."""
+    def _firings(self, tokens: Sequence[int], chance: Chance | None) -> list[int]:
+        """How often each transition fires in a step, each token taking one of its ways at random."""
         found = [tokens[transition.place] for transition in self.transitions]
         ways: dict[int, list[int]] = {}
         for number, transition in enumerate(self.transitions):
@@ -199,8 +200,8 @@ class Stages:
                 ways.setdefault(transition.place, []).append(number)
         for place, numbers in ways.items():
             if chance is None:
-                raise ModelValueError(f"Which way a token in {self.places[place]} goes is left to chance",
-                                      hint="Ask for expected(steps), or draw the lots with fired(tokens, Chance(1, 0, 0)).")
+                raise ModelValueError(f"Which transition takes a token of {self.places[place]} is decided by chance",
+                                      hint="Ask for expected(steps), or choose at random with fired(tokens, Chance(1, 0, 0)).")
             weights = [self.transitions[number].chance or 0 for number in numbers]
             drawn = Counter(choose(weights, chance.unit()) for _ in range(tokens[place]))
             for index, number in enumerate(numbers):
@@ -216,7 +217,7 @@ class Stages:
         return tuple(map(normalised, after))
 
     def _check_moving(self) -> None:
-        """Refuse to move tokens that do not know when, or whither."""
+        """Refuse to move tokens where it is not known when they move, or to which place."""
         if self.grouped:
             raise ModelValueError("The tokens of a net that is grouped by symbol cannot be moved without their values")
         if any(transition.span is not None for transition in self.transitions):
@@ -224,10 +225,10 @@ class Stages:
                                   hint="timed(system).word(t) gives the word at any time, and tokens(word) its tokens.")
 
     def __repr__(self) -> str:
-        return "\n".join([*(self.told(number) for number in range(len(self.transitions))),
+        return "\n".join([*(self.line(number) for number in range(len(self.transitions))),
                           *(f"besides: {text}" for text in self.besides)])
 
-    def told(self, number: int) -> str:
+    def line(self, number: int) -> str:
         """A transition in one line: what it makes of what, and on which terms."""
         transition = self.transitions[number]
         made = [f"{_times(arc)}{self.places[arc.place]}" for arc in self.arcs if arc.transition == number]

@@ -1,7 +1,7 @@
-"""Fates: what may become of a state in one step, and how likely that is.
+"""Outcomes: what may become of a state in one step, and how likely that is.
 
-Where a module alone decides what becomes of it, it has one fate; where it is left to chance which production rewrites it, one
-for each of them. All fates of all states together are a system's growth, and its stage diagram.
+Where a module alone decides what becomes of it, it has one outcome; where chance decides which production rewrites it, one for
+each of them. All outcomes of all states together are a system's stage diagram.
 """
 
 from __future__ import annotations
@@ -9,10 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lsys_kit.derivation.core.chance import shares
-from lsys_kit.derivation.core.rule_errors import rule_error
-from lsys_kit.derivation.core.states import CUT, States
+from lsys_kit.derivation.core.rule_errors import UNKNOWN, rule_error
+from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.system import symbols
 
 
 @dataclass(frozen=True)
@@ -41,37 +40,31 @@ def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     """What may become of a state of a system without contexts; nothing where no production matches.
 
     >>> from lsys_kit.notation.read import read
-    >>> for fate in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
-    ...     print(fate.production, fate.successor, fate.chance)
+    >>> for outcome in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
+    ...     print(outcome.production, outcome.successor, outcome.chance)
     0 (0, 0) 1/3
     1 (0,) 2/3
     """
     module = states.modules[state]
-    matched = states.matched(module, states.rules)
+    matched = states.matching_rules(module, states.rules)
     if not matched or matched[0][0].probability is None:
-        return tuple(Outcome(rule.number, states.replaced(rule, module)) for rule, _ in matched)
-    lots = [(rule, weight) for rule, weight in states.lots(matched) if weight != 0]
+        return tuple(Outcome(rule.number, states.replacement(rule, module)) for rule, _ in matched)
+    lots = [(rule, weight) for rule, weight in states.weighted(matched) if weight != 0]
     try:
         likely = shares([weight for _, weight in lots] or [0])
     except ValueError as fault:
         raise rule_error(states.system, module, matched[0][0], fault) from None
     except TypeError:
-        raise rule_error(states.system, module, matched[0][0], ValueError("it depends on an unknown constant")) from None
-    return tuple(Outcome(rule.number, states.replaced(rule, module), chance)
+        raise rule_error(states.system, module, matched[0][0], ValueError(UNKNOWN)) from None
+    return tuple(Outcome(rule.number, states.replacement(rule, module), chance)
                  for (rule, _), chance in zip(lots, likely, strict=True))
 
 
 def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None:
-    """The fates of all states that may be met from the axiom on; None where they are more than `limit`."""
+    """The outcomes of all states that may be met from the axiom on; None where they are more than `limit`."""
     found: list[tuple[Outcome, ...]] = []
     while len(found) < len(states):
         if len(states) > limit:
             return None
         found.append(outcomes_of(states, len(found)))
     return found
-
-
-def has_fates(states: States) -> bool:
-    """Whether only a module itself, and a lot among its productions, decide what becomes of it."""
-    return (states.parts_settled and not (states.asks or states.system.meta or CUT in symbols(states.system))
-            and not any(rule.left or rule.right or rule.random for rules in states.rules.values() for rule in rules))

@@ -89,13 +89,13 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
             _labelled(node, "initialMarking", str(marking[number]))
     for number, transition in enumerate(net.transitions):
         node = SubElement(page, "transition", id=f"t{number}")
-        _labelled(node, "name", net.told(number))
-        _told(node, _terms(transition))
+        _labelled(node, "name", net.line(number))
+        _tool_specific(node, _terms(transition))
     for number, transition in enumerate(net.transitions):
         SubElement(page, "arc", id=f"f{number}", source=f"p{transition.place}", target=f"t{number}")
     for number, arc in enumerate(net.arcs):
         _arc(page, number, arc)
-    _told(whole, {"besides": "; ".join(net.besides)})
+    _tool_specific(whole, {"besides": "; ".join(net.besides)})
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode")
 
@@ -104,7 +104,7 @@ def _arc(page: Element, number: int, arc: Arc) -> None:
     node = SubElement(page, "arc", id=f"a{number}", source=f"t{arc.transition}", target=f"p{arc.place}")
     if arc.copies != 1:
         _labelled(node, "inscription", str(arc.copies))
-    _told(node, {"factor": arc.factor})
+    _tool_specific(node, {"factor": arc.factor})
 
 
 def _terms(transition: Transition) -> Mapping[str, str]:
@@ -119,7 +119,7 @@ def _labelled(node: Element, tag: str, text: str) -> None:
     SubElement(SubElement(node, tag), "text").text = _legal(text)
 
 
-def _told(node: Element, terms: Mapping[str, str]) -> None:
+def _tool_specific(node: Element, terms: Mapping[str, str]) -> None:
     """Give an element what only this kit understands."""
     if any(terms.values()):
         own = SubElement(node, "toolspecific", TOOL)

@@ -1,11 +1,12 @@
-"""Stage diagrams: the Petri net of a system (seed 002, figure 2; Peterson 1981).
+"""Stage diagrams: the Petri net of a system (Prusinkiewicz, Introduction to Modeling with
+L-systems, figure 2; Peterson 1981).
 
-A place stands for one state. Cells that differ in their polarity only share a place, as in the paper, where tokens ignore
+A place stands for one state. Cells that differ only in their polarity share a place, as in that figure, where tokens ignore
 order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where a
-parameter that decides nothing keeps the states from ending, it is left out (see `lumping`); where they do not end all the
-same, or hang on their neighbours, a place stands for all modules of one symbol (see `grouping`).
+parameter that decides nothing makes the states infinitely many, it is left out (see `slicing`). Where they are infinitely many
+all the same, or depend on their neighbours, a place stands for all modules of one symbol (see `by_symbol`).
 
-In a timed system a place is a stretch of a module's life (see `life_stages`), and its transition says how long that is.
+In a timed system a place is a stage of a module's life (see `life_stages`), and its transition says how long that is.
 """
 
 from __future__ import annotations
@@ -20,12 +21,13 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
 from lsys_kit.derivation.petri.by_symbol import by_symbol
-from lsys_kit.derivation.petri.life_stages import AgeingStates, ageing_in_steps, ageing_in_time, life_stages
+from lsys_kit.derivation.petri.life_stages import ages_in_steps, life_stages
 from lsys_kit.derivation.petri.net import Arc as Arc
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
-from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes, has_fates
+from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
+from lsys_kit.derivation.timed.ages import AgeModel
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value
@@ -33,18 +35,18 @@ from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.notation.model.system import LSystem
 
 MOST_PLACES = 40
-"""A diagram with more states than this is grouped by symbol: nobody reads it otherwise."""
+"""A diagram with more states than this is grouped by symbol, to be legible."""
 MOST_LUMPED = 16
-"""So is one that leaves out parameters, and has more transitions than this all the same: its few symbols tell more."""
+"""So is a diagram that leaves out parameters and still has more transitions than this."""
 
 
 @dataclass(frozen=True)
 class _Table:
-    """Modules, what may become of each, in which row a module of a word stands, and how many transitions can be read."""
+    """Modules, what may become of each, the row of each module of a word, and how many transitions are legible."""
 
     states: States
     modules: Sequence[Module]
-    fates: Sequence[tuple[Outcome, ...]]
+    outcomes: Sequence[tuple[Outcome, ...]]
     row: Callable[[Module], int | None]
     most: int = 10 * MOST_PLACES
 
@@ -69,7 +71,7 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         A value cannot be computed, a timed system is given new constants, or the productions of a system whose durations are
         asked for do more than let time pass.
     ModelLimitError
-        The modules of a timed system begin at too many different ages.
+        The modules of a timed system are born at too many different ages.
 
     Examples
     --------
@@ -90,45 +92,45 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
                                   hint="Write stages(timed(system, name=value)).")
-        return _in_time(ageing_in_time(system), polarity)
+        return _timed_net(system.ages, polarity)
     states = States(system, constants)
     if durations:
-        return _in_time(ageing_in_steps(states), polarity)
+        return _timed_net(ages_in_steps(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
     return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
                 None) or by_symbol(states)
 
 
-def _in_time(growing: AgeingStates, polarity: bool) -> Stages:
+def _timed_net(ages: AgeModel, polarity: bool) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
-    found = life_stages(growing, MOST_PLACES)
-    return _net(_Table(growing.states, found.modules, found.fates, found.stretch), growing.states, polarity)
+    found = life_stages(ages, MOST_PLACES)
+    return _net(_Table(ages.states, found.modules, found.outcomes, found.stage), ages.states, polarity)
 
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
-    """The states of a system, then those without the parameters that decide nothing; only where they end."""
-    for fates in _ended(states):
-        yield _Table(states, states.modules, fates, {module: row for row, module in enumerate(states.modules)}.get)
+    """The states of a system, then those without the parameters that decide nothing; each only where they are finitely many."""
+    for outcomes in _finite_outcomes(states):
+        yield _Table(states, states.modules, outcomes, {module: row for row, module in enumerate(states.modules)}.get)
     system, kept = states.system, deciding_positions(states.system)
     model = slice_system(system)
     if (model.axiom, model.productions, model.decomposition) == (system.axiom, system.productions, system.decomposition):
         return
     whole = tuple(rule for rule in system.interpretation if without_arguments(rule.predecessor, kept) == rule.predecessor)
     fewer = States(replace(model, interpretation=whole), constants)
-    for fates in _ended(fewer):
+    for outcomes in _finite_outcomes(fewer):
         rows = {module: row for row, module in enumerate(fewer.modules)}
-        yield _Table(fewer, fewer.modules, fates, lru_cache(4096)(partial(_row, rows, kept)), MOST_LUMPED)
+        yield _Table(fewer, fewer.modules, outcomes, lru_cache(4096)(partial(_row_without, rows, kept)), MOST_LUMPED)
 
 
-def _ended(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
-    """The fates of all states, if these come to an end and no neighbour decides."""
-    with suppress(ModelValueError):  # a state further on has no successor; what is left may be worth a diagram
-        fates = all_outcomes(states, 4 * MOST_PLACES) if has_fates(states) else None
-        if fates is not None:
-            yield fates
+def _finite_outcomes(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
+    """The outcomes of all states, if these are finitely many and no neighbour decides."""
+    with suppress(ModelValueError):  # some state has no successor; the sliced system may still have a diagram
+        outcomes = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
+        if outcomes is not None:
+            yield outcomes
 
 
-def _row(rows: Mapping[Module, int], kept: Set[ArgumentPosition], module: Module) -> int | None:
+def _row_without(rows: Mapping[Module, int], kept: Set[ArgumentPosition], module: Module) -> int | None:
     return rows.get(without_arguments(module, kept))
 
 
@@ -157,8 +159,8 @@ def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], mo
 
 
 def _side_by_side(table: _Table, group: Sequence[int], classes: Sequence[int]) -> Iterator[tuple[Outcome, ...]]:
-    """The fates of the rows of one class, those together that lead to the same classes, in the order of the productions."""
-    ways = zip(*(sorted(table.fates[row], key=lambda fate: _likeness(fate, classes)) for row in group), strict=True)
+    """The outcomes of the rows of one class, those together that lead to the same classes, in the order of the productions."""
+    ways = zip(*(sorted(table.outcomes[row], key=lambda outcome: _likeness(outcome, classes)) for row in group), strict=True)
     return iter(sorted(ways, key=lambda way: way[0].production or 0))
 
 
@@ -172,29 +174,30 @@ def _targets(rows: Sequence[Sequence[int]]) -> Iterator[tuple[int, int, tuple[in
 def _merged(table: _Table) -> list[int]:
     """For each row its class: rows that look alike but for their polarity and become alike are one class.
 
-    The coarsest partition that is finer than the looks and under which fates are alike, found by refinement.
+    The coarsest partition that is finer than the looks and under which outcomes are alike, found by refinement.
     """
-    classes = _numbered([_look(table.states, module) for module in table.modules])
+    classes = _class_numbers([_appearance(table.states, module) for module in table.modules])
     while True:
-        finer = _numbered([(classes[row], *sorted(_likeness(fate, classes) for fate in fates))
-                           for row, fates in enumerate(table.fates)])
+        finer = _class_numbers([(classes[row], *sorted(_likeness(outcome, classes) for outcome in outcomes))
+                           for row, outcomes in enumerate(table.outcomes)])
         if finer == classes:
             return classes
         classes = finer
 
 
-def _likeness(fate: Outcome, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
-    """What makes two fates alike."""
-    return fate.chance, -1 if fate.span is None else fate.span, tuple(sorted(classes[row] for row in fate.successor))
+def _likeness(outcome: Outcome, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
+    """What makes two outcomes alike."""
+    span = -1 if outcome.span is None else outcome.span
+    return outcome.chance, span, tuple(sorted(classes[row] for row in outcome.successor))
 
 
-def _numbered(keys: Sequence[Hashable]) -> list[int]:
+def _class_numbers(keys: Sequence[Hashable]) -> list[int]:
     """Equal keys get equal numbers, in the order of first occurrence."""
     numbers: dict[Hashable, int] = {}
     return [numbers.setdefault(key, len(numbers)) for key in keys]
 
 
-def _look(states: States, module: Module) -> Hashable:
+def _appearance(states: States, module: Module) -> Hashable:
     """What a module looks like without its polarity: its cells' sizes and shades; itself, where it is no cell."""
     state = states.number(module.symbol, module.arguments)
     image = interpretations(states, (state,))[state]

@@ -1,7 +1,7 @@
-"""Descent: what becomes of a cell within a step, with the cells that come and go between two words.
+"""Cell lineage within a step: divisions, with the cells that appear and divide again between two words.
 
-The parts by which a rule replaces a module are known as they are at the step's end; as they were at first follows from the age
-at which the rule began to apply.
+A rule gives the daughters of a cell as they are at the end of the step. What they were at birth follows from the age at which
+the rule began to apply.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class LineageCell:
     at_birth
         The module that it was then.
     ended
-        When it divided or died; None where it lives to the end.
+        When it divided or died; None where it is alive at the end.
     due
         When it should have divided, where that is before `ended`, or before the end.
     modules
@@ -69,39 +69,39 @@ class CellDivisions:
     """What becomes of each state within a step, with what comes and goes in between."""
 
     def __init__(self, states: States) -> None:
-        self.states, self.ageing = states, age_model(states)
+        self.states, self.ages = states, age_model(states)
         self._known: dict[int, CellPart] = {}
 
     def of(self, state: int) -> CellPart:
-        """What becomes of a settled state."""
+        """What becomes of a state that alone decides it."""
         if state not in self._known:
-            module, rule = self.states.modules[state], self.states.fate(state)
+            module, rule = self.states.modules[state], self.states.rule(state)
             self._known[state] = self._replaced(module, module, rule, 0) if rule else self._decomposed(module, module, 0)
         return self._known[state]
 
     def _replaced(self, module: Module, at_birth: Module, rule: Rule, depth: int) -> CellPart:
         """A module with the parts by which a rule replaces it, as they are now and as they were at first."""
-        age, threshold = self.ageing.age(module), self.ageing.applies_from(rule, module)
-        made = [Module(*part) for part in self.states.made(rule, module)]
+        age, threshold = self.ages.age(module), self.ages.applies_from(rule, module)
+        made = self.ages.made(rule, module)
         if age is None or threshold is None:
             return CellPart(module, at_birth, tuple(self._decomposed(part, part, depth) for part in made))
-        first = [Module(*part) for part in self.states.made(rule, self.ageing.aged(module, threshold))]
+        first = self.ages.made(rule, self.ages.aged(module, threshold))
         parts = tuple(self._decomposed(part, was, depth) for part, was in zip(made, first, strict=True))
         return CellPart(module, at_birth, parts, age - threshold)
 
     def _decomposed(self, module: Module, at_birth: Module, depth: int) -> CellPart:
         """A module with its parts, and theirs."""
         rule = None if depth == self.states.system.decomposition_depth else \
-            self.states.matching(module, self.states.decomposition)
+            self.states.matching_rule(module, self.states.decomposition)
         return CellPart(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
 
 
 class CellGrowth:
-    """A lineage that is put together step by step."""
+    """A lineage that is assembled step by step."""
 
     def __init__(self, states: States) -> None:
         self.cells: list[LineageCell] = []
-        self.places: list[int | None] = []  # for each module of the word whose cell it is
+        self.places: list[int | None] = []  # the cell of each module of the word
         self._kinds = cell_kinds(states.system)
 
     def is_cell(self, module: Module) -> bool:

@@ -1,12 +1,13 @@
-"""Continuity: does a filament grow without a jump where its cells divide? (ABOP, section 6.2; seed 002, section 8)
+"""Continuity: does a filament grow without a jump where its cells divide? (ABOP,
+section 6.2; P. Prusinkiewicz, Introduction to Modeling with L-systems, section 8)
 
 A growth function g gives the length of a cell at an age. The length of the filament is continuous where
 
     R1  each growth function is continuous on the life span of its letter, from the first age to the terminal age;
     R2  at each division g(mother, terminal age) is the sum of g(daughter, first age) over the daughters.
 
-Of order k it is continuous where the same holds for the derivatives up to the k-th. Names in a growth function that nobody
-gave a value are unknown: R2 is then an equation that they must obey, such as a^t_div = a^t_s + a^t_l.
+Of order k it is continuous where the same holds for the derivatives up to the k-th. Names in a growth function that have
+no value are unknown: R2 is then an equation for them, such as a^t_div = a^t_s + a^t_l.
 """
 
 from __future__ import annotations
@@ -14,11 +15,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from lsys_kit.derivation.core.rules import real_from, unknown_constant
 from lsys_kit.derivation.timed.equations import roots
+from lsys_kit.derivation.timed.length_changes import Division, equal_lengths, unknown_names
 from lsys_kit.derivation.timed.length_functions import (
     in_sympy,
     is_continuous,
@@ -30,54 +31,14 @@ from lsys_kit.derivation.timed.length_functions import (
 from lsys_kit.derivation.timed.timed import Timed, timed
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production
 
 if TYPE_CHECKING:
     import sympy
 
-CellFate: TypeAlias = tuple[Production, Module, list[Module]]
-"""What becomes of a letter: a production, the mother, her daughters."""
 MOST_ORDER = 9
 """The highest derivative."""
-ALIKE = 1e-9
-"""Lengths that differ by no more than this share are equal."""
-
-
-@dataclass(frozen=True)
-class Division:
-    """What a production does to the length of a filament, or to a derivative of that length.
-
-    Attributes
-    ----------
-    production
-        The production.
-    order
-        0 for the length itself, k for its k-th derivative.
-    mother, daughters
-        The length of the mother at her terminal age, and that of all daughters together at their first ages.
-    """
-
-    production: Production
-    order: int
-    mother: sympy.Expr
-    daughters: sympy.Expr
-
-    @cached_property
-    def defect(self) -> sympy.Expr:
-        """By how much the mother is longer than her daughters; 0 where the length is continuous."""
-        import sympy
-
-        return sympy.Integer(0) if _equal(self.mother, self.daughters) else sympy.factor_terms(self.mother - self.daughters)
-
-    def __str__(self) -> str:
-        what = f"{self.production}: " + (f"derivative {self.order}: " if self.order else "")
-        if self.defect == 0:
-            return f"{what}continuous"
-        before, after, jump = (number_text(_brief(part)) for part in (self.mother, self.daughters, -self.defect))
-        return what + (f"continuous where {before} = {after}" if self.defect.free_symbols else
-                       f"{before} before, {after} after, a jump by {jump}")
 
 
 @dataclass(frozen=True)
@@ -103,7 +64,7 @@ class Continuity:
 
     @property
     def equations(self) -> tuple[sympy.Eq, ...]:
-        """What the unknown names must obey."""
+        """The equations that the unknown names must satisfy."""
         import sympy
 
         return tuple(dict.fromkeys(sympy.Eq(division.mother, division.daughters) for division in self.divisions
@@ -112,7 +73,7 @@ class Continuity:
     @property
     def unknowns(self) -> tuple[str, ...]:
         """The unknown names in these equations."""
-        return tuple(sorted({name for division in self.divisions for name in _names(division.defect)}))
+        return tuple(sorted({name for division in self.divisions for name in unknown_names(division.defect)}))
 
     def solve(self, name: str, low: object = None, high: object = None) -> sympy.Expr:
         """The value of an unknown name with which the length is continuous.
@@ -156,9 +117,9 @@ class Continuity:
         if not found:
             where = "" if ends == [None, None] else " in that range"
             raise ModelValueError(f'No value of "{name}"{where} makes the length continuous')
-        told = ", ".join(f"{float(root):.6g}" for root in found)
-        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {told}',
-                              hint=f'Say between which numbers it lies, as in solve("{name}", 1, 10).')
+        values = ", ".join(f"{float(root):.6g}" for root in found)
+        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {values}',
+                              hint=f'Give the range in which it lies, as in solve("{name}", 1, 10).')
 
     def _equation(self, name: str) -> sympy.Expr:
         """What is 0 where the length is continuous, with no other unknown name in it."""
@@ -167,10 +128,10 @@ class Continuity:
         others: set[str] = set()
         for division in self.divisions:
             above, _ = sympy.fraction(sympy.together(division.defect))
-            factors = [part for part in sympy.Mul.make_args(sympy.factor_terms(above)) if name in _names(part)]
-            if factors and _names(*factors) == {name}:
+            factors = [part for part in sympy.Mul.make_args(sympy.factor_terms(above)) if name in unknown_names(part)]
+            if factors and unknown_names(*factors) == {name}:
                 return sympy.Mul(*factors)
-            others |= _names(*factors) - {name}
+            others |= unknown_names(*factors) - {name}
         if not others:
             raise ModelValueError(f'No value of "{name}" makes the length continuous')
         raise ModelValueError(f'The value of "{name}" depends on {", ".join(sorted(others))}',
@@ -180,13 +141,13 @@ class Continuity:
         """Whether a value leaves no jump that its name decides, and no mother without a length."""
         symbols = {symbol for growth in self._growth for part in growth for symbol in part.free_symbols}
         point = {symbol: value.evalf(20) for symbol in symbols if symbol.name == name}
-        asked = [division for division in self.divisions if name in _names(division.defect)]
+        asked = [division for division in self.divisions if name in unknown_names(division.defect)]
         try:
             lengths = [(d.order, d.mother.subs(point), d.daughters.subs(point)) for d in asked]
             growth = [(function.subs(point), life.subs(point)) for function, life in self._growth]
-        except ValueError:  # it compares what is no real number
+        except ValueError:  # it compares numbers that are not real
             return False
-        return (all(_equal(before, after) and (order or before != 0) for order, before, after in lengths)
+        return (all(equal_lengths(before, after) and (order or before != 0) for order, before, after in lengths)
                 and all(is_continuous(function, life) is not False for function, life in growth))
 
     def __repr__(self) -> str:
@@ -235,28 +196,28 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MOST_ORDER:
         raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {order!r}")
-    growing, given = _given(system, constants)
-    fates = list(_fates(growing))
-    lives = _lives(growing, fates)
+    growing, given = _timed_with_values(system, constants)
+    productions = list(_divisions(growing))
+    lives = _life_spans(growing, productions)
     texts = written_functions(lengths, lives)
     functions = length_functions(growing, texts, given, lives)
     undecided = tuple(letter for letter, life in lives.items()
                       if not is_decided(letter, texts[letter], functions[letter], life, order))
-    divisions = tuple(Division(production, k, _total([mother], functions, k), _total(daughters, functions, k))
-                      for k in range(order + 1) for production, mother, daughters in fates)
+    divisions = tuple(Division(production, k, _total_length([mother], functions, k), _total_length(daughters, functions, k))
+                      for k in range(order + 1) for production, mother, daughters in productions)
     return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
 
 
-def _given(system: LSystem | Timed, constants: Mapping[str, object]) -> tuple[Timed, dict[str, object]]:
+def _timed_with_values(system: LSystem | Timed, constants: Mapping[str, object]) -> tuple[Timed, dict[str, object]]:
     """The timed system with its constants set, and the values of other names."""
     model = system.states.system if isinstance(system, Timed) else system
     names = [constant.name for constant in model.constants]
     values: dict[str, object] = dict(zip(names, system.states.constants, strict=True)) if isinstance(system, Timed) else {}
-    values.update((name, _plain(value)) for name, value in constants.items() if name in names)
+    values.update((name, _solved_value(value)) for name, value in constants.items() if name in names)
     return timed(model, **values), {name: value for name, value in constants.items() if name not in names}
 
 
-def _plain(value: object) -> object:
+def _solved_value(value: object) -> object:
     """A value that was solved for as one that a system takes."""
     import sympy
 
@@ -264,23 +225,24 @@ def _plain(value: object) -> object:
 
 
 
-def _fates(growing: Timed) -> Iterator[CellFate]:
+def _divisions(growing: Timed) -> Iterator[tuple[Production, Module, list[Module]]]:
     """Each production, its mother at her terminal age, her daughters at their first ages."""
     for (symbol, _), (rule, *_) in growing.states.rules.items():
-        others = (unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])
-        mother = growing.at_end(Module(symbol, (0, *others)))
-        if mother is not None:
-            yield rule.production, mother, growing.daughters(mother)
+        letter = Module(symbol, (0, *(unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])))
+        end = growing.ages.end(letter)
+        if end is not None:
+            mother = growing.ages.aged(letter, end[1])
+            yield end[0].production, mother, growing.ages.daughters(mother)
 
 
-def _lives(growing: Timed, fates: Iterable[CellFate]) -> dict[str, sympy.Set]:
+def _life_spans(growing: Timed, divisions: Iterable[tuple[Production, Module, list[Module]]]) -> dict[str, sympy.Set]:
     """The life span of each letter, from its least age to its greatest; without end where no production ends it."""
     import sympy
 
     ages: dict[str, list[sympy.Expr]] = {}
-    ended = [mother for _, mother, _ in fates]
+    ended = [mother for _, mother, _ in divisions]
     for module in (*(growing.states.modules[state] for state in growing.states.axiom), *ended,
-                   *(made for _, _, daughters in fates for made in daughters)):
+                   *(made for _, _, daughters in divisions for made in daughters)):
         if module.arguments:
             ages.setdefault(module.symbol, []).append(in_sympy(module.arguments[0]))
     endless = ages.keys() - {module.symbol for module in ended}
@@ -288,7 +250,7 @@ def _lives(growing: Timed, fates: Iterable[CellFate]) -> dict[str, sympy.Set]:
             for symbol, found in ages.items()}
 
 
-def _total(modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
+def _total_length(modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
     """The length of some modules together, or a derivative of it."""
     import sympy
 
@@ -296,29 +258,6 @@ def _total(modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order
     try:
         return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
                            for (symbol, age), number in cells.items()))
-    except ValueError:  # it compares what is no real number
-        told = " or ".join(symbol for symbol, _ in cells)
-        raise ModelValueError(f"The length of {told} has no value at a division") from None
-
-
-def _equal(before: sympy.Expr, after: sympy.Expr) -> bool:
-    """Whether two lengths are equal whatever their unknown names are: they are compared where nothing is equal by chance."""
-    import sympy
-
-    symbols = sorted(before.free_symbols | after.free_symbols, key=str)
-    point = {symbol: sympy.Float(f"1.{2345679 + 1357913 * i}", 20) for i, symbol in enumerate(symbols)}
-    try:
-        one, other, left = (abs(value.evalf(20, subs=point)).evalf() for value in (before, after, before - after))
-    except ValueError:  # it compares what is no real number
-        return False
-    return all(value.is_Float or value.is_Rational for value in (one, other, left)) and bool(left <= ALIKE * (one + other))
-
-
-def _brief(value: sympy.Expr) -> sympy.Expr | float:
-    """A number to six digits; anything else as it is."""
-    found = value.evalf()
-    return float(f"{float(found):.6g}") if found.is_Float or found.is_Rational else value
-
-
-def _names(*expressions: sympy.Expr) -> set[str]:
-    return {symbol.name for expression in expressions for symbol in expression.free_symbols}
+    except ValueError:  # it compares numbers that are not real
+        letters = " or ".join(symbol for symbol, _ in cells)
+        raise ModelValueError(f"The length of {letters} has no value at a division") from None

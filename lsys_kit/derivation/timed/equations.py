@@ -21,7 +21,8 @@ FARTHEST = 700.0
 
 
 def growth_base(t_div: float, t_s: float, t_l: float) -> float:
-    """The base a of exponential growth that is continuous at a division: a^t_div = a^t_s + a^t_l (seed 002, section 8).
+    """The base a of exponential growth that is continuous at a division: a^t_div = a^t_s + a^t_l (Prusinkiewicz,
+    Introduction to Modeling with L-systems, section 8).
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ def positive_root(powers: Sequence[tuple[float, float]]) -> float:
         return math.fsum(c * math.exp(exponent * log - greatest) for exponent, (_, c) in zip(exponents, powers, strict=True))
 
     if (total(-FARTHEST) < 0) == (total(FARTHEST) < 0):
-        raise ModelValueError("The solution is larger than a number can be, or smaller",
+        raise ModelValueError("The solution is too large or too small for a floating-point number",
                               hint="Let a daughter begin clearly younger than the age at which cells divide.")
     return math.exp(bisected(total, -FARTHEST, FARTHEST))
 
@@ -149,12 +150,12 @@ def _root_between(equation: sympy.Expr, name: sympy.Symbol, low: float | None, h
     import sympy
 
     def value(number: float) -> float:
-        with suppress(ValueError):  # it compares what is no real number
+        with suppress(ValueError):  # it compares numbers that are not real
             found = equation.evalf(subs={name: number})
             return float(found) if found.is_real else math.nan
         return math.nan
 
     if low is None or high is None or not value(low) * value(high) < 0:
         raise ModelValueError(f'No rule finds where "{number_text(equation)}" is 0',
-                              hint=f"Say between which two numbers {name} lies; it must have opposite signs there.")
+                              hint=f"Give two numbers between which {name} lies, where the expression has opposite signs.")
     return sympy.Float(bisected(value, low, high))

@@ -63,7 +63,7 @@ def length_functions(growing: Timed, texts: Mapping[str, str], given: Mapping[st
             raise ModelLimitError("The powers here are too large", limit=MOST_BITS, source=text, start=0, end=len(text))
         try:
             functions[text] = to_sympy(tree).xreplace(symbols)
-        except ValueError:  # it compares what is no real number
+        except ValueError:  # it compares numbers that are not real
             raise ModelValueError("This growth function has no value", text, 0, len(text)) from None
     return {symbol: functions[texts[symbol]] for symbol in lives}
 
@@ -117,7 +117,7 @@ def is_decided(letter: str, text: str, function: sympy.Expr, life: sympy.Set, or
         raise ModelValueError(f'{which} growth function "{text}" is not continuous on the life span of {letter}, '
                               f"from {life.inf} to {life.sup}")
     if None in verdicts and not (function.free_symbols | life.free_symbols) - {the_age()}:
-        raise ModelValueError(f'Whether the growth function "{text}" is continuous on the life span of {letter} cannot be told',
+        raise ModelValueError(f'Whether the growth function "{text}" is continuous on the life span of {letter} is undecided',
                               hint="Write it in a simpler way.")
     return None not in verdicts
 
@@ -146,7 +146,7 @@ def is_continuous(function: sympy.Expr, life: sympy.Set) -> bool | None:
 
 
 def _is_hard(function: sympy.Expr) -> bool:
-    """Whether it might take for ever to find where a function is continuous."""
+    """Whether finding where a function is continuous might not terminate."""
     import sympy
 
     def bent(part: sympy.Expr) -> bool:

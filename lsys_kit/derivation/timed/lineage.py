@@ -1,6 +1,7 @@
-"""Lineages: which cell comes from which, and when each divides (seed 002, figures 5 and 6).
+"""Lineages: which cell comes from which, and when each divides (P. Prusinkiewicz, Introduction to Modeling with L-systems,
+figures 5 and 6).
 
-A step leads from one word to the next, but what happens in it has times of its own. Where a cell's age grows with time and a
+A step leads from one word to the next, but events within it have times of their own. Where a cell's age grows with time and a
 condition such as `t >= t_div` says at which age it divides, the age that it would have by the step's end tells how long ago it
 divided. So the lineage has a place in continuous time, however long the steps are; and it shows where a division is late,
 because the productions let a cell divide only once in a step.
@@ -102,7 +103,7 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
     ModelLimitError
         There are too many cells.
     ModelValueError
-        It is nothing that has a lineage, or a choice is missing or does not belong to it.
+        The argument has no lineage, or a choice is missing or does not apply to it.
 
     Examples
     --------
@@ -112,48 +113,48 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
     >>> tree, [float(time) for time in tree.divisions]
     (7 cells at time 2.8, after 6 divisions, [1.0, 1.8, 2.0, 2.6, 2.8, 2.8])
 
-    See seed 002, sections 5 and 6, figures 5 and 6.
+    See P. Prusinkiewicz, Introduction to Modeling with L-systems, sections 5 and 6, figures 5 and 6.
     """
     if isinstance(what, LSystem):
         steps: Any = n if n is not None else what.steps if what.steps is not None else 5
         start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
-        if start.states.asks:
-            raise ModelValueError("The system asks for what the turtle sees, and words alone do not tell that",
+        if start.states.traits.sensitive:
+            raise ModelValueError("The system asks what the turtle sees, which words alone do not say",
                                   hint="Derive it first, and ask for the lineage of the derivation.")
-        return _of_words(start.to(steps))
+        return _derived_lineage(start.to(steps))
     if isinstance(what, Timed) and n is not None and not constants:
-        return _in_time(what, number_from(n, "time"))
+        return _timed_lineage(what, number_from(n, "time"))
     if isinstance(what, Timed):
-        raise ModelValueError("For the lineage of a timed system the time at which it ends is needed, and nothing else",
+        raise ModelValueError("The lineage of a timed system needs the time at which it ends, and nothing else",
                               hint="Ask for lineage(timed(system), 5).")
     if not isinstance(what, Derivation):
         raise ModelValueError(f"Only systems, derivations and timed systems have a lineage, not {type(what).__name__}")
     if n is not None or constants:
         raise ModelValueError("Steps and constants are chosen when a system is derived, not when its lineage is asked for")
-    return _of_words(what)
+    return _derived_lineage(what)
 
 
-def _of_words(derivation: Derivation) -> Lineage:
+def _derived_lineage(derivation: Derivation) -> Lineage:
     """The lineage of a derivation."""
     states = derivation.states
     if sum(derivation.lengths) > MOST_CELLS:
         raise ModelLimitError(f"The words of a lineage may have {MOST_CELLS:,} modules together", limit=MOST_CELLS,
                               needed=sum(derivation.lengths), hint="Take fewer steps.")
-    growth, fates = CellGrowth(states), CellDivisions(states)
-    length = fates.ageing.step or 1
+    growth, divisions = CellGrowth(states), CellDivisions(states)
+    length = divisions.ages.step or 1
     for module in derivation[0]:
         growth.found(growth.born(None, 0, module) if growth.is_cell(module) else None, 0, module)
     words = [growth.places]
     for step in range(1, len(derivation)):
         before, growth.places = growth.places, []
-        parts = map(fates.of, derivation[step - 1].numbers()) if states.settled else _flat_parts(derivation, step)
+        parts = map(divisions.of, derivation[step - 1].numbers()) if states.traits.d0l else _flat_parts(derivation, step)
         for owner, part in zip(before, parts, strict=True):
             growth.follow(part, owner, step, (normalised((step - 1) * length), normalised(step * length)))
         words.append(growth.places)
     end = normalised(derivation.steps * length)
-    if states.settled and fates.ageing.parameters:
+    if states.traits.d0l and divisions.ages.step is not None:
         for owner, state in zip(growth.places, derivation[-1].numbers(), strict=True):
-            due = growth.overdue(fates.of(state), end + length) if owner is not None else None
+            due = growth.overdue(divisions.of(state), end + length) if owner is not None else None
             if owner is not None and due is not None and due < end:
                 growth.cells[owner] = replace(growth.cells[owner], due=due)
     found = tuple(tuple(cell for cell in word if cell is not None) for word in words)
@@ -169,7 +170,7 @@ def _flat_parts(derivation: Derivation, step: int) -> list[CellPart]:
     return [CellPart(module, module, tuple(parts)) for module, parts in zip(derivation[step - 1], made, strict=True)]
 
 
-def _in_time(system: Timed, end: Value) -> Lineage:
+def _timed_lineage(system: Timed, end: Value) -> Lineage:
     """The lineage of a timed system up to a time."""
     word, growth = system.word(end), CellGrowth(system.states)
     if len(word) > MOST_CELLS:
@@ -182,12 +183,12 @@ def _in_time(system: Timed, end: Value) -> Lineage:
     first, growth.places = tuple(range(len(axiom))), []
     while todo:
         module, since, cell = todo.pop()
-        last = system.at_end(module)
-        moment: Value = end if last is None else since + (last.arguments[0] - module.arguments[0])
+        last = system.ages.end(module)
+        moment: Value = end if last is None else since + (last[1] - (system.ages.age(module) or 0))
         if last is None or moment >= end:
             growth.found(cell, 1, word[len(growth.places)])
             continue
-        daughters = system.daughters(last)
+        daughters = system.ages.daughters(module)
         if len(daughters) != 1:
             growth.cells[cell] = replace(growth.cells[cell], ended=moment)
         numbers = [cell] if len(daughters) == 1 else [growth.born(cell, moment, daughter) for daughter in daughters]

@@ -1,4 +1,4 @@
-"""Timed systems: the word at any time, not only after whole steps (ABOP, chapter 6; seed 003).
+"""Timed systems: the word at any time, not only after whole steps (ABOP, chapter 6).
 
 A module's one parameter is its age. A production `ar(1) -> al(0) br(0)` says at which age a cell divides, its terminal age, and
 with which ages its daughters begin. With D(x, t) for what a word x becomes in a time t:
@@ -7,33 +7,28 @@ with which ages its daughters begin. With D(x, t) for what a word x becomes in a
     D(a(age), t) = a(age + t)                             while age + t <= terminal age
                  = D(successor, t - (terminal - age))     from then on
 
-At its terminal age a cell is not yet divided. How long the cells are is told in `continuity`; here is what its equations need.
+At its terminal age a cell is not yet divided. The lengths of cells are the subject of `continuity`.
 """
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import repeat
-from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.closure import check_settled
-from lsys_kit.derivation.core.rule_errors import rule_error
-from lsys_kit.derivation.core.rules import kind_of, number_from
+from lsys_kit.derivation.core.closure import check_d0l
+from lsys_kit.derivation.core.rules import ModuleKind, kind_of, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL
+from lsys_kit.derivation.timed.ages import AgeModel, RuleAndAge, timed_age_model, undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
 from lsys_kit.notation.model.modules import Module
-from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import as_written
-
-if TYPE_CHECKING:
-    pass
-
-OFTEN = 1_024
-"""After how many cells somebody looks at the clock."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +43,16 @@ class Timed:
 
     states: States
 
+    @cached_property
+    def ages(self) -> AgeModel:
+        """How its modules grow older, and how their lives end."""
+        return timed_age_model(self.states)
+
+    @cached_property
+    def _ends(self) -> dict[ModuleKind, RuleAndAge | None]:
+        """How each kind of module ends: its terminal age depends on nothing else."""
+        return {}
+
     def word(self, at: object) -> Word:
         """The word at a time.
 
@@ -59,7 +64,7 @@ class Timed:
         Raises
         ------
         ModelValueError
-            The time is before the axiom, or cells divide without end in no time at all.
+            The time is before the axiom, or cells divide endlessly within one instant.
         ModelLimitError
             The word would be too large, or takes too long.
 
@@ -87,10 +92,10 @@ class Timed:
             module, left, instant = todo.pop()
             rest, daughters = self._division(module, left)
             if daughters is None:
-                aged = (*(age + left for age in module.arguments[:1]), *module.arguments[1:])
-                found.append(self.states.number(module.symbol, aged))
+                older = self.ages.aged(module, (self.ages.age(module) or 0) + left)
+                found.append(self.states.number(older.symbol, older.arguments))
             elif instant > deepest:
-                raise ModelValueError(f"{module} divides without end in no time at all",
+                raise ModelValueError(f"{module} divides endlessly within one instant",
                                       hint="Let a daughter begin younger than the age at which she divides.")
             else:
                 instant = instant + 1 if rest == left else 0
@@ -99,50 +104,29 @@ class Timed:
             if len(found) + len(todo) > most:
                 raise ModelLimitError(f"The word would have more than {most:,} modules", limit=most,
                                       hint="Take an earlier time, or set limits(modules=...).")
-            if visited % OFTEN == 0 and time.monotonic() > until:
+            if visited % CLOCK_INTERVAL == 0 and time.monotonic() > until:
                 raise ModelLimitError(f"The word was not reached in {current().seconds:g} seconds", limit=current().seconds,
                                       hint="Take an earlier time, or set limits(seconds=...).")
         return Word(self.states, found)
 
-    def at_end(self, module: Module) -> Module | None:
-        """A module at its terminal age; None where it lives for ever."""
-        rules = self.states.rules.get(kind_of(module))
-        if rules is None:
-            return None
-        try:
-            terminal = rules[0].equalities[0][1]((*module.arguments, *self.states.constants))
-        except (ArithmeticError, ValueError) as fault:
-            raise rule_error(self.states.system, module, rules[0], fault) from None
-        except TypeError:
-            raise self._undecided(module, rules[0].production) from None
-        return Module(module.symbol, (terminal, *module.arguments[1:]))
-
-    def daughters(self, module: Module) -> list[Module]:
-        """What a module at its terminal age becomes: its daughters at their first ages."""
-        return [Module(*made) for made in self.states.made(self.states.rules[kind_of(module)][0], module)]
-
     def _division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
         """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
-        at_end = self.at_end(module)
-        if at_end is None:
+        kind = kind_of(module)
+        if kind not in self._ends:
+            self._ends[kind] = self.ages.end(module)
+        end = self._ends[kind]
+        if end is None:
             return left, None
-        rest: Value = left - (at_end.arguments[0] - module.arguments[0])
+        rule, terminal = end
+        rest: Value = left - (terminal - module.arguments[0])
         try:
-            return (left, None) if rest <= 0 else (rest, self.daughters(at_end))
+            return (left, None) if rest <= 0 else (rest, self.ages.made(rule, self.ages.aged(module, terminal)))
         except TypeError:
-            raise self._undecided(module, self.states.rules[kind_of(module)][0].production) from None
-
-    def _undecided(self, module: Module, production: Production) -> ModelValueError:
-        """The age at which a module divides hangs on a constant that is not known."""
-        names = sorted({str(name) for value in self.states.constants for name in getattr(value, "free_symbols", ())})
-        start, end = production.at or (None, None)
-        return ModelValueError(f"At which age {module} becomes what {production} says cannot be decided",
-                               self.states.system.source or None, start, end,
-                               f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
+            raise undecided_age(self.states, module, rule.production) from None
 
 
 def timed(system: LSystem, **constants: object) -> Timed:
-    """A system whose modules' one parameter is their age.
+    """A timed system, in which the one parameter of each module is its age.
 
     Parameters
     ----------
@@ -154,10 +138,10 @@ def timed(system: LSystem, **constants: object) -> Timed:
     Raises
     ------
     ModelValueError
-        The system is no timed one.
+        A production does not say at which age it applies, or depends on neighbours or chance.
     """
     states = States(system, constants)
-    check_settled(states, "The word at any time")
+    check_d0l(states, "The word at any time")
     for rules in states.rules.values():
         for rule in rules:
             if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:

@@ -1,0 +1,146 @@
+"""Counting: the engine of D0L systems, in which a module alone decides what becomes of it.
+
+How often each state occurs in a word follows from how often each occurs in the word before. So the size of every step is
+known before a word is built, and the word of any step is built without those between.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property, partial
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.engines import expansion
+from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
+from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Origins, check_size, check_time
+from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
+
+DIFFERENT = 50
+"""Where more new states than this are met in a step, and they are most of its word, words become columns."""
+
+
+class CountingEngine:
+    """The derivation of a D0L system, in columns from where on nearly all modules are different, if it is `columnar`."""
+
+    def __init__(self, states: States, columnar: bool) -> None:
+        self.states = states
+        self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
+        self._words: dict[int, Word] = {}
+        self._bytes = ByteTable(states)
+        self._columnar = columnar
+        self._new = 0  # so many states were met first at the last step
+        self._late: list[Word] = []
+
+    @property
+    def known(self) -> int:
+        """The last step whose size is known."""
+        return len(self._steps) + len(self._late) - 1
+
+    def size(self, step: int) -> int:
+        """How many modules a known step has."""
+        return self._steps[step][1] if step < len(self._steps) else len(self.word(step))
+
+    def counts(self, step: int) -> Counter[int]:
+        """How often each state occurs at a known step."""
+        return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
+
+    def advance(self, until: float) -> None:
+        """Make one step more known."""
+        step, (before, _) = self.known + 1, self._steps[-1]
+        if self._late or (self._columnar and self._nearly_all_new()):
+            self._late.append(self._next_word(step, until))
+            return
+        met = len(self.states)
+        if len(self.states.successors) < met:  # some successors must be computed: not for a step that is refused
+            check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
+        after = next_counts(self.states, before, partial(check_time, self.states, step, until))
+        check_time(self.states, step, until)
+        size = sum(after.values())
+        check_size(self.states, step, size)
+        self._new = len(self.states) - met
+        self._steps.append((after, size))
+
+    def _nearly_all_new(self) -> bool:
+        """Whether most modules of the last word were met for the first time in it."""
+        return self._new > DIFFERENT and 2 * self._new > self._steps[-1][1]
+
+    @cached_property
+    def _columns(self) -> ColumnarSteps:
+        return ColumnarSteps(self.states)
+
+    def _next_word(self, step: int, until: float) -> Word:
+        """The next word, where nearly all modules are different: in columns, or from the table of states."""
+        before, columns = self.word(step - 1), self._columns
+        check_time(self.states, step, until)
+        try:
+            return columns.step(before if isinstance(before, ColumnWord) else columns.word(before),
+                                partial(check_size, self.states, step))
+        except ArithmeticError:
+            return self._from_table(before.numbers(), step, until)
+
+    def _from_table(self, before: Sequence[int], step: int, until: float) -> Word:
+        """The next word, module by module."""
+        found: list[int] = []
+        for number, state in enumerate(before):
+            found += self.states.successors[state]
+            if number % CLOCK_INTERVAL == 0:
+                check_time(self.states, step, until)
+                check_size(self.states, step, len(found))
+        check_size(self.states, step, len(found))
+        return Word(self.states, compact(found, len(self.states)))
+
+    def word(self, step: int) -> Word:
+        """The word of a known step."""
+        if step >= len(self._steps):
+            return self._late[step - len(self._steps)]
+        if step not in self._words:
+            self._words[step] = self._built(step)
+        return self._words[step]
+
+    def _built(self, step: int) -> Word:
+        if step == 0:
+            return Word(self.states, list(self.states.axiom))
+        before, small = self._words.get(step - 1), self.size(step) <= expansion.MOST_LISTED
+        if small and before is not None:
+            return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
+        array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
+        return Word(self.states, array.tolist() if small else array)
+
+    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
+        """The successor of a short word, given the states that occur in it."""
+        successors, table = self.states.successors, self._bytes
+        if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):
+            return table.replaced(bytes(word.codes))
+        return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
+
+    def origins(self, step: int) -> Origins:
+        """Where the modules of a step's word come from."""
+        parents: list[int] = []
+        productions: list[int | None] = []
+        for position, state in enumerate(self.word(step - 1).numbers()):
+            made = len(self.states.successor(state))
+            parents += [position] * made
+            productions += [self.states.production(state)] * made
+        return Origins(parents, productions)
+
+    def sight(self, _: int) -> None:
+        """Nothing: the modules of a D0L system ask for nothing."""
+
+
+def next_counts(states: States, counts: Mapping[int, int], check: Callable[[], None] = lambda: None) -> dict[int, int]:
+    """How often each state occurs one step later; `check` is called now and then, and may raise an error."""
+    after: dict[int, int] = {}
+    already, successors = after.get, states.successors
+    for number, (state, count) in enumerate(counts.items(), 1):
+        row = successors[state]
+        for successor in row:
+            after[successor] = already(successor, 0) + count
+        if number % CLOCK_INTERVAL == 0 or len(row) > CLOCK_INTERVAL:
+            check()
+    return after

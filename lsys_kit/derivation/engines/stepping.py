@@ -1,0 +1,115 @@
+"""Stepping: the engine of systems in which neighbours, chance or what the turtle sees have a say.
+
+Every step needs the whole word before it. All its modules are replaced at once by arrays, where that is possible, else one by
+one. Where rules ask what the turtle sees, an observer looks at the word before each step; which one is not known here.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+
+from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.engines.contexts import ContextEngine
+from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Observation, Observer, Origins, check_size, check_time
+from lsys_kit.derivation.engines.expansion import code_type, compact
+from lsys_kit.derivation.engines.meta import apply_meta_rules
+from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
+
+
+class SteppingEngine:
+    """The derivation of a system step by step, by arrays where these are given, in a world if it asks what the turtle sees."""
+
+    def __init__(self, stepper: Stepper, arrays: ContextEngine | None, world: Observer | None = None) -> None:
+        states = stepper.states
+        self.states, self._world, self._stepper, self._arrays = states, world, stepper, arrays
+        self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
+
+    @property
+    def known(self) -> int:
+        """The last step whose word is known."""
+        return len(self._steps) - 1
+
+    def size(self, step: int) -> int:
+        """How many modules a known step has."""
+        return len(self._steps[step][0])
+
+    def counts(self, step: int) -> Counter[int]:
+        """How often each state occurs at a known step."""
+        return state_counts(self._steps[step][0])
+
+    def advance(self, until: float) -> None:
+        """Make one step more known; nothing of it is kept before it is finished."""
+        step, before, sees = self.known + 1, self._steps[-1][0], None
+        if self._world:
+            sight = self._world(before, partial(check_time, self.states, step, until))
+            before, sees = sight.word, sight.sees
+        if self._arrays:
+            made = self._by_arrays(self._arrays, before, step)
+        else:
+            made = self._one_by_one(before.numbers(), step, until, sees)
+        check_time(self.states, step, until)
+        self._steps.append(made)
+
+    def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
+        """The next word and its origins, all modules at once."""
+        codes = np.asarray(before.codes, dtype=code_type(len(self.states)))
+        chosen = arrays.chosen(codes, step - 1)
+        check_size(self.states, step, arrays.outcomes.size(chosen))
+        word = Word(self.states, arrays.outcomes.replaced(chosen))
+
+        def origins() -> Origins:
+            sizes = arrays.outcomes.sizes()[chosen]
+            productions = [replacement.production for replacement in arrays.outcomes.replacements]
+            return Origins(np.repeat(np.arange(len(chosen)), sizes).tolist(),
+                           [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()])
+
+        return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
+
+    def _one_by_one(self, codes: Sequence[int], step: int, until: float,
+                    sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
+        """The next word and its origins, module by module."""
+        made = []
+        size = 0
+        for number, replacement in enumerate(self._stepper.replacements(codes, step - 1, sees)):
+            made.append(replacement)
+            size += len(replacement.states)
+            if number % CLOCK_INTERVAL == 0 or len(replacement.states) > CLOCK_INTERVAL:
+                check_time(self.states, step, until)
+                check_size(self.states, step, size)
+        check_size(self.states, step, size)
+        word = [code for replacement in made for code in replacement.states]
+        parents = [position for position, replacement in enumerate(made) for _ in replacement.states]
+        productions = [replacement.production for replacement in made for _ in replacement.states]
+        origins = Origins(parents, productions)
+        if self.states.system.meta:
+            return self._shortened(word, lambda: origins)
+        return self._word(word), lambda: origins
+
+    def _shortened(self, codes: Sequence[int], origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
+        """A word after its meta-rules, with its origins."""
+        short, first = apply_meta_rules(self.states, codes)
+
+        def after() -> Origins:
+            old = origins()
+            return Origins([old.parents[at] for at in first], [old.productions[at] for at in first])
+
+        return self._word(short), after
+
+    def _word(self, codes: Sequence[int]) -> Word:
+        return Word(self.states, compact(codes, len(self.states)))
+
+    def word(self, step: int) -> Word:
+        """The word of a known step."""
+        return self._steps[step][0]
+
+    def origins(self, step: int) -> Origins:
+        """Where the modules of a step's word come from."""
+        return self._steps[step][1]()
+
+    def sight(self, step: int) -> Observation | None:
+        """What the next step sees of a known step's word; None without an observer."""
+        return self._world(self.word(step), lambda: None) if self._world else None
