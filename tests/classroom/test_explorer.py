@@ -47,7 +47,7 @@ def test_a_step_is_computed_once(monkeypatch):
     panel = explore("J4", 8)
     panel.step.value = 9
     calls = []
-    monkeypatch.setattr(States, "matching", lambda *_: calls.append(1))
+    monkeypatch.setattr(States, "matching_rule", lambda *_: calls.append(1))
     monkeypatch.setattr(study, "filament", lambda *_: calls.append(1))
     panel.step.value = 8
     panel.step.value = 9
