@@ -22,7 +22,7 @@ def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.geometry.space import trace_in_space
+    >>> from lsys_kit.geometry.turtle.space import trace_in_space
     >>> from lsys_kit.notation.read import read
     >>> bush = trace_in_space(derive(read("axiom: F[&(90)F]"), 0)[0])
     >>> print(bush, project(bush), project(bush, 90), sep="; ")

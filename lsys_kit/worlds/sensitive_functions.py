@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lsys_kit.geometry.commands import FIRST_COLOUR
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
+from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
 
 CLOSE = 1e-9

@@ -21,9 +21,9 @@ from lsys_kit.derivation.core.rules import kind_of, number_from
 from lsys_kit.derivation.core.states import QUERIES, States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.commands import initial_step
-from lsys_kit.geometry.interpreter import compile_word
-from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, TurtleFrame, Vector, initial_frame, prepared, strokes_of
+from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.interpreter import compile_word
+from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, TurtleFrame, Vector, initial_frame, prepared, strokes_of
 from lsys_kit.notation.model.arithmetic import Value, short_text
 from lsys_kit.notation.model.system import Module
 from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoots

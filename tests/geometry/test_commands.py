@@ -9,9 +9,9 @@ import pytest
 import sympy
 
 from lsys_kit import ModelValueError, derive, read
-from lsys_kit.geometry import space, turtle
-from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
-from lsys_kit.geometry.space import in_plane, trace_in_space
+from lsys_kit.geometry.turtle import plane, space
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
+from lsys_kit.geometry.turtle.space import in_plane, trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module
 
@@ -32,7 +32,7 @@ def test_each_command_that_stays_in_the_plane_is_one_that_the_turtle_there_follo
     for tradition, column in COMMANDS.items():
         for symbol, commands in column.items():
             if in_plane(LSystem((Module(symbol, (Number(180),)),), (), turtle=tradition)):
-                assert {command.action for command in commands} <= turtle.PLANE_ACTS.keys()
+                assert {command.action for command in commands} <= plane.PLANE_ACTS.keys()
 
 
 @pytest.mark.parametrize("symbol", ["F", "f", "G", "g", "@M", "+", "-", "&", "^", "\\", "/", "|", "$", "@v", ";", ",", "#", "!",

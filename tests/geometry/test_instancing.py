@@ -7,12 +7,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-import lsys_kit.geometry.instancing as pieces
+import lsys_kit.geometry.turtle.instancing as pieces
 from lsys_kit import derive, limits, read
-from lsys_kit.geometry.instancing import draw_instanced
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.space import in_plane, trace_in_space
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.instancing import draw_instanced
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import in_plane, trace_in_space
 from lsys_kit.notation.model.system import LSystem
 
 PLANE = ("F", "f", "+", "-", "F(2)", "+(33)", "|", "!(2)", ";", "A", "B", "@o", "@c(3)", "[+A]", "[F-B]")

@@ -15,7 +15,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.engines import SteppingEngine
-from lsys_kit.geometry.space import trace_in_space
+from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.system import LSystem, Module, Production
 from lsys_kit.worlds.sight import TurtleObservation, observe

@@ -14,7 +14,7 @@ from string import punctuation
 
 from lsys_kit.derivation.petri.net import Place, Stages
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.commands import COMMANDS
+from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, short, terms_of, width_of
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, laid_out

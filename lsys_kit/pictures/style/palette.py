@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from lsys_kit.geometry.surfaces import surfaces_of
+from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.style.labels import polar_symbols
 

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.commands import LEFT_SIDE, Instruction, initial_step
-from lsys_kit.geometry.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
+from lsys_kit.geometry.turtle.commands import LEFT_SIDE, Instruction, initial_step
+from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
 
 
 @dataclass(frozen=True)

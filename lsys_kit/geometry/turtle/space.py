@@ -19,9 +19,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.commands import COMMANDS, LEFT_SIDE, Command, Instruction, initial_step
-from lsys_kit.geometry.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
 from lsys_kit.geometry.scene import Floats, Scene, Segments
+from lsys_kit.geometry.turtle.commands import COMMANDS, LEFT_SIDE, Command, Instruction, initial_step
+from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module
 

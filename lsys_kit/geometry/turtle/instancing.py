@@ -19,9 +19,9 @@ import numpy as np
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.geometry.commands import COMMANDS, Instruction, initial_step, instructions, unknown_commands
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
-from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, in_plane, initial_frame, prepared
+from lsys_kit.geometry.turtle.commands import COMMANDS, Instruction, initial_step, instructions, unknown_commands
+from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, in_plane, initial_frame, prepared
 from lsys_kit.notation.model.system import CLOSING, OPENING
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]

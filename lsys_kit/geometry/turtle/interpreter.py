@@ -14,9 +14,9 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.geometry.commands import REACH, WIDTH, Instruction, instructions, unknown_commands
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE, Discs, Floats, Polygons
-from lsys_kit.geometry.surfaces import Surface, surface_called, surfaces
+from lsys_kit.geometry.turtle.commands import REACH, WIDTH, Instruction, instructions, unknown_commands
+from lsys_kit.geometry.turtle.surfaces import Surface, surface_called, surfaces
 
 
 class Outline(NamedTuple):

@@ -10,7 +10,7 @@ from importlib.resources import files
 from itertools import pairwise
 from typing import TypeAlias
 
-from lsys_kit.geometry.commands import COMMANDS
+from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.system import LSystem, flat
 
 Corner: TypeAlias = tuple[float, float, float]
