@@ -6,8 +6,9 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.instancing import draw_instanced
+from lsys_kit.geometry.turtle.mode import in_plane
 from lsys_kit.geometry.turtle.plane import place_path, trace
-from lsys_kit.geometry.turtle.space import in_plane, trace_in_space
+from lsys_kit.geometry.turtle.space import trace_in_space
 
 
 def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:

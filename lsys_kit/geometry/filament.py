@@ -16,7 +16,7 @@ from lsys_kit.derivation.core.interpretation import interpretations, is_cell
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
-from lsys_kit.geometry.turtle.commands import values_of
+from lsys_kit.geometry.turtle.instructions import values_of
 from lsys_kit.notation.model.system import CELLS, WALL, Module
 
 

@@ -14,8 +14,9 @@ from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read, sys
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
 from lsys_kit.geometry.turtle.interpreter import run_turtle
+from lsys_kit.geometry.turtle.mode import in_plane
 from lsys_kit.geometry.turtle.plane import place_path, trace
-from lsys_kit.geometry.turtle.space import OFTEN, SPACE_ACTS, SpaceTurtle, in_plane, prepared, trace_in_space
+from lsys_kit.geometry.turtle.space import OFTEN, SPACE_ACTS, SpaceTurtle, prepared, trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module, Production
 

@@ -16,8 +16,8 @@ from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle.mode import in_plane
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
-from lsys_kit.geometry.turtle.space import in_plane
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours

@@ -20,17 +20,17 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle.commands import COMMANDS, Instruction, initial_step, instructions, unknown_commands
-from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, in_plane, initial_frame, prepared
-from lsys_kit.notation.model.system import CLOSING, OPENING
+from lsys_kit.geometry.turtle.actions import Effect
+from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols_with
+from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
+from lsys_kit.geometry.turtle.mode import in_plane
+from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, initial_frame, prepared
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a piece depends on: the state, how many steps it is from the word that is drawn, and what the turtle carries."""
 PieceColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
 _CARRIED = ("length", "width", "colour", "sag", "once")
 _carried = attrgetter(*_CARRIED)
-ELSEWHERE = frozenset(("level", "droop", "tropism", "jump", "back", "outline", "corner", "fill", "announce", "called"))
-"""Actions that depend on more than what a turtle carries."""
 OFTEN = 30
 """Pieces pay where a word has so many times more modules than there are pieces to make."""
 BLOCK = 2**13
@@ -84,8 +84,7 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
     78,125 segments, width 732.47, height 2187
     """
     system, states = derivation.states.system, derivation.states
-    if not states.settled or any(command.action in ELSEWHERE for module in system.modules
-                                 for command in COMMANDS[system.turtle].get(module.symbol, ())):
+    if not states.settled or not all(command.instanceable for command, _ in commands_of(system)):
         return None
     present = [derivation.counts(earlier) for earlier in range(step + 1)]
     if sum(present[-1].values()) < OFTEN * sum(map(len, present)):
@@ -113,6 +112,7 @@ class Pieces:
         self._axes = [0, 2] if flat else [0, 1, 2]
         self._first = initial_frame(states.system.turtle, float(states.system.heading))
         self._back = np.array(self._first[:3]).T  # its inverse is its transpose
+        self._opening, self._closing = (symbols_with(effect, states.system.turtle) for effect in (Effect.OPENS, Effect.CLOSES))
         self._known: dict[Key, Piece] = {}
         self._told: dict[int, list[Instruction]] = {}
 
@@ -153,10 +153,10 @@ class Pieces:
         stack: list[tuple[Floats, Floats, tuple[Any, ...]]] = []
         for state in row:
             symbol = self.states.modules[state].symbol
-            if symbol in CLOSING:
+            if symbol in self._closing:
                 at, turned, carried = stack.pop()
                 continue
-            if symbol in OPENING:
+            if symbol in self._opening:
                 stack.append((at, turned, carried))
             piece = yield state, steps, carried
             parts.append(Placed(piece, at, turned, len(stack)))

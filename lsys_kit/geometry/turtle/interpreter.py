@@ -15,7 +15,8 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE, Discs, Floats, Polygons
-from lsys_kit.geometry.turtle.commands import REACH, WIDTH, Instruction, instructions, unknown_commands
+from lsys_kit.geometry.turtle.commands import WIDTH
+from lsys_kit.geometry.turtle.instructions import LARGEST, Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.surfaces import Surface, surface_called, surfaces
 
 
@@ -129,7 +130,7 @@ def _width(turtle: Turtle, order: Instruction) -> None:
 
 
 def _within_reach(what: str, value: float) -> float:
-    if not abs(value) <= REACH:
+    if not abs(value) <= LARGEST:
         raise ModelValueError(f"The turtle's {what} grows out of reach: {value:.3g}")
     return value
 
@@ -206,14 +207,14 @@ def _round(kind: int) -> Act:
 
 COMMON: Mapping[str, Act] = {
     "draw": _forward(True, True), "move": _forward(False, True),
-    "draw past": _forward(True, False), "move past": _forward(False, False),
-    "length": _length, "first length": _first("length"), "next length": _next("length", _length),
-    "width": _width, "first width": _first("width"), "next width": _next("width", _width),
-    "sag": _sag, "first sag": _first("sag"), "next sag": _next("sag", _sag),
-    "colour": _colour, "first colour": _first("colour"), "open": _open, "close": _close,
-    "outline": _outline, "corner": _corner, "fill": _fill,
-    "announce": _announce, "called": _called, "surface": _surface,
-    "circle": _round(CIRCLE), "disc": _round(DISC), "sphere": _round(SPHERE),
+    "draw without vertex": _forward(True, False), "move without vertex": _forward(False, False),
+    "set length": _length, "reset length": _first("length"), "set length once": _next("length", _length),
+    "set width": _width, "reset width": _first("width"), "set width once": _next("width", _width),
+    "set gravitropism": _sag, "reset gravitropism": _first("sag"), "set gravitropism once": _next("sag", _sag),
+    "set colour": _colour, "reset colour": _first("colour"), "push": _open, "pop": _close,
+    "begin polygon": _outline, "record vertex": _corner, "end polygon": _fill,
+    "expect surface": _announce, "draw expected surface": _called, "draw surface": _surface,
+    "draw circle": _round(CIRCLE), "draw disc": _round(DISC), "draw sphere": _round(SPHERE),
 }
 """What every turtle does, by the names of the actions."""
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.commands import LEFT_SIDE, Instruction, initial_step
+from lsys_kit.geometry.turtle.commands import LEFT_SIDE, initial_step
+from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
 
 
@@ -108,7 +109,7 @@ def _back(turtle: _Crawler, order: Instruction) -> None:
 
 _KINDS = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
           "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
-PLANE_ACTS: Mapping[str, Act] = {**COMMON, "turn": _turn, "roll": _roll, "back": _back}
+PLANE_ACTS: Mapping[str, Act] = {**COMMON, "turn": _turn, "roll": _roll, "return to stroke": _back}
 """What a turtle in the plane does, by the names of the actions."""
 
 

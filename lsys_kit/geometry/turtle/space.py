@@ -13,17 +13,15 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import COMMANDS, LEFT_SIDE, Command, Instruction, initial_step
+from lsys_kit.geometry.turtle.commands import LEFT_SIDE, initial_step
+from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
-from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.system import LSystem, Module
 
 Vector: TypeAlias = tuple[float, float, float]
 TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
@@ -33,7 +31,6 @@ OFTEN = 1_000
 """After so many rotations a frame is made orthonormal again: until then it is wrong by 1e-13 at most."""
 _NOWHERE = 1e-12
 """Sines below this are those of no angle."""
-_OUT_OF_THE_PLANE = frozenset(("pitch", "roll", "level", "droop", "tropism", "jump"))
 _COLUMNS = 10
 """The numbers of a stroke: both ends, order, state, width and colour."""
 
@@ -202,8 +199,8 @@ def _back(turtle: SpaceTurtle, order: Instruction) -> None:
 
 
 _ROTATIONS: Mapping[str, Act] = {"turn": _turn, "pitch": _pitch, "roll": _roll}
-SPACE_ACTS: Mapping[str, Act] = {**COMMON, **_ROTATIONS, "level": _level, "droop": _droop, "tropism": _tropism, "jump": _jump,
-                           "back": _back}
+SPACE_ACTS: Mapping[str, Act] = {**COMMON, **_ROTATIONS, "level": _level, "gravitropism": _droop, "set tropism": _tropism,
+                                 "set position": _jump, "return to stroke": _back}
 """What a turtle in space does, by the names of the actions."""
 
 
@@ -263,25 +260,3 @@ def prepared(order: Instruction, angle: float) -> Any:
 
 def _points(places: list[Vector]) -> Floats:
     return np.array(places, np.float64).reshape(-1, 3)
-
-
-def in_plane(system: LSystem) -> bool:
-    """Whether a system's words stay in the plane of the picture, whatever becomes of them.
-
-    A roll by half a turn stays there: left and right change places.
-
-    >>> from lsys_kit.notation.read import read
-    >>> in_plane(read("axiom: F[+F]/(180)F")), in_plane(read("axiom: F[+F]/(90)F"))
-    (True, False)
-    """
-    table = COMMANDS[system.turtle]
-    return all(_stays(command, module) for module in system.modules for command in table.get(module.symbol, ()))
-
-
-def _stays(command: Command, module: Module) -> bool:
-    """Whether a command with a module's argument stays in the plane."""
-    if command.action == "roll" and module.arguments:
-        value = module.arguments[0]
-        value = value.value if isinstance(value, Number) else value
-        return isinstance(value, int | Fraction | float) and value % 180 == 0
-    return command.action not in _OUT_OF_THE_PLANE

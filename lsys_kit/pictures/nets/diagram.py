@@ -14,7 +14,8 @@ from string import punctuation
 
 from lsys_kit.derivation.petri.net import Place, Stages
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.turtle.commands import COMMANDS
+from lsys_kit.geometry.turtle.actions import Effect
+from lsys_kit.geometry.turtle.commands import COMMANDS, symbols_with
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, short, terms_of, width_of
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, laid_out
@@ -22,8 +23,6 @@ from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
 from lsys_kit.pictures.style.labels import escaped, place_parts, place_text, svg_label
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, PAPER, QUIET, colours, tinted
 
-SEEN = frozenset(("draw", "draw past", "move", "move past", "surface", "circle", "disc", "sphere"))
-"""What a turtle does that leaves something behind, if only a gap; whatever else it is told only steers it."""
 LABEL_SIZE, SMALL = 14, 11
 """Of letters, in pixels."""
 LINE = 16.0
@@ -111,9 +110,9 @@ def steering_of(system: LSystem) -> frozenset[str]:
     >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
     ['&', '+', '[', ']']
     """
-    drawn = {rule.predecessor.symbol for rule in system.interpretation}
-    return frozenset(punctuation) | {symbol for symbol, commands in COMMANDS[system.turtle].items()
-                                     if symbol not in drawn and not any(command.action in SEEN for command in commands)}
+    interpreted = {rule.predecessor.symbol for rule in system.interpretation}
+    invisible = COMMANDS[system.turtle].keys() - symbols_with(Effect.VISIBLE, system.turtle)
+    return frozenset(punctuation) | (invisible - interpreted)
 
 
 @lru_cache(maxsize=64)

@@ -1,0 +1,114 @@
+"""What a word tells the turtle: the commands of its modules, with their arguments taken in."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.turtle.commands import COMMANDS, Command
+from lsys_kit.notation.model.system import LSystem, Module
+
+LARGEST = 1e50
+"""The turtle draws no greater number than this."""
+
+
+class Instruction(NamedTuple):
+    """A command with its numbers: the amount is factor * quantity + addend.
+
+    Attributes
+    ----------
+    action, factor, addend
+        As of `Command`, with the argument taken in.
+    values
+        All arguments.
+    symbol, surface
+        The symbol that gave the order, and which surface it draws.
+    """
+
+    action: str
+    factor: float
+    addend: float
+    values: tuple[float, ...] = ()
+    symbol: str = ""
+    surface: str = ""
+
+
+_CALLED = (Command("draw expected surface"),)
+"""Draw the surface of the symbol's name, if a tilde stands before it."""
+
+
+def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, list[Instruction]]:
+    """What the modules tell the turtle that each state is drawn as.
+
+    Raises
+    ------
+    ModelValueError
+        An argument is no number that can be drawn.
+
+    Examples
+    --------
+    >>> told = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
+    >>> {state: [(order.action, order.factor, order.addend) for order in found] for state, found in told.items()}
+    {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
+    """
+    table, symbols = COMMANDS[tradition], {module.symbol for image in drawn.values() for module in image}
+    called = _CALLED if "~" in symbols & table.keys() else ()
+    commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
+    return {state: [_order(command, module) for module in image for command in commands[module.symbol]]
+            for state, image in drawn.items()}
+
+
+def _order(command: Command, module: Module) -> Instruction:
+    """A command with a module's argument."""
+    values = values_of(module) if command.argument else ()
+    action, factor, addend = command.action, command.factor, command.addend
+    if not values:
+        action = command.bare or action
+    elif command.argument == "all":
+        factor, addend = 0.0, math.copysign(1.0, factor) * values[0]
+    elif command.argument == "more":
+        factor, addend = 1.0, values[0]
+    else:
+        factor, addend = values[0], 0.0
+    return Instruction(action, factor, addend, values, module.symbol, command.surface)
+
+
+def values_of(module: Module) -> tuple[float, ...]:
+    """A module's arguments as doubles.
+
+    Raises
+    ------
+    ModelValueError
+        An argument is no number that can be drawn.
+    """
+    if not module.arguments:
+        return ()
+    try:
+        values = tuple(map(float, module.arguments))  # type: ignore[arg-type]
+    except (TypeError, OverflowError):
+        values = (math.nan,)
+    for value in values:
+        if not -LARGEST <= value <= LARGEST:
+            raise ModelValueError(f"{module} cannot be drawn: a value is out of reach, or not known")
+    return values
+
+
+def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
+    """The symbols without a meaning that look like commands: signs, and commands of another tradition.
+
+    Letters without a meaning are normal, and so are symbols that productions rewrite: they are apices, buds and signals.
+
+    >>> unknown_commands({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
+    ('RH', '=')
+    """
+    own = {production.predecessor.symbol for production in (*system.productions, *system.decomposition)}
+    met = dict.fromkeys(module.symbol for image in drawn.values() for module in image)
+    return tuple(symbol for symbol in met
+                 if symbol not in COMMANDS[system.turtle] and symbol not in own and _looks_like_a_command(symbol))
+
+
+def _looks_like_a_command(symbol: str) -> bool:
+    sign = not (symbol[0].isalnum() or symbol[0] == "_")
+    return sign or (len(symbol) > 1 and any(symbol in column for column in COMMANDS.values()))
