@@ -8,18 +8,20 @@ from pathlib import Path
 import pytest
 import sympy
 
-from lsys_kit import ModelValueError, derive, read
+from lsys_kit import ModelValueError, derive, read, write
 from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS
 from lsys_kit.geometry.turtle.instructions import instructions, unknown_commands
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 README = Path(__file__).parents[2] / "README.md"
 
 
-def test_a_symbol_means_one_thing_in_a_tradition():
-    for column in range(3):
-        assert max(Counter(symbol for row in COMMAND_TABLE for symbol in row[column].split()).values()) == 1
+def test_a_symbol_means_one_thing_in_a_dialect():
+    for dialect in TURTLE_DIALECTS.values():
+        symbols = Counter(symbol for row in COMMAND_TABLE for symbol in getattr(row, dialect.column).split())
+        assert max(symbols.values()) == 1
 
 
 @pytest.mark.parametrize("symbol", ["F", "f", "G", "g", "@M", "+", "-", "&", "^", "\\", "/", "|", "$", "@v", ";", ",", "#", "!",
@@ -33,6 +35,13 @@ def test_abop_has_the_commands_of_appendix_c_and_of_cpfg(symbol):
                                     "%", *(letter + more for letter in "LDNVCHU" for more in ("", "+", "*", "l", "l+", "l*"))])
 def test_grogra_has_the_commands_of_kurths_lectures(symbol):
     assert symbol in COMMANDS["grogra"]
+
+
+@pytest.mark.parametrize("notation", ["abop", "grogra", "mathematica", "plant-string"])
+@pytest.mark.parametrize("turtle", TURTLE_DIALECTS)
+def test_a_text_can_choose_every_dialect_of_turtle_commands(notation, turtle):
+    system = LSystem((Module("F"),), (), turtle=turtle)
+    assert read(write(system, notation), notation).turtle == turtle
 
 
 def test_plant_strings_have_those_of_seed_004():

@@ -16,6 +16,7 @@ from typing import Literal, NamedTuple
 
 from lsys_kit.geometry.turtle.actions import ACTIONS, Effect
 from lsys_kit.notation.model.system import LSystem, Module
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 
 @dataclass(frozen=True)
@@ -159,15 +160,10 @@ COMMAND_TABLE: tuple[Row, ...] = (
 )
 
 COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
-    tradition: {symbol: row.commands for row in COMMAND_TABLE for symbol in row[:3][column].split()}
-    for column, tradition in enumerate(("abop", "grogra", "plant-string"))}
-"""For each tradition its commands, by symbol."""
+    name: {symbol: row.commands for row in COMMAND_TABLE for symbol in getattr(row, dialect.column).split()}
+    for name, dialect in TURTLE_DIALECTS.items()}
+"""For each dialect its commands, by symbol."""
 
-LEFT_SIDE: Mapping[str, int] = {"abop": 1, "grogra": -1, "plant-string": 1}
-"""Where the turtle's left is in the picture when it starts: 1 to the left of its way, -1 to the right."""
-
-STEP: Mapping[str, float] = {"abop": 1.0, "grogra": 100.0, "plant-string": 1.0}
-"""How long a step is, where the system does not say."""
 FIRST_COLOUR = 14
 """The colour of strokes where none was set, as GROGRA numbers it: yellow."""
 WIDTH = 0.1
@@ -175,8 +171,8 @@ WIDTH = 0.1
 
 
 def initial_step(system: LSystem) -> float:
-    """How long a step is at first."""
-    return STEP[system.turtle] if system.length is None else float(system.length)
+    """How far one step goes at first."""
+    return TURTLE_DIALECTS[system.turtle].length if system.length is None else float(system.length)
 
 
 def commands_of(system: LSystem) -> Iterator[tuple[Command, Module]]:

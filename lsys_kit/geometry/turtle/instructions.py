@@ -39,7 +39,7 @@ _CALLED = (Command("draw expected surface"),)
 """Draw the surface of the symbol's name, if a tilde stands before it."""
 
 
-def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[int, list[Instruction]]:
+def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str) -> dict[int, list[Instruction]]:
     """What the modules tell the turtle that each state is drawn as.
 
     Raises
@@ -53,7 +53,7 @@ def instructions(drawn: Mapping[int, Sequence[Module]], tradition: str) -> dict[
     >>> {state: [(order.action, order.factor, order.addend) for order in found] for state, found in told.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
     """
-    table, symbols = COMMANDS[tradition], {module.symbol for image in drawn.values() for module in image}
+    table, symbols = COMMANDS[dialect], {module.symbol for image in drawn.values() for module in image}
     called = _CALLED if "~" in symbols & table.keys() else ()
     commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
     return {state: [_order(command, module) for module in image for command in commands[module.symbol]]

@@ -17,9 +17,10 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.commands import LEFT_SIDE, initial_step
+from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ def trace(word: Word) -> Path:
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
     system = word.states.system
-    turtle = _Crawler(LEFT_SIDE[system.turtle], initial_step(system))
+    turtle = _Crawler(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
     run_turtle(turtle, word, PLANE_ACTS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_KINDS)
     steps: dict[str, Any] = {name: np.array(column, kind) for (name, kind), column in zip(_KINDS.items(), columns, strict=True)}

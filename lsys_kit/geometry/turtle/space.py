@@ -19,9 +19,10 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import LEFT_SIDE, initial_step
+from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Vector: TypeAlias = tuple[float, float, float]
 TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
@@ -60,14 +61,14 @@ class SpaceTurtle(Turtle):
                 z + ahead * hz + left * lz + up * uz)
 
 
-def initial_frame(tradition: str, heading: float = 90.0) -> TurtleFrame:
+def initial_frame(dialect: str, heading: float = 90.0) -> TurtleFrame:
     """How the turtle is turned when it starts; the heading is an angle in the plane of the picture, 90 is up.
 
     >>> initial_frame("abop")
     ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), 0)
     """
     cos, sin = cos_sin(heading)
-    side = LEFT_SIDE[tradition]
+    side = TURTLE_DIALECTS[dialect].left
     head, left = (cos, 0.0, sin), (-side * sin, 0.0, side * cos)
     return head, left, _cross(head, left), 0
 

@@ -235,7 +235,7 @@ class LSystem:
     length
         How far one segment goes where it does not say so itself; None where that is left to the turtle.
     turtle
-        Whose turtle commands the symbols are: "abop", "grogra" or "plant-string".
+        Whose turtle commands the symbols are: a name in `TURTLE_DIALECTS`.
     steps, seed
         How many steps the model asks for, and where its chance begins; or None.
     alphabet

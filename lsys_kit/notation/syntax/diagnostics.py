@@ -14,6 +14,7 @@ from difflib import get_close_matches
 from lark.exceptions import UnexpectedInput
 
 from lsys_kit.errors import ModelSyntaxError, named
+from lsys_kit.notation.model.turtle_dialects import quoted_dialects
 from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
 from lsys_kit.notation.syntax.failure import (
     ParseFailure,
@@ -35,7 +36,7 @@ _READ = frozenset("→⟶εωδ∨∧¬≤≥≠−·×")
 """The characters beyond ASCII that the grammars know."""
 _A_VALUE = frozenset(("NUMBER", "LPAR"))
 _AN_ARROW = "This is no arrow"
-_CHOICES = {"TRADITION": ("turtle", "turtle", 'Turtles are "abop", "grogra" and "plant-string".'),
+_CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),
             "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".')}
 """The keywords behind which one of some words stands, by the kind of that word; what it is called, and which there are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")

@@ -8,7 +8,7 @@ from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem, Repeat
 
 OWN_NOTATION = "abop"
-"""The tradition of turtle commands that is meant where nothing is said."""
+"""The dialect of turtle commands, and of the notation, that is meant where nothing is said."""
 
 
 def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:

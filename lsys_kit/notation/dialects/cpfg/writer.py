@@ -11,6 +11,7 @@ from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.system import END, Constant, LSystem, Module, Production, flat
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.syntax.formatting import first_missing
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
@@ -101,7 +102,7 @@ def _pattern(modules: Iterable[Module]) -> Iterator[str]:
 def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
-        return "turtle commands of " + {"grogra": "GROGRA", "plant-string": "plant strings"}[system.turtle]
+        return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
     found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules"),),
                   map(_lacking_symbol, _symbols(system)), map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))

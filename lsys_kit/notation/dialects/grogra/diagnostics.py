@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 
 from lsys_kit.errors import ModelSyntaxError, named
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.syntax.diagnostics import CORRECTIONS
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, blank_parentheses, excerpt, expected_hint, quoted, unclosed_bracket
@@ -81,7 +82,8 @@ def _directive(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found.startswith("=") and failure.before.split()[0] == "\\const":
         return failure.error('No "=" is needed here', f'Type "{failure.before} {excerpt(failure.after[1:].strip())},".')
     if "TRADITION" in failure.accepted:
-        return failure.error(f"There is no turtle called {quoted(failure.found)}", "Turtles are: abop, grogra, plant-string.")
+        return failure.error(f"There is no turtle called {quoted(failure.found)}",
+                             f"Turtles are: {', '.join(TURTLE_DIALECTS)}.")
     behind = failure.text[failure.start + len(word[0]):failure.at].strip()
     if failure.found or (behind and name not in ("const", "var")):
         return None

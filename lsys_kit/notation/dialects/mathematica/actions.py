@@ -17,6 +17,7 @@ from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
 from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
 from lsys_kit.notation.model.system import Constant, Module, Production
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, quoted_dialects
 from lsys_kit.notation.syntax.actions import Expressions, Misread, _around, _check_name
 
 WordDefinition: TypeAlias = tuple[Module, ...]
@@ -201,9 +202,9 @@ class _Statements(MathematicaExpressions):
         return "more", ("setting", (str(keyword), value))
 
     def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
-        if tradition[1:-1] not in ("abop", "grogra", "plant-string"):
+        if tradition[1:-1] not in TURTLE_DIALECTS:
             raise Misread(ModelNameError, f"I do not know the turtle commands of {tradition}", _around(tradition),
-                          'Turtle commands are those of "abop", "grogra" or "plant-string".')
+                          f'Turtle commands are those of {quoted_dialects("or")}.')
         return "more", ("setting", ("turtle", str(tradition[1:-1])))
 
     def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
