@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
-from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
@@ -16,6 +15,7 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.filaments import LOOKS
@@ -97,7 +97,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
     what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
-    if is_filament(what.states.system):
+    if drawing_mode(what.states.system) is DrawingMode.FILAMENT:
         return _sequence(what, marked, cells)
     turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
     step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)

@@ -13,12 +13,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.files import save_as
@@ -126,7 +126,7 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     if derivation.steps >= MOST_FRAMES:
         raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
                               limit=MOST_FRAMES, needed=derivation.steps + 1)
-    if is_filament(derivation.states.system):
+    if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
         return _rows(derivation, pace)
     turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
     scenes = [project(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]

@@ -23,7 +23,7 @@ from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols_with
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
-from lsys_kit.geometry.turtle.mode import in_plane
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, initial_frame, prepared
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
@@ -89,7 +89,7 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
     present = [derivation.counts(earlier) for earlier in range(step + 1)]
     if sum(present[-1].values()) < OFTEN * sum(map(len, present)):
         return None
-    pieces = Pieces(states, angle, in_plane(system))
+    pieces = Pieces(states, angle, drawing_mode(system) is DrawingMode.PLANE)
     whole = pieces.joined(states.axiom, step)
     return _scene(whole, unknown_commands(interpretations(states, list(present[-1])), system))
 
