@@ -13,17 +13,17 @@ import numpy as np
 from lsys_kit.budget import current
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relax
+from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.model.maps import Edge
 
 FIRST_WALL = 0.28
 """The length of a wall of the first cell, before it is at rest."""
-OFTEN = 100
+ITERATIONS_PER_CHECK = 100
 """After so many iterations the time is looked at."""
 
 
-def place_maps(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
+def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
     """Where the vertices of each map lie when all are at rest.
 
     Parameters
@@ -54,22 +54,22 @@ def place_maps(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]
     until = time.monotonic() + current().seconds
     points: Floats | None = None
     for step, found in enumerate(maps):
-        points = _at_rest(relax(initial_vertices(found, points), tissue(found), forces), step, until)
+        points = _equilibrium(relax(initial_vertices(found, points), tissue(found), forces), step, until)
         yield points
 
 
-def _at_rest(way: Iterator[Floats], step: int, until: float) -> Floats:
+def _equilibrium(way: Iterator[Floats], step: int, until: float) -> Floats:
     """Where the way of the vertices ends."""
     points = next(way)
     for iteration, farther in enumerate(way):
         points = farther
-        if iteration % OFTEN == 0 and time.monotonic() > until:
+        if iteration % ITERATIONS_PER_CHECK == 0 and time.monotonic() > until:
             raise ModelLimitError(f"The cells of step {step} did not come to rest in {current().seconds:g} seconds",
                                   limit=current().seconds, hint="Take fewer steps, or set limits(seconds=...).")
     return points
 
 
-def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NORMAL) -> Iterator[Floats]:
+def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
     """Where the vertices of the last map lie after some numbers of iterations, which grow; before, the map before is at rest.
 
     >>> from lsys_kit.derivation.maps.development import develop

@@ -27,7 +27,7 @@ SIDES, ROUND = 8, 24
 """How many sides a stroke has, and how many corners a disc."""
 OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
 """How wide strokes are by their branch order, where the turtle has set no width; deeper branches have the last."""
-PART, LEAST, MOST, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
+RELATIVE_WIDTH, LEAST_WIDTH, GREATEST_WIDTH, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
 """Such a stroke is this part of the usual stroke's length wide, but at least and at most these parts of the whole drawing; no
 stroke is thinner than the last."""
 MOST_CORNERS = 10_000
@@ -90,13 +90,13 @@ def mesh_of(scene: Scene) -> Mesh:
     >>> mesh.vertices.shape, mesh.triangles.shape
     ((194, 3), (376, 3))
     """
-    _check_size(scene)
+    _check_triangles(scene)
     discs, cells = scene.discs, scene.cells
     balls = discs.kinds == SPHERE
     centres, radii = _in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
-    return _together([
-        _tubes(scene.segments, _reach(scene)),
+    return _merged([
+        _tubes(scene.segments, _extent(scene)),
         _faces(scene.polygons),
         _copies(_disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
         _copies(_ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
@@ -104,7 +104,7 @@ def mesh_of(scene: Scene) -> Mesh:
                 np.full(len(cells), OWN))])
 
 
-def _check_size(scene: Scene) -> None:
+def _check_triangles(scene: Scene) -> None:
     needed = (len(scene.segments) * (_SIDE + _CAPS) + len(scene.polygons.points)
               + len(_ball().triangles) * (len(scene.discs) + len(scene.cells)))
     if needed > current().triangles:
@@ -122,13 +122,13 @@ def _in_space(points: Floats) -> Floats:
     return points if points.shape[1] == 3 else np.stack([points[:, 0], np.zeros(len(points)), points[:, 1]], axis=1)
 
 
-def _reach(scene: Scene) -> float:
+def _extent(scene: Scene) -> float:
     """How far a scene reaches, in its widest direction."""
     least, greatest = scene.corners
     return float((greatest - least).max())
 
 
-def _together(meshes: Sequence[Mesh]) -> Mesh:
+def _merged(meshes: Sequence[Mesh]) -> Mesh:
     firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     triangles = [mesh.triangles + np.uint32(first) for mesh, first in zip(meshes, firsts, strict=False)]
     joined = {name: np.concatenate([getattr(mesh, name) for mesh in meshes])
@@ -145,7 +145,7 @@ def _tubes(segments: Segments, reach: float) -> Mesh:
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     there = lengths > 0
     widths = _widths(segments, lengths, reach)
-    radii = np.stack([_before(segments, widths, reach), widths], axis=1)[there] / 2
+    radii = np.stack([_previous_widths(segments, widths, reach), widths], axis=1)[there] / 2
     ways = (points[:, 1] - points[:, 0])[there] / lengths[there, None]
     rings = _rings(ways)
     vertices = points[there][:, :, None] + radii[:, :, None, None] * rings[:, None]
@@ -160,12 +160,12 @@ def _tubes(segments: Segments, reach: float) -> Mesh:
 def _widths(segments: Segments, lengths: Floats, reach: float) -> Floats:
     """How wide each stroke is: as the turtle says, else as its branch order does."""
     usual = float(np.median(lengths)) if len(lengths) else 0.0
-    own = min(max(PART * usual, LEAST * reach), MOST * reach) * np.array(OWN_WIDTHS)
+    own = min(max(RELATIVE_WIDTH * usual, LEAST_WIDTH * reach), GREATEST_WIDTH * reach) * np.array(OWN_WIDTHS)
     by_order = own[np.minimum(segments.orders, len(OWN_WIDTHS) - 1)]
     return np.maximum(np.where(segments.widths == OWN, by_order, segments.widths), THINNEST * reach)
 
 
-def _before(segments: Segments, widths: Floats, reach: float) -> Floats:
+def _previous_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
     """How wide each stroke is where it starts: as the last stroke of its branch that ends there, else as it is itself."""
     if len(segments) < 2 or (widths == widths[0]).all():
         return widths
@@ -255,7 +255,7 @@ def _disc() -> Mesh:
     cos, sin = _circle(ROUND)
     rim = np.stack([cos, np.zeros(ROUND), sin], axis=1)
     fan = [(ROUND, k, (k + 1) % ROUND) for k in range(ROUND)]
-    return _shape(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
+    return _shape_mesh(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
 
 
 @cache
@@ -269,12 +269,12 @@ def _ball() -> Mesh:
              for a in range(12) for b in range(a) for c in range(b)
              if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge]
     for _ in range(2):
-        faces = _parted(faces, points)
+        faces = _subdivided(faces, points)
     vertices = np.array(points)
-    return _shape(vertices, vertices, faces)
+    return _shape_mesh(vertices, vertices, faces)
 
 
-def _parted(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list[tuple[int, int, int]]:
+def _subdivided(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list[tuple[int, int, int]]:
     """Each face of a sphere as four; the middles of the edges become new points."""
     middles: dict[frozenset[int], int] = {}
 
@@ -288,6 +288,6 @@ def _parted(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list
             for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
 
 
-def _shape(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Mesh:
+def _shape_mesh(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Mesh:
     none = np.empty(0, np.int64)
     return Mesh(vertices.astype(np.float32), normals.astype(np.float32), np.array(triangles, np.uint32), none, none)

@@ -14,13 +14,13 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Integers
 
-PACE = 0.05
+TIME_STEP = 0.05
 """The time of one iteration."""
-LEAST_PACE = PACE / 1_000
+SHORTEST_TIME_STEP = TIME_STEP / 1_000
 """That of an iteration in which a cell would else be turned inside out."""
 AT_REST = 1e-6
 """Vertices that move less in an iteration are at rest."""
-MOST = 20_000
+MOST_ITERATIONS = 20_000
 """After so many iterations a map is taken to be at rest."""
 LEAST_AREA = 1e-3
 """The area that a cell is taken to have where it has less, so that pressures are finite. A cell that a new wall divides outside
@@ -49,7 +49,7 @@ class Forces:
     damping: float = 1.0
 
 
-NORMAL = Forces()
+DEFAULT_FORCES = Forces()
 """The forces where nothing is said."""
 
 
@@ -79,7 +79,7 @@ class Tissue:
         return following
 
 
-def relax(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
+def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
     """The vertices at first, and after each iteration until they are at rest.
 
     Parameters
@@ -99,24 +99,24 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[F
     speeds, following = np.zeros_like(points), tissue.following
     room = areas(points, tissue)
     yield points
-    for _ in range(MOST):
+    for _ in range(MOST_ITERATIONS):
         push = force(points, tissue, following, room, forces) - forces.damping * speeds
-        pace, moved, left = _moved(points, speeds, push, tissue, room)
+        pace, moved, left = _integrated(points, speeds, push, tissue, room)
         speeds = speeds + push * pace
-        farthest = max(np.abs(moved - points).max(), np.abs(push).max() * PACE**2)
+        farthest = max(np.abs(moved - points).max(), np.abs(push).max() * TIME_STEP**2)
         points, room = moved, left
         yield points
         if farthest < AT_REST:
             return
 
 
-def _moved(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:
+def _integrated(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:
     """The vertices a moment later, so short that no cell loses more than half of its area: the moment, they, and the areas."""
-    pace = PACE
+    pace = TIME_STEP
     while True:
         moved = points + (speeds + push * pace) * pace
         left = areas(moved, tissue)
-        if pace < LEAST_PACE or ((left > room / 2) | (room < LEAST_AREA)).all():
+        if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < LEAST_AREA)).all():
             return pace, moved, left
         pace /= 2
 
@@ -130,11 +130,11 @@ def force(points: Floats, tissue: Tissue, following: Integers, room: Floats, for
     sides = points[following] - points[tissue.corners]
     pressures = forces.pressure / np.maximum(room, LEAST_AREA)
     outward = np.column_stack([-sides[:, 1], sides[:, 0]]) * np.repeat(pressures, np.diff(tissue.starts))[:, None] / 2
-    return (_gathered(first, pull, len(points)) - _gathered(second, pull, len(points))
-            + _gathered(tissue.corners, outward, len(points)) + _gathered(following, outward, len(points)))
+    return (_summed_at_vertices(first, pull, len(points)) - _summed_at_vertices(second, pull, len(points))
+            + _summed_at_vertices(tissue.corners, outward, len(points)) + _summed_at_vertices(following, outward, len(points)))
 
 
-def _gathered(at: Integers, pushes: Floats, size: int) -> Floats:
+def _summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:
     """The sum of the pushes at each vertex."""
     return np.column_stack([np.bincount(at, weights=part, minlength=size) for part in pushes.T])
 

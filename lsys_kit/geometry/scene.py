@@ -269,10 +269,10 @@ class Scene:
                  (self.discs, "disc"))
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
         least, greatest = self.corners
-        depth = f", depth {_short(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
-        return (f"{', '.join(counted) or 'nothing to draw'}, width {_short(self.width)}, height {_short(self.height)}{depth}")
+        depth = f", depth {_text(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
+        return (f"{', '.join(counted) or 'nothing to draw'}, width {_text(self.width)}, height {_text(self.height)}{depth}")
 
 
-def _short(length: float) -> str:
+def _text(length: float) -> str:
     """A length with at most two decimals; a rounding error of the last bits does not show."""
     return f"{length + 1e-9:.2f}".rstrip("0").rstrip(".")

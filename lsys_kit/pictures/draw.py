@@ -79,7 +79,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     192 segments, width 27, height 31.18
     """
     if isinstance(what, Stages):
-        return _diagram(what, **choices)
+        return _net_picture(what, **choices)
     if isinstance(what, MapSystem | Development):
         return map_picture(what, n, **choices)
     if isinstance(what, Lineage):
@@ -87,7 +87,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     return _drawing(what, n, **choices)
 
 
-def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
+def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
 
 

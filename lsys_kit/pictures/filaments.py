@@ -139,7 +139,7 @@ def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], cur
     for place, row in enumerate(sheet.rows):
         middle = sheet.middle(place)
         if sheet.numbered:
-            body.append(_labels(sheet, row.step, middle, row.step == current))
+            body.append(_row_labels(sheet, row.step, middle, row.step == current))
         body.append(filament_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
         body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
     return "".join(body)
@@ -154,7 +154,7 @@ def _heading(sheet: FilamentLayout) -> str:
                    f'fill="{QUIET}">{text}</text>' for x, text in texts)
 
 
-def _labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
+def _row_labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
     """A row's step and time, on a band where it is the current one."""
     top, size = middle - sheet.above / 2 - sheet.pitch / 2, tenths(min(14.0, 0.8 * sheet.pitch))
     band = (f'<rect x="40" y="{tenths(top)}" width="{WIDTH * 10 - 80}" height="{tenths(sheet.pitch)}" rx="60" fill="{MARK}"/>'
@@ -220,13 +220,13 @@ def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
         colour = MARK_EDGE if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
         parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
-    if aged and _apart(walls):
+    if aged and _ages_fit(walls):
         parts += [f'<text x="{tenths(wall.x)}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" text-anchor="middle" '
                   f'font-family="sans-serif" fill="{INK}">{wall.age}</text>' for wall in walls]
     return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
 
 
-def _apart(walls: Sequence[DrawnWall]) -> bool:
+def _ages_fit(walls: Sequence[DrawnWall]) -> bool:
     """Whether the ages of walls can stand side by side."""
     return all(left.x + 3.2 * len(left.age) < right.x - 3.2 * len(right.age) for left, right in pairwise(walls))
 

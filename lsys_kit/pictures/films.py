@@ -127,24 +127,24 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
         raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
                               limit=MOST_FRAMES, needed=derivation.steps + 1)
     if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-        return _rows(derivation, pace)
+        return _sequence_film(derivation, pace)
     turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
     scenes = [project(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
-    frame, colour_of = _common(scenes), state_colours(derivation)
-    return Film(_said(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
+    frame, colour_of = _common_frame(scenes), state_colours(derivation)
+    return Film(_caption(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
 
 
-def _said(derivation: Derivation, last: Scene) -> str:
+def _caption(derivation: Derivation, last: Scene) -> str:
     return f"steps 0 to {derivation.steps}; the last: {last}"
 
 
-def _common(scenes: list[Scene]) -> ViewFrame:
+def _common_frame(scenes: list[Scene]) -> ViewFrame:
     """A frame that holds all scenes."""
     left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
     return frame_of((min(left), min(bottom), max(right), max(top)))
 
 
-def _rows(derivation: Derivation, pace: float) -> Film:
+def _sequence_film(derivation: Derivation, pace: float) -> Film:
     """A developmental sequence, whose rows appear one after another."""
     from PIL import Image
 

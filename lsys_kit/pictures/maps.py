@@ -119,11 +119,11 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
     if iterations:
         _check_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)
-        _check_size(shown)
+        _check_walls(shown)
         places = [*relaxation_steps(what, iterations, forces_of(forces))]
         return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps)
     first = max(0, len(what) - MOST_MAPS)
-    _check_size(what[first:])
+    _check_walls(what[first:])
     places = [*place_maps(what, forces_of(forces))]
     return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)))
 
@@ -137,7 +137,7 @@ def _check_iterations(iterations: Sequence[int]) -> None:
         raise ModelValueError(f"A picture shows {MOST_MAPS} iterations at most, not {len(iterations)}")
 
 
-def _check_size(maps: Sequence[Map]) -> None:
+def _check_walls(maps: Sequence[Map]) -> None:
     walls = sum(len(found.walls) for found in maps)
     if walls > current().segments:
         raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
@@ -171,8 +171,8 @@ class Panel(NamedTuple):
 
 def arranged(some: Sequence[Scene]) -> list[Panel]:
     """For each map where it stands: in lines, each in the middle, with a common scale."""
-    scale = _scale(some)
-    lines = [*_lines(some, scale)]
+    scale = _common_scale(some)
+    lines = [*_maps_by_line(some, scale)]
     widths = [sum(scene.width * scale + GAP for scene in line) - GAP for line in lines]
     heights = [max(scene.height for scene in line) * scale for line in lines]
     size = math.ceil(max(widths)) + 2 * MARGIN, math.ceil(sum(heights) + len(lines) * CAPTION) + 2 * MARGIN
@@ -190,14 +190,14 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
     return panels
 
 
-def _scale(some: Sequence[Scene]) -> float:
+def _common_scale(some: Sequence[Scene]) -> float:
     """Pixels for a unit: so many that all maps stand in one line, if they are large enough there."""
     in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / sum(scene.width for scene in some)
     return min(min(LARGE, in_line) if in_line >= SMALL else MIDDLE, *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
                *(HIGHEST / scene.height for scene in some))
 
 
-def _lines(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
+def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
     """Maps that stand beside one another."""
     line: list[Scene] = []
     across = 0.0
@@ -236,16 +236,16 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame) -> str:
         length = math.hypot(to_x - x, to_y - y)
         strokes.append(f"M{x} {y}L{to_x} {to_y}")
         if wall.directed and length > LEAST_POINTED * 10:
-            arrows.append(_arrow(x, y, to_x, to_y, length))
+            arrows.append(_wall_arrow(x, y, to_x, to_y, length))
         if length > LEAST_LABELLED * 10:
-            labels.append(_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
+            labels.append(_wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
     return (f'<path d="{"".join(strokes)}" fill="none" stroke="{INK}" stroke-width="16" stroke-linecap="round"/>'
             f'<path d="{"".join(arrows)}" fill="{INK}"/>'
             f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{INK}" stroke="{PAPER}" '
             f'stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
 
 
-def _arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
+def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
     """A head that points along a wall, behind its middle."""
     along, across = (to_x - x) / length, (to_y - y) / length
     reach = min(70.0, 0.25 * length)
@@ -255,6 +255,6 @@ def _arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
     return f"M{'L'.join(at)}Z"
 
 
-def _label(label: str, x: int, y: int) -> str:
+def _wall_label(label: str, x: int, y: int) -> str:
     letter, number = re.fullmatch(r"(\D)(\d*)", label).groups()  # type: ignore[union-attr]
     return f'<text x="{x}" y="{y + round(3.4 * LABEL)}">{letter_svg(letter, number)}</text>'

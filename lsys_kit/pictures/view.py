@@ -34,13 +34,13 @@ def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
     plane = np.stack([right, up], axis=1)
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     middles = (segments.ends[:, :3] + segments.ends[:, 3:]) / 2
-    order = np.argsort(np.round(_times(middles, towards[:, None])[:, 0], 9), kind="stable")
-    ends = np.concatenate([_times(segments.ends[order, :3], plane), _times(segments.ends[order, 3:], plane)], axis=1)
+    order = np.argsort(np.round(_mapped(middles, towards[:, None])[:, 0], 9), kind="stable")
+    ends = np.concatenate([_mapped(segments.ends[order, :3], plane), _mapped(segments.ends[order, 3:], plane)], axis=1)
     widths = segments.widths if len(segments.widths) == 1 else segments.widths[order]
     chosen = segments.colours if len(segments.colours) == 1 else segments.colours[order]
     return Scene(Segments(ends, segments.orders[order], segments.states[order], widths, chosen),
                  polygons=_polygons(polygons, plane, towards),
-                 discs=Discs(_times(discs.centres, plane), discs.radii, discs.kinds, discs.states, discs.colours),
+                 discs=Discs(_mapped(discs.centres, plane), discs.radii, discs.kinds, discs.states, discs.colours),
                  unknown=scene.unknown)
 
 
@@ -53,7 +53,7 @@ def _axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
             math.cos(above) * level + math.sin(above) * vertical)
 
 
-def _times(points: Floats, matrix: Floats) -> Floats:
+def _mapped(points: Floats, matrix: Floats) -> Floats:
     """Points times a small matrix, the same to the last bit on every machine."""
     x, y, z = points.T
     return np.stack([x * column[0] + y * column[1] + z * column[2] for column in matrix.T], axis=1)
@@ -64,8 +64,8 @@ def _polygons(polygons: Polygons, plane: Floats, towards: Floats) -> Polygons:
     if not len(polygons):
         return Polygons(np.empty((0, 2)), polygons.starts, polygons.states, polygons.colours)
     sizes = np.diff(polygons.starts)
-    depths = np.add.reduceat(_times(polygons.points, towards[:, None])[:, 0], polygons.starts[:-1]) / sizes
+    depths = np.add.reduceat(_mapped(polygons.points, towards[:, None])[:, 0], polygons.starts[:-1]) / sizes
     order = np.argsort(np.round(depths, 9), kind="stable")
     places = np.concatenate([np.arange(polygons.starts[one], polygons.starts[one + 1]) for one in order])
-    return Polygons(_times(polygons.points[places], plane), np.cumsum([0, *sizes[order]]), polygons.states[order],
+    return Polygons(_mapped(polygons.points[places], plane), np.cumsum([0, *sizes[order]]), polygons.states[order],
                     polygons.colours[order])

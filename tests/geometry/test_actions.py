@@ -11,8 +11,8 @@ from lsys_kit.geometry.turtle.actions import ACTIONS, Effect
 from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS, commands_of
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.mode import in_plane
-from lsys_kit.geometry.turtle.plane import PLANE_ACTS, place_path, trace
-from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, prepared, trace_in_space
+from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS, place_path, trace
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand, trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem, Module, Production
 from tests.geometry.test_instancing import agree, draw_all_instanced
@@ -83,9 +83,9 @@ def test_every_way_of_drawing_a_command_gives_the_same_picture(turtle: str, symb
 
 
 def test_the_turtles_handle_every_action() -> None:
-    assert SPACE_ACTS.keys() == ACTIONS.keys()
-    assert PLANE_ACTS.keys() >= {name for name, effects in ACTIONS.items() if Effect.LEAVES_PLANE not in effects}
-    assert PLANE_ACTS.keys() <= ACTIONS.keys()
+    assert SPACE_HANDLERS.keys() == ACTIONS.keys()
+    assert PLANE_HANDLERS.keys() >= {name for name, effects in ACTIONS.items() if Effect.LEAVES_PLANE not in effects}
+    assert PLANE_HANDLERS.keys() <= ACTIONS.keys()
 
 
 def test_every_command_is_an_action_of_the_table() -> None:
@@ -97,7 +97,7 @@ def turtle_after(*names: str) -> SpaceTurtle:
     """A turtle in space after some actions."""
     turtle = SpaceTurtle(((0.6, 0.0, 0.8), (0.0, 1.0, 0.0), (-0.8, 0.0, 0.6), 0), 1.0)
     for name in names:
-        SPACE_ACTS[name](turtle, prepared(Instruction(name, 0.0, 30.0, (1.0, 2.0, 3.0), "L", "leaf"), 90.0))
+        SPACE_HANDLERS[name](turtle, operand(Instruction(name, 0.0, 30.0, (1.0, 2.0, 3.0), "L", "leaf"), 90.0))
     return turtle
 
 
@@ -105,8 +105,8 @@ def turtle_after(*names: str) -> SpaceTurtle:
 def test_an_action_does_what_the_table_says(action: str) -> None:
     effects, way = ACTIONS[action], ("begin polygon", "draw", "push", "turn", "draw", "draw", "expect surface")
     before, after = turtle_after(*way), turtle_after(*way, action)
-    assert (before.at != after.at) == (Effect.MOVES in effects)
-    assert (before.way != after.way) == (Effect.TURNS in effects)
+    assert (before.position != after.position) == (Effect.MOVES in effects)
+    assert (before.orientation != after.orientation) == (Effect.TURNS in effects)
     assert (len(after.stack) - len(before.stack)) == (Effect.OPENS in effects) - (Effect.CLOSES in effects)
     shapes = (len(turtle.strokes) + len(turtle.outlines) + len(turtle.rounds) for turtle in (before, after))
     assert (len(set(shapes)) == 2 or action.startswith("move")) == (Effect.VISIBLE in effects)

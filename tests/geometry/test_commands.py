@@ -77,7 +77,7 @@ def test_an_argument_of_a_command_with_plus_or_times_changes_it():
 
 @pytest.mark.parametrize("value", [1e60, 10**400, sympy.Symbol("t")])
 def test_a_value_that_cannot_be_drawn_is_an_error_that_names_the_module(value):
-    with pytest.raises(ModelValueError, match=r"^F\(.*cannot be drawn: a value is out of reach, or not known"):
+    with pytest.raises(ModelValueError, match=r"^F\(.*cannot be drawn: a value is too large to draw, or symbolic"):
         instructions({0: (Module("F", (value,)),)}, "abop")
 
 

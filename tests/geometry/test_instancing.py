@@ -43,7 +43,7 @@ def agree(one: Scene, other: Scene) -> None:
 
 def draw_all_instanced(system: LSystem, steps: int) -> Scene | None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(instancing, "OFTEN", 0)
+        patch.setattr(instancing, "LEAST_REPETITION", 0)
         return draw_instanced(derive(system, steps), steps, float(system.angle))
 
 

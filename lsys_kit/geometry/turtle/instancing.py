@@ -1,10 +1,10 @@
-"""Drawing at once: what a state becomes in so many steps is drawn once, and placed again wherever it occurs.
+"""Instanced drawing: what a state becomes in a number of steps is drawn once, and copied wherever it occurs.
 
-A turtle that comes to a module draws the same shapes wherever it is and however it is turned: they are only moved and
-rotated. So the drawing of a word is put together from those of its parts, down to single modules, each by an affine map, and
-the word itself is never built. The step, the width and the colour with which the turtle arrives belong to what a piece
-depends on. Commands that ask where up is, or what the turtle has done before, have no such pieces: there it goes module by
-module.
+Wherever the turtle comes to a module and whatever its orientation, the module draws the same shapes, only moved and rotated. So
+the drawing of a word is assembled from those of its parts, down to single modules, each placed by an affine transform, and the
+word itself is never built. A part is drawn anew for every step length, width and colour with which the turtle arrives. Commands
+that depend on more than that, such as the direction of gravity or the last stroke, cannot be instanced: a word with one of
+them is drawn module by module.
 """
 
 from __future__ import annotations
@@ -24,57 +24,57 @@ from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols_with
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.space import SPACE_ACTS, SpaceTurtle, initial_frame, prepared
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
-"""What a piece depends on: the state, how many steps it is from the word that is drawn, and what the turtle carries."""
-PieceColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
-_CARRIED = ("length", "width", "colour", "sag", "once")
-_carried = attrgetter(*_CARRIED)
-OFTEN = 30
-"""Pieces pay where a word has so many times more modules than there are pieces to make."""
-BLOCK = 2**13
-"""So many points are placed at a time: what lies between two operations stays in the processor's cache."""
+"""What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
+AttributeColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
+_CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored")
+_carried_by = attrgetter(*_CARRIED_ATTRIBUTES)
+LEAST_REPETITION = 30
+"""Instancing pays where a word has at least so many modules for each prototype."""
+POINTS_AT_A_TIME = 2**13
+"""Points are transformed in blocks of this size, which stay in the cache of the processor between two operations."""
 
 
 @dataclass(frozen=True)
-class Piece:
-    """What is drawn by a module, or by what it becomes, for a turtle that starts at the origin, turned as at the very first.
+class Prototype:
+    """The drawing of a module, or of what becomes of it, by a turtle that starts at the origin in its initial frame.
 
     Attributes
     ----------
     strokes, corners, centres
         Points, a row for each: the starts and ends of strokes in turn, the corners of polygons, the centres of discs.
     of_strokes, of_polygons, of_discs
-        What else there is to say of each: order, state, width, colour; number of corners, state, colour; radius, kind, state,
-        colour. One width or colour stands for all, where they are alike.
-    end, turned, carried
-        Where the turtle is in the end, how it is turned, and what it carries.
+        Their attributes: order, state, width, colour; number of corners, state, colour; radius, kind, state, colour. A single
+        width or colour holds for all.
+    end, rotation, carried
+        The final position of the turtle, its rotation, and what it carries.
     """
 
     strokes: Floats
-    of_strokes: PieceColumns
+    of_strokes: AttributeColumns
     corners: Floats
-    of_polygons: PieceColumns
+    of_polygons: AttributeColumns
     centres: Floats
-    of_discs: PieceColumns
+    of_discs: AttributeColumns
     end: Floats
-    turned: Floats
+    rotation: Floats
     carried: tuple[Any, ...]
 
 
 @dataclass(frozen=True)
-class Placed:
-    """A piece with its place: where it begins, how it is turned, and in how many brackets it stands."""
+class Instance:
+    """A prototype with its transform: where it begins and its rotation; and its branch order."""
 
-    piece: Piece
-    at: Floats
-    turned: Floats
+    prototype: Prototype
+    position: Floats
+    rotation: Floats
     order: int
 
 
 def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | None:
-    """The scene of a derivation's step, if it can be put together from pieces, and that pays.
+    """The scene of a step of a derivation; None if it cannot be instanced, or if that does not pay.
 
     Examples
     --------
@@ -87,100 +87,99 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
     if not states.settled or not all(command.instanceable for command, _ in commands_of(system)):
         return None
     present = [derivation.counts(earlier) for earlier in range(step + 1)]
-    if sum(present[-1].values()) < OFTEN * sum(map(len, present)):
+    if sum(present[-1].values()) < LEAST_REPETITION * sum(map(len, present)):
         return None
-    pieces = Pieces(states, angle, drawing_mode(system) is DrawingMode.PLANE)
-    whole = pieces.joined(states.axiom, step)
-    return _scene(whole, unknown_commands(interpretations(states, list(present[-1])), system))
+    prototypes = Prototypes(states, angle, drawing_mode(system) is DrawingMode.PLANE)
+    whole = prototypes.of_row(states.axiom, step)
+    return _as_scene(whole, unknown_commands(interpretations(states, list(present[-1])), system))
 
 
-class Pieces:
-    """The pieces of a system's drawings, each made once.
+class Prototypes:
+    """The prototypes of the drawings of a system, each made once.
 
     Parameters
     ----------
     states
-        The table of states, all of which depend on themselves alone.
+        The table of states, none of which depends on its neighbours.
     angle
-        By how many degrees the turtle turns.
-    flat
+        The turning angle in degrees.
+    in_plane
         Whether the turtle stays in the plane.
     """
 
-    def __init__(self, states: States, angle: float, flat: bool) -> None:
+    def __init__(self, states: States, angle: float, in_plane: bool) -> None:
         self.states, self.angle = states, angle
-        self._axes = [0, 2] if flat else [0, 1, 2]
-        self._first = initial_frame(states.system.turtle, float(states.system.heading))
-        self._back = np.array(self._first[:3]).T  # its inverse is its transpose
+        self._axes = [0, 2] if in_plane else [0, 1, 2]
+        self._initial_frame = initial_frame(states.system.turtle, float(states.system.heading))
+        self._inverse = np.array(self._initial_frame[:3])  # of an orthonormal frame: its transpose
         self._opening, self._closing = (symbols_with(effect, states.system.turtle) for effect in (Effect.OPENS, Effect.CLOSES))
-        self._known: dict[Key, Piece] = {}
-        self._told: dict[int, list[Instruction]] = {}
+        self._prototypes: dict[Key, Prototype] = {}
+        self._instructions: dict[int, list[Instruction]] = {}
 
-    def joined(self, row: Sequence[int], steps: int) -> Piece:
-        """What a row of states, the axiom, draws in so many steps."""
-        turtle = SpaceTurtle(self._first, initial_step(self.states.system))
-        return self._run(self._row(row, steps, _carried(turtle)))
+    def of_row(self, row: Sequence[int], steps: int) -> Prototype:
+        """The prototype of a row of states after a number of steps."""
+        turtle = SpaceTurtle(self._initial_frame, initial_step(self.states.system))
+        return self._run(self._of_row(row, steps, _carried_by(turtle)))
 
-    def _run(self, making: Generator[Key, Piece, Piece]) -> Piece:
-        """A piece, after those that it asks for: with a stack of its own, however many steps there are."""
-        todo: list[tuple[Key | None, Generator[Key, Piece, Piece]]] = [(None, making)]
-        answer: Piece | None = None
+    def _run(self, task: Generator[Key, Prototype, Prototype]) -> Prototype:
+        """A prototype, after those that it needs; with a stack of its own, so that many steps are no deep recursion."""
+        todo: list[tuple[Key | None, Generator[Key, Prototype, Prototype]]] = [(None, task)]
+        answer: Prototype | None = None
         while True:
-            key, making = todo[-1]
+            key, task = todo[-1]
             try:
-                wanted = making.send(answer)  # type: ignore[arg-type]
+                wanted = task.send(answer)  # type: ignore[arg-type]
             except StopIteration as done:
                 answer = done.value
                 todo.pop()
                 if key is None:
                     return answer
-                self._known[key] = answer
+                self._prototypes[key] = answer
                 continue
-            answer = self._known.get(wanted)
+            answer = self._prototypes.get(wanted)
             if answer is None:
-                todo.append((wanted, self._made(*wanted)))
+                todo.append((wanted, self._prototype(*wanted)))
 
-    def _made(self, state: int, steps: int, carried: tuple[Any, ...]) -> Generator[Key, Piece, Piece]:
+    def _prototype(self, state: int, steps: int, carried: tuple[Any, ...]) -> Generator[Key, Prototype, Prototype]:
         row = self.states.successors[state] if steps else (state,)
         if row == (state,):
-            return self._single(state, carried)
-        return (yield from self._row(row, steps - 1, carried))
+            return self._of_module(state, carried)
+        return (yield from self._of_row(row, steps - 1, carried))
 
-    def _row(self, row: Sequence[int], steps: int, carried: tuple[Any, ...]) -> Generator[Key, Piece, Piece]:
-        """What a row of states draws: their pieces, each placed where the one before ends."""
+    def _of_row(self, row: Sequence[int], steps: int, carried: tuple[Any, ...]) -> Generator[Key, Prototype, Prototype]:
+        """The prototype of a row of states: instances of theirs, each placed where the one before ends."""
         size, parts = len(self._axes), []
-        at, turned = np.zeros(size), np.eye(size)
+        position, rotation = np.zeros(size), np.eye(size)
         stack: list[tuple[Floats, Floats, tuple[Any, ...]]] = []
         for state in row:
             symbol = self.states.modules[state].symbol
             if symbol in self._closing:
-                at, turned, carried = stack.pop()
+                position, rotation, carried = stack.pop()
                 continue
             if symbol in self._opening:
-                stack.append((at, turned, carried))
-            piece = yield state, steps, carried
-            parts.append(Placed(piece, at, turned, len(stack)))
-            at, turned, carried = at + turned @ piece.end, turned @ piece.turned, piece.carried
+                stack.append((position, rotation, carried))
+            prototype = yield state, steps, carried
+            parts.append(Instance(prototype, position, rotation, len(stack)))
+            position, rotation, carried = position + rotation @ prototype.end, rotation @ prototype.rotation, prototype.carried
         if len(row) == 1:
-            return parts[0].piece
-        return _joined(parts, at, turned, carried)
+            return parts[0].prototype
+        return _merged(parts, position, rotation, carried)
 
-    def _single(self, state: int, carried: tuple[Any, ...]) -> Piece:
-        """What a module draws by itself."""
-        turtle = SpaceTurtle(self._first, initial_step(self.states.system))
-        for name, value in zip(_CARRIED, carried, strict=True):
+    def _of_module(self, state: int, carried: tuple[Any, ...]) -> Prototype:
+        """The prototype of a module that is not rewritten."""
+        turtle = SpaceTurtle(self._initial_frame, initial_step(self.states.system))
+        for name, value in zip(_CARRIED_ATTRIBUTES, carried, strict=True):
             setattr(turtle, name, value)
-        if state not in self._told:
-            self._told.update(instructions(interpretations(self.states, [state]), self.states.system.turtle))
+        if state not in self._instructions:
+            self._instructions.update(instructions(interpretations(self.states, [state]), self.states.system.turtle))
         turtle.state = state
-        for order in self._told[state]:
-            if order.action in SPACE_ACTS:
-                SPACE_ACTS[order.action](turtle, prepared(order, self.angle))
+        for instruction in self._instructions[state]:
+            SPACE_HANDLERS[instruction.action](turtle, operand(instruction, self.angle))
         strokes = np.array(turtle.strokes).reshape(-1, 10).T
         points = strokes[:6].T.reshape(-1, 3)
         corners = [corner for outline in turtle.outlines for corner in outline.corners]
-        opened = len(turtle.stack)  # of a bracket, which counts where it stands
-        return Piece(
+        opened = len(turtle.stack)  # 1 for an opening bracket, which counts in the branch order of its instance
+        return Prototype(
             np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
             self._points(corners),
@@ -189,61 +188,61 @@ class Pieces:
             self._points([found.place for found in turtle.rounds]),
             (np.array([found.radius for found in turtle.rounds]),
              *(np.array([found[place] for found in turtle.rounds], np.int32) for place in (2, 3, 4))),
-            np.array(turtle.at)[self._axes], (np.array(turtle.way[:3]).T @ self._back.T)[np.ix_(self._axes, self._axes)],
-            _carried(turtle))
+            np.array(turtle.position)[self._axes],
+            (np.array(turtle.orientation[:3]).T @ self._inverse)[np.ix_(self._axes, self._axes)], _carried_by(turtle))
 
     def _points(self, places: Sequence[Any]) -> Floats:
         return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
 
 
-def _joined(parts: Sequence[Placed], end: Floats, turned: Floats, carried: tuple[Any, ...]) -> Piece:
-    """Placed pieces as one."""
-    drawn = [part for part in parts if len(part.piece.strokes)]
-    strokes = _moved([(part, part.piece.strokes) for part in drawn], len(end))
-    orders, states, widths, colours = zip(*(part.piece.of_strokes for part in drawn), strict=True) if drawn else [()] * 4
+def _merged(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[Any, ...]) -> Prototype:
+    """Instances as one prototype."""
+    drawn = [part for part in instances if len(part.prototype.strokes)]
+    strokes = _transformed([(part, part.prototype.strokes) for part in drawn], len(end))
+    orders, states, widths, colours = zip(*(part.prototype.of_strokes for part in drawn), strict=True) if drawn else [()] * 4
     sizes = [len(order) for order in orders]
     raised = [order + np.int16(part.order) if part.order else order for order, part in zip(orders, drawn, strict=True)]
-    return Piece(
-        strokes, (_together(raised, np.int16), _together(states, np.int32), _alike(widths, sizes, np.float64),
-                  _alike(colours, sizes, np.int32)),
-        _moved([(part, part.piece.corners) for part in parts], len(end)),
-        tuple(_together([part.piece.of_polygons[place] for part in parts], np.int64) for place in range(3)),
-        _moved([(part, part.piece.centres) for part in parts], len(end)),
-        tuple(_together([part.piece.of_discs[place] for part in parts], np.float64 if place == 0 else np.int64)
-              for place in range(4)), end, turned, carried)
+    return Prototype(
+        strokes, (_concatenated(raised, np.int16), _concatenated(states, np.int32), _constant_or_all(widths, sizes, np.float64),
+                  _constant_or_all(colours, sizes, np.int32)),
+        _transformed([(part, part.prototype.corners) for part in instances], len(end)),
+        tuple(_concatenated([part.prototype.of_polygons[place] for part in instances], np.int64) for place in range(3)),
+        _transformed([(part, part.prototype.centres) for part in instances], len(end)),
+        tuple(_concatenated([part.prototype.of_discs[place] for part in instances], np.float64 if place == 0 else np.int64)
+              for place in range(4)), end, rotation, carried)
 
 
-def _together(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
+def _concatenated(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
     return np.concatenate(columns, dtype=kind) if columns else np.empty(0, kind)
 
 
-def _alike(columns: Sequence[np.ndarray[Any, Any]], sizes: Sequence[int], kind: Any) -> np.ndarray[Any, Any]:
-    """Columns together; where one value stands for all of each, and it is the same, it stands for all."""
+def _constant_or_all(columns: Sequence[np.ndarray[Any, Any]], sizes: Sequence[int], kind: Any) -> np.ndarray[Any, Any]:
+    """The columns as one; a single value, where each column has only that value."""
     if columns and all(len(column) == 1 for column in columns) and len({column[0] for column in columns}) == 1:
         return columns[0]
-    return _together([np.broadcast_to(column, size) for column, size in zip(columns, sizes, strict=True)], kind)
+    return _concatenated([np.broadcast_to(column, size) for column, size in zip(columns, sizes, strict=True)], kind)
 
 
-def _moved(parts: Sequence[tuple[Placed, Floats]], size: int) -> Floats:
-    """Points, each where its part is placed, block by block."""
+def _transformed(parts: Sequence[tuple[Instance, Floats]], size: int) -> Floats:
+    """The points of some instances, transformed block by block."""
     whole, last = np.empty((sum(len(points) for _, points in parts), size)), 0
     for part, points in parts:
-        turned, at = np.ascontiguousarray(part.turned.T), np.tile(part.at, min(BLOCK, len(points)))
-        straight = np.array_equal(turned, np.eye(size))  # as most of a plant's stem is
-        for first in range(0, len(points), BLOCK):
-            block, there = points[first:first + BLOCK], whole[last:last + BLOCK]
+        rotation, at = np.ascontiguousarray(part.rotation.T), np.tile(part.position, min(POINTS_AT_A_TIME, len(points)))
+        straight = np.array_equal(rotation, np.eye(size))  # as along most of a stem
+        for first in range(0, len(points), POINTS_AT_A_TIME):
+            block, there = points[first:first + POINTS_AT_A_TIME], whole[last:last + POINTS_AT_A_TIME]
             there = there[:len(block)]
             if not straight:
-                block = np.matmul(block, turned, out=there)
+                block = np.matmul(block, rotation, out=there)
             np.add(block.reshape(-1), at[:block.size], out=there.reshape(-1))
             last += len(block)
     return whole
 
 
-def _scene(piece: Piece, strange: tuple[str, ...]) -> Scene:
-    """The shapes of a piece as a scene."""
-    polygons = Polygons(piece.corners, np.cumsum([0, *piece.of_polygons[0]]), *piece.of_polygons[1:])
-    radii, kinds, states, colours = piece.of_discs
-    discs = Discs(piece.centres, radii, kinds, states, colours)
-    strokes = Segments(piece.strokes.reshape(-1, 2 * piece.strokes.shape[1]), *piece.of_strokes)
-    return Scene(strokes, polygons=polygons, discs=discs, unknown=strange)
+def _as_scene(prototype: Prototype, unknown: tuple[str, ...]) -> Scene:
+    """A prototype as a scene."""
+    polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:])
+    radii, kinds, states, colours = prototype.of_discs
+    discs = Discs(prototype.centres, radii, kinds, states, colours)
+    strokes = Segments(prototype.strokes.reshape(-1, 2 * prototype.strokes.shape[1]), *prototype.of_strokes)
+    return Scene(strokes, polygons=polygons, discs=discs, unknown=unknown)

@@ -24,7 +24,7 @@ class Instruction(NamedTuple):
     values
         All arguments.
     symbol, surface
-        The symbol that gave the order, and which surface it draws.
+        The symbol of the command, and the surface that is drawn.
     """
 
     action: str
@@ -35,33 +35,33 @@ class Instruction(NamedTuple):
     surface: str = ""
 
 
-_CALLED = (Command("draw expected surface"),)
-"""Draw the surface of the symbol's name, if a tilde stands before it."""
+_EXPECTED_SURFACE = (Command("draw expected surface"),)
+"""Draw the surface named by the symbol, if a tilde stands before it."""
 
 
 def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str) -> dict[int, list[Instruction]]:
-    """What the modules tell the turtle that each state is drawn as.
+    """The instructions for each state, given the modules that it is drawn as.
 
     Raises
     ------
     ModelValueError
-        An argument is no number that can be drawn.
+        An argument is too large to draw, or symbolic.
 
     Examples
     --------
-    >>> told = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
-    >>> {state: [(order.action, order.factor, order.addend) for order in found] for state, found in told.items()}
+    >>> compiled = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
+    >>> {state: [(each.action, each.factor, each.addend) for each in found] for state, found in compiled.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
     """
     table, symbols = COMMANDS[dialect], {module.symbol for image in drawn.values() for module in image}
-    called = _CALLED if "~" in symbols & table.keys() else ()
+    called = _EXPECTED_SURFACE if "~" in symbols & table.keys() else ()
     commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
-    return {state: [_order(command, module) for module in image for command in commands[module.symbol]]
+    return {state: [_instruction(command, module) for module in image for command in commands[module.symbol]]
             for state, image in drawn.items()}
 
 
-def _order(command: Command, module: Module) -> Instruction:
-    """A command with a module's argument."""
+def _instruction(command: Command, module: Module) -> Instruction:
+    """A command with the arguments of a module taken in."""
     values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, command.factor, command.addend
     if not values:
@@ -76,12 +76,12 @@ def _order(command: Command, module: Module) -> Instruction:
 
 
 def values_of(module: Module) -> tuple[float, ...]:
-    """A module's arguments as doubles.
+    """The arguments of a module as doubles.
 
     Raises
     ------
     ModelValueError
-        An argument is no number that can be drawn.
+        An argument is too large to draw, or symbolic.
     """
     if not module.arguments:
         return ()
@@ -91,12 +91,12 @@ def values_of(module: Module) -> tuple[float, ...]:
         values = (math.nan,)
     for value in values:
         if not -LARGEST <= value <= LARGEST:
-            raise ModelValueError(f"{module} cannot be drawn: a value is out of reach, or not known")
+            raise ModelValueError(f"{module} cannot be drawn: a value is too large to draw, or symbolic")
     return values
 
 
 def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
-    """The symbols without a meaning that look like commands: signs, and commands of another tradition.
+    """The symbols without a meaning that look like commands: signs, and commands of another dialect.
 
     Letters without a meaning are normal, and so are symbols that productions rewrite: they are apices, buds and signals.
 

@@ -1,4 +1,4 @@
-"""What the turtles in the plane and in space have in common: what a turtle carries, what it does, and what it leaves behind."""
+"""The turtle interpreter: the state of a turtle, and the handlers of the actions that do not depend on its dimension."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from lsys_kit.geometry.turtle.surfaces import Surface, surface_called, surfaces
 
 
 class Outline(NamedTuple):
-    """A polygon: the places of its corners."""
+    """The outline of a polygon: the positions of its corners."""
 
     corners: list[Any]
     state: int
@@ -39,189 +39,192 @@ class RoundShape(NamedTuple):
 
 
 class Turtle:
-    """A turtle on its way.
+    """A turtle, with what it carries and what it has drawn.
 
     Attributes
     ----------
-    at, way
-        Where it is, and how it is turned: in the plane the number of the step at whose end it is, and its turns so far; in
-        space a point and a frame.
-    length, width, colour, sag
-        Its step, the width and the colour of its strokes, and the strength of `RV`.
-    pulls
-        By its number each tropism.
+    position, orientation
+        In the plane the number of the path step at whose end the turtle is, and its turns so far; in space a point and a
+        frame.
+    length, width, colour, gravitropism
+        The length of a step, the width and the colour of strokes, and the strength of `RV`.
+    tropisms
+        The tropisms, by number.
     last
-        The number of its last stroke, in the plane of the step that it was; None before the first.
-    once
-        The names of what goes back after the next stroke, with the values that they had.
+        The number of the last stroke (in the plane, of its path step); None before the first.
+    restored
+        The names of the attributes that the next stroke restores, with their values.
+    initial
+        The values of the attributes that can be reset.
     state
-        The state of the module that it follows.
+        The state of the module that is being interpreted.
     """
 
-    __slots__ = ("at", "colour", "deepest", "first", "last", "length", "once", "outlines", "pulls", "rounds", "sag", "stack",
-                 "state", "tilde", "unfinished", "unknown", "way", "width")
+    __slots__ = ("bracket_limit", "colour", "expects_surface", "gravitropism", "initial", "last", "length", "open_polygons",
+                 "orientation", "outlines", "position", "restored", "rounds", "stack", "state", "tropisms", "unknown", "width")
 
-    def __init__(self, at: Any, way: Any, step: float) -> None:
-        self.at, self.way = at, way
+    def __init__(self, position: Any, orientation: Any, step: float) -> None:
+        self.position, self.orientation = position, orientation
         self.last: Any = None
-        self.length, self.width, self.colour, self.sag = step, float(OWN), OWN, 0.0
-        self.pulls: Mapping[float, tuple[float, float, float]] = {}
-        self.once: tuple[tuple[str, float], ...] = ()
-        self.first = {name: getattr(self, name) for name in ("length", "width", "colour", "sag")}
-        self.state, self.tilde = -1, False
+        self.length, self.width, self.colour, self.gravitropism = step, float(OWN), OWN, 0.0
+        self.tropisms: Mapping[float, tuple[float, float, float]] = {}
+        self.restored: tuple[tuple[str, float], ...] = ()
+        self.initial = {name: getattr(self, name) for name in ("length", "width", "colour", "gravitropism")}
+        self.state, self.expects_surface = -1, False
         self.stack: list[tuple[Any, ...]] = []
-        self.deepest = current().brackets
-        self.unfinished: list[Outline] = []
+        self.bracket_limit = current().brackets
+        self.open_polygons: list[Outline] = []
         self.outlines: list[Outline] = []
         self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
 
-    def go(self, length: float, drawn: bool) -> None:
-        """Go forward, perhaps with a stroke."""
+    def forward(self, length: float, drawn: bool) -> None:
+        """Move forward, with or without a stroke."""
         raise NotImplementedError
 
-    def spot(self, ahead: float, left: float, up: float) -> Any:
-        """A place near by, in the turtle's own axes."""
+    def local_point(self, ahead: float, left: float, up: float) -> Any:
+        """A point given by its coordinates in the frame of the turtle."""
         raise NotImplementedError
 
     def stroke_width(self) -> float:
-        """How wide a stroke is here."""
+        """The width of a stroke, in the units of the model."""
         return WIDTH if self.width == OWN else self.width
 
-    def grow(self, surface: Surface, size: float) -> None:
-        """Leave a surface here."""
+    def draw_surface(self, surface: Surface, size: float) -> None:
+        """Draw a surface at the position of the turtle."""
         if size:
-            self.outlines += [Outline([self.spot(size * ahead, size * left, size * up) for ahead, left, up in face],
+            self.outlines += [Outline([self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face],
                                       self.state, self.colour) for face in surface.faces]
 
 
-MOST_COLOURS = 2 ** 31 - 1
-"""Colours are numbered from 0 to this."""
+LAST_COLOUR = 2 ** 31 - 1
+"""The greatest number of a colour."""
 
-Act: TypeAlias = Callable[[Any, Any], None]
-"""What a turtle does when it meets an order."""
+Handler: TypeAlias = Callable[[Any, Any], None]
+"""Carries out an instruction, given a turtle and the operand of the instruction."""
 
-_KEPT = ("at", "way", "length", "width", "colour", "sag", "pulls", "last", "once")
-_kept = attrgetter(*_KEPT)
+_SAVED_ATTRIBUTES = ("position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored")
+_saved_state = attrgetter(*_SAVED_ATTRIBUTES)
 
 
-def _forward(drawn: bool, corner: bool) -> Act:
-    def act(turtle: Turtle, order: Instruction) -> None:
-        turtle.go(order.factor * turtle.length + order.addend, drawn)
-        if corner and turtle.unfinished:
-            turtle.unfinished[-1].corners.append(turtle.at)
-        if drawn and turtle.once:
-            for name, value in turtle.once:
+def _forward(drawn: bool, vertex: bool) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        turtle.forward(instruction.factor * turtle.length + instruction.addend, drawn)
+        if vertex and turtle.open_polygons:
+            turtle.open_polygons[-1].corners.append(turtle.position)
+        if drawn and turtle.restored:
+            for name, value in turtle.restored:
                 setattr(turtle, name, value)
-            turtle.once = ()
-    return act
+            turtle.restored = ()
+    return handler
 
 
-def _length(turtle: Turtle, order: Instruction) -> None:
-    turtle.length = _within_reach("step", order.factor * turtle.length + order.addend)
+def _set_length(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.length = _bounded("step", instruction.factor * turtle.length + instruction.addend)
 
 
-def _sag(turtle: Turtle, order: Instruction) -> None:
-    turtle.sag = _within_reach("strength", order.factor * turtle.sag + order.addend)
+def _set_gravitropism(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.gravitropism = _bounded("strength", instruction.factor * turtle.gravitropism + instruction.addend)
 
 
-def _width(turtle: Turtle, order: Instruction) -> None:
-    turtle.width = max(0.0, _within_reach("width", order.factor * turtle.stroke_width() + order.addend))
+def _set_width(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.width = max(0.0, _bounded("width", instruction.factor * turtle.stroke_width() + instruction.addend))
 
 
-def _within_reach(what: str, value: float) -> float:
+def _bounded(what: str, value: float) -> float:
     if not abs(value) <= LARGEST:
-        raise ModelValueError(f"The turtle's {what} grows out of reach: {value:.3g}")
+        raise ModelValueError(f"The turtle's {what} grows too large to draw: {value:.3g}")
     return value
 
 
-def _colour(turtle: Turtle, order: Instruction) -> None:
-    turtle.colour = max(0, min(MOST_COLOURS, round(order.factor * max(0, turtle.colour) + order.addend)))
+def _set_colour(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.colour = max(0, min(LAST_COLOUR, round(instruction.factor * max(0, turtle.colour) + instruction.addend)))
 
 
-def _first(name: str) -> Act:
-    return lambda turtle, _: setattr(turtle, name, turtle.first[name])
+def _reset(name: str) -> Handler:
+    return lambda turtle, _: setattr(turtle, name, turtle.initial[name])
 
 
-def _next(name: str, change: Act) -> Act:
-    def act(turtle: Turtle, order: Instruction) -> None:
-        turtle.once = ((name, getattr(turtle, name)), *turtle.once)  # the earliest value is set last, and stays
-        change(turtle, order)
-    return act
+def _set_once(name: str, change: Handler) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        turtle.restored = ((name, getattr(turtle, name)), *turtle.restored)  # the earliest value is set last, and stays
+        change(turtle, instruction)
+    return handler
 
 
-def _open(turtle: Turtle, _: Instruction) -> None:
+def _push(turtle: Turtle, _: Instruction) -> None:
     _check_depth(turtle, turtle.stack)
-    turtle.stack.append(_kept(turtle))
+    turtle.stack.append(_saved_state(turtle))
 
 
-def _close(turtle: Turtle, _: Instruction) -> None:
+def _pop(turtle: Turtle, _: Instruction) -> None:
     if turtle.stack:
-        (turtle.at, turtle.way, turtle.length, turtle.width, turtle.colour, turtle.sag, turtle.pulls, turtle.last,
-         turtle.once) = turtle.stack.pop()
+        (turtle.position, turtle.orientation, turtle.length, turtle.width, turtle.colour, turtle.gravitropism,
+         turtle.tropisms, turtle.last, turtle.restored) = turtle.stack.pop()
 
 
-def _outline(turtle: Turtle, _: Instruction) -> None:
-    _check_depth(turtle, turtle.unfinished)
-    turtle.unfinished.append(Outline([], turtle.state, turtle.colour))
+def _begin_polygon(turtle: Turtle, _: Instruction) -> None:
+    _check_depth(turtle, turtle.open_polygons)
+    turtle.open_polygons.append(Outline([], turtle.state, turtle.colour))
 
 
 def _check_depth(turtle: Turtle, opened: Sequence[object]) -> None:
-    if len(opened) >= turtle.deepest:
-        raise ModelLimitError(f"More than {turtle.deepest:,} brackets are open at once", limit=turtle.deepest)
+    if len(opened) >= turtle.bracket_limit:
+        raise ModelLimitError(f"More than {turtle.bracket_limit:,} brackets are open at once", limit=turtle.bracket_limit)
 
 
-def _corner(turtle: Turtle, _: Instruction) -> None:
-    if turtle.unfinished:
-        turtle.unfinished[-1].corners.append(turtle.at)
+def _record_vertex(turtle: Turtle, _: Instruction) -> None:
+    if turtle.open_polygons:
+        turtle.open_polygons[-1].corners.append(turtle.position)
 
 
-def _fill(turtle: Turtle, _: Instruction) -> None:
-    if turtle.unfinished and len((outline := turtle.unfinished.pop()).corners) > 2:
+def _end_polygon(turtle: Turtle, _: Instruction) -> None:
+    if turtle.open_polygons and len((outline := turtle.open_polygons.pop()).corners) > 2:
         turtle.outlines.append(outline)
 
 
-def _announce(turtle: Turtle, _: Instruction) -> None:
-    turtle.tilde = True
+def _expect_surface(turtle: Turtle, _: Instruction) -> None:
+    turtle.expects_surface = True
 
 
-def _called(turtle: Turtle, order: Instruction) -> None:
-    if turtle.tilde:
-        turtle.tilde = False
-        if surface := surface_called(order.symbol):
-            turtle.grow(surface, order.factor * turtle.length + order.addend)
+def _draw_expected_surface(turtle: Turtle, instruction: Instruction) -> None:
+    if turtle.expects_surface:
+        turtle.expects_surface = False
+        if surface := surface_called(instruction.symbol):
+            turtle.draw_surface(surface, instruction.factor * turtle.length + instruction.addend)
         else:
-            turtle.unknown[f"~{order.symbol}"] = None
+            turtle.unknown[f"~{instruction.symbol}"] = None
 
 
-def _surface(turtle: Turtle, order: Instruction) -> None:
-    turtle.grow(surfaces()[order.surface], order.factor * turtle.length + order.addend)
+def _draw_surface(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.draw_surface(surfaces()[instruction.surface], instruction.factor * turtle.length + instruction.addend)
 
 
-def _round(kind: int) -> Act:
-    def act(turtle: Turtle, order: Instruction) -> None:
-        width = order.factor * turtle.stroke_width() + order.addend
-        turtle.rounds.append(RoundShape(turtle.at, abs(width) / 2, kind, turtle.state, turtle.colour))
-    return act
+def _draw_round(kind: int) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        width = instruction.factor * turtle.stroke_width() + instruction.addend
+        turtle.rounds.append(RoundShape(turtle.position, abs(width) / 2, kind, turtle.state, turtle.colour))
+    return handler
 
 
-COMMON: Mapping[str, Act] = {
+COMMON_HANDLERS: Mapping[str, Handler] = {
     "draw": _forward(True, True), "move": _forward(False, True),
     "draw without vertex": _forward(True, False), "move without vertex": _forward(False, False),
-    "set length": _length, "reset length": _first("length"), "set length once": _next("length", _length),
-    "set width": _width, "reset width": _first("width"), "set width once": _next("width", _width),
-    "set gravitropism": _sag, "reset gravitropism": _first("sag"), "set gravitropism once": _next("sag", _sag),
-    "set colour": _colour, "reset colour": _first("colour"), "push": _open, "pop": _close,
-    "begin polygon": _outline, "record vertex": _corner, "end polygon": _fill,
-    "expect surface": _announce, "draw expected surface": _called, "draw surface": _surface,
-    "draw circle": _round(CIRCLE), "draw disc": _round(DISC), "draw sphere": _round(SPHERE),
+    "set length": _set_length, "reset length": _reset("length"), "set length once": _set_once("length", _set_length),
+    "set width": _set_width, "reset width": _reset("width"), "set width once": _set_once("width", _set_width),
+    "set gravitropism": _set_gravitropism, "reset gravitropism": _reset("gravitropism"),
+    "set gravitropism once": _set_once("gravitropism", _set_gravitropism),
+    "set colour": _set_colour, "reset colour": _reset("colour"), "push": _push, "pop": _pop,
+    "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,
+    "expect surface": _expect_surface, "draw expected surface": _draw_expected_surface, "draw surface": _draw_surface,
+    "draw circle": _draw_round(CIRCLE), "draw disc": _draw_round(DISC), "draw sphere": _draw_round(SPHERE),
 }
-"""What every turtle does, by the names of the actions."""
+"""The handlers that the turtles in the plane and in space share, by action."""
 
 
-def run_turtle(turtle: Turtle, word: Word, acts: Mapping[str, Act],
-               ready: Callable[[Instruction], Any] = lambda order: order) -> None:
-    """Send a turtle along a word; orders for which it has no act are passed over.
+def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
+               prepare: Callable[[Instruction], Any] = lambda instruction: instruction) -> None:
+    """Interpret a word by a turtle; actions without a handler are skipped.
 
     Parameters
     ----------
@@ -229,30 +232,30 @@ def run_turtle(turtle: Turtle, word: Word, acts: Mapping[str, Act],
         The turtle, at its start.
     word
         The word.
-    acts
-        What this turtle does, by the names of the actions.
-    ready
-        What an act is given for an order: worked out once for each state, not for each module.
+    handlers
+        The handlers of this turtle, by action.
+    prepare
+        The operand of an instruction: computed once for each state, not for each module.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
     ModelValueError
-        A value is no number that can be drawn.
+        A value is too large to draw, or symbolic.
     """
-    with _no_collection():
-        told = compile_word(word, acts, ready)
-        turtle.unknown = dict.fromkeys(told.unknown)
+    with _without_garbage_collection():
+        compiled = compile_word(word, handlers, prepare)
+        turtle.unknown = dict.fromkeys(compiled.unknown)
         for state in word.numbers():
             turtle.state = state
-            for act, what in told.acts[state]:
-                act(turtle, what)
+            for handler, operand in compiled.calls[state]:
+                handler(turtle, operand)
 
 
 @contextmanager
-def _no_collection() -> Iterator[None]:
-    """Where nearly all modules are different, Python would look for cycles among all orders again and again: half the time."""
+def _without_garbage_collection() -> Iterator[None]:
+    """Without this, a word of mostly distinct modules spends half of its time in searches for cycles among its instructions."""
     enabled = gc.isenabled()
     gc.disable()
     try:
@@ -263,22 +266,32 @@ def _no_collection() -> Iterator[None]:
 
 
 class CompiledWord(NamedTuple):
-    """What a word's modules tell a turtle: for each state the acts and what they are given; and the symbols unknown to it."""
+    """A word compiled for a turtle.
 
-    acts: dict[int, list[tuple[Act, Any]]]
+    Attributes
+    ----------
+    calls
+        For each state the handlers to be called, each with its operand.
+    unknown
+        The symbols that look like commands and are none.
+    """
+
+    calls: dict[int, list[tuple[Handler, Any]]]
     unknown: tuple[str, ...]
 
 
-def compile_word(word: Word, acts: Mapping[str, Act], ready: Callable[[Instruction], Any]) -> CompiledWord:
-    """What a word tells a turtle that has these acts."""
+def compile_word(word: Word, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]) -> CompiledWord:
+    """Compile a word for a turtle with some handlers."""
     system, drawn = word.states.system, interpretations(word.states, word.numbers())
-    return CompiledWord({state: [(acts[order.action], ready(order)) for order in found if order.action in acts]
-                 for state, found in instructions(drawn, system.turtle).items()}, unknown_commands(drawn, system))
+    calls = {state: [(handlers[instruction.action], prepare(instruction)) for instruction in found
+                     if instruction.action in handlers]
+             for state, found in instructions(drawn, system.turtle).items()}
+    return CompiledWord(calls, unknown_commands(drawn, system))
 
 
-def shapes_left(outlines: Sequence[Outline], rounds: Sequence[RoundShape],
-                points: Callable[[list[Any]], Floats]) -> tuple[Polygons, Discs]:
-    """The shapes that a turtle has left besides strokes, given what the coordinates of places are."""
+def collected_shapes(outlines: Sequence[Outline], rounds: Sequence[RoundShape],
+                     points: Callable[[list[Any]], Floats]) -> tuple[Polygons, Discs]:
+    """The polygons and discs that a turtle has drawn, given a function from positions to coordinates."""
     sizes = [len(outline.corners) for outline in outlines]
     polygons = Polygons(points([corner for outline in outlines for corner in outline.corners]), np.cumsum([0, *sizes]),
                         *(np.array([outline[field] for outline in outlines], np.int64) for field in (1, 2)))

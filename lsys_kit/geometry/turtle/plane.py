@@ -1,9 +1,9 @@
-"""The turtle in the plane (seed 001; ABOP, sections 1.3 and 1.6.1).
+"""The turtle in the plane (ABOP, sections 1.3 and 1.6.1).
 
-Drawing goes in two steps. `trace` walks through a word once and notes for each step forward how often the turtle has
-turned by the angle, how many degrees it has turned besides, how far it goes, and at the end of which earlier step it starts.
-None of this depends on the angle. `place_path` then puts the path into the plane for a given angle; a browser can do that by
-itself, without the word and without its rules.
+Drawing takes two passes. `trace` interprets a word once and records for each step forward how often the turtle has turned by
+the angle, how many degrees it has turned besides, how far it goes, and at the end of which earlier step it starts. None of this
+depends on the angle. `place_path` then computes the coordinates for a given angle, which a browser can do by itself, without
+the word and its rules.
 """
 
 from __future__ import annotations
@@ -19,7 +19,15 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction
-from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Outline, RoundShape, Turtle, run_turtle, shapes_left
+from lsys_kit.geometry.turtle.interpreter import (
+    COMMON_HANDLERS,
+    Handler,
+    Outline,
+    RoundShape,
+    Turtle,
+    collected_shapes,
+    run_turtle,
+)
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 
@@ -66,8 +74,12 @@ class Path:
         return len(self.turns)
 
 
-class _Crawler(Turtle):
-    """A turtle in the plane: it is at the end of a step, and has turned left by the angle, by degrees, and perhaps over."""
+class PlaneTurtle(Turtle):
+    """A turtle in the plane.
+
+    Its position is the number of a path step, at whose end it is. Its orientation is the number of turns by the angle, further
+    degrees, both to the left, and the side on which its left lies: 1, or -1 after a roll by half a turn.
+    """
 
     __slots__ = ("steps",)
 
@@ -75,54 +87,54 @@ class _Crawler(Turtle):
         super().__init__(-1, (0.0, 0.0, side), step)
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
-    def go(self, length: float, drawn: bool) -> None:
-        turns, offset, _ = self.way
-        self.at = self.step(turns, offset, length, self.at, drawn)
+    def forward(self, length: float, drawn: bool) -> None:
+        turns, offset, _ = self.orientation
+        self.position = self.step(turns, offset, length, self.position, drawn)
         if drawn:
-            self.last = self.at
+            self.last = self.position
 
-    def spot(self, ahead: float, left: float, up: float) -> int:
-        turns, offset, side = self.way
-        return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.at)
+    def local_point(self, ahead: float, left: float, up: float) -> int:
+        turns, offset, side = self.orientation
+        return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.position)
 
     def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
-        """Note a step, and say its number."""
+        """Record a step; return its number."""
         self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.width, self.colour))
         return len(self.steps) - 1
 
 
-def _turn(turtle: _Crawler, order: Instruction) -> None:
-    turns, offset, side = turtle.way
-    turtle.way = turns + side * order.factor, offset + side * order.addend, side
+def _turn(turtle: PlaneTurtle, instruction: Instruction) -> None:
+    turns, offset, side = turtle.orientation
+    turtle.orientation = turns + side * instruction.factor, offset + side * instruction.addend, side
 
 
-def _roll(turtle: _Crawler, order: Instruction) -> None:
-    if order.factor == 0 and order.addend % 360 == 180:
-        turns, offset, side = turtle.way
-        turtle.way = turns, offset, -side
+def _roll(turtle: PlaneTurtle, instruction: Instruction) -> None:
+    if instruction.factor == 0 and instruction.addend % 360 == 180:
+        turns, offset, side = turtle.orientation
+        turtle.orientation = turns, offset, -side
 
 
-def _back(turtle: _Crawler, order: Instruction) -> None:
+def _return_to_stroke(turtle: PlaneTurtle, instruction: Instruction) -> None:
     if turtle.last is not None:
         turns, offset, length, parent, *_ = turtle.steps[turtle.last]
-        turtle.at = turtle.step(turns, offset, length * (order.factor + order.addend), parent)
+        turtle.position = turtle.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
 
 
-_KINDS = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
-          "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
-PLANE_ACTS: Mapping[str, Act] = {**COMMON, "turn": _turn, "roll": _roll, "return to stroke": _back}
-"""What a turtle in the plane does, by the names of the actions."""
+_COLUMN_TYPES = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
+                 "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
+PLANE_HANDLERS: Mapping[str, Handler] = {**COMMON_HANDLERS, "turn": _turn, "roll": _roll, "return to stroke": _return_to_stroke}
+"""The handlers of the turtle in the plane, by action."""
 
 
 def trace(word: Word) -> Path:
-    """The path of a turtle that follows a word; commands that lead out of the plane are passed over.
+    """The path of a turtle that interprets a word; commands that lead out of the plane are skipped.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
     ModelValueError
-        A value is no number that can be drawn.
+        A value is too large to draw, or symbolic.
 
     Examples
     --------
@@ -133,15 +145,16 @@ def trace(word: Word) -> Path:
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
     system = word.states.system
-    turtle = _Crawler(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
-    run_turtle(turtle, word, PLANE_ACTS)
-    columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_KINDS)
-    steps: dict[str, Any] = {name: np.array(column, kind) for (name, kind), column in zip(_KINDS.items(), columns, strict=True)}
+    turtle = PlaneTurtle(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
+    run_turtle(turtle, word, PLANE_HANDLERS)
+    columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
+    steps: dict[str, Any] = {name: np.array(column, kind)
+                             for (name, kind), column in zip(_COLUMN_TYPES.items(), columns, strict=True)}
     return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds), unknown=tuple(turtle.unknown))
 
 
 def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
-    """The strokes and shapes of a path for an angle and a first heading, in degrees.
+    """The scene of a path for a turning angle and an initial heading, in degrees.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
@@ -151,17 +164,17 @@ def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     """
     radians = np.radians(path.turns * angle + path.offsets + heading)
     vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
-    ends = _summed(vectors, path.parents)
+    ends = _summed_along_parents(vectors, path.parents)
     drawn = path.drawn
     strokes = Segments(np.concatenate([ends - vectors, ends], axis=1)[drawn], path.orders[drawn], path.states[drawn],
                        path.widths[drawn], path.colours[drawn])
     places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
-    polygons, discs = shapes_left(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
+    polygons, discs = collected_shapes(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
     return Scene(strokes, polygons=polygons, discs=discs, unknown=path.unknown)
 
 
-def _summed(vectors: Floats, parents: Integers) -> Floats:
-    """Each vector added to the sum of its parent, the parent's parent and so on: by doubling, all at once."""
+def _summed_along_parents(vectors: Floats, parents: Integers) -> Floats:
+    """The sum of each vector and those of all its ancestors, by pointer jumping."""
     sums = np.vstack([vectors, np.zeros(2)])
     above = np.append(parents, -1)
     while np.any(above >= 0):

@@ -1,8 +1,8 @@
-"""The turtle in space (ABOP, sections 1.5 and 2.3.2, and appendix C; GROGRA as seed 003 uses it), module by module.
+"""The turtle in space, module by module (ABOP, sections 1.5 and 2.3.2, and appendix C; Kurth's lecture slides on GROGRA).
 
 The turtle has a frame of three unit vectors at right angles: its heading H, its left L and its up U, where H x L = U. A turn
-moves H towards L, a pitch moves H away from U, a roll to the left moves U towards L. What the book prints as rotation
-matrices turns the wrong way, if H, L and U are read as columns; here commands do what their names say.
+moves H towards L, a pitch moves H away from U, a roll to the left moves U towards L. The rotation matrices printed in the
+book turn the wrong way if H, L and U are read as columns; here commands do what their names say.
 
 In the picture x grows to the right, z upwards and y away from the viewer. The turtle starts at the origin with H upwards.
 ABOP's turtle has L to the left and U towards the viewer, GROGRA's L to the right and U away from the viewer.
@@ -21,23 +21,23 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction
-from lsys_kit.geometry.turtle.interpreter import COMMON, Act, Turtle, run_turtle, shapes_left
+from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, collected_shapes, run_turtle
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Vector: TypeAlias = tuple[float, float, float]
 TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
-"""H, L, U, and how many rotations ago they were made exactly orthonormal."""
+"""H, L, U, and the number of rotations since they were last made orthonormal."""
 
-OFTEN = 1_000
-"""After so many rotations a frame is made orthonormal again: until then it is wrong by 1e-13 at most."""
-_NOWHERE = 1e-12
-"""Sines below this are those of no angle."""
-_COLUMNS = 10
-"""The numbers of a stroke: both ends, order, state, width and colour."""
+RENORMALISATION_INTERVAL = 1_000
+"""The number of rotations after which a frame is made orthonormal again; until then its error is 1e-13 at most."""
+_NEGLIGIBLE = 1e-12
+"""Smaller sines are taken for 0."""
+_STROKE_COLUMNS = 10
+"""How many numbers describe a stroke: both ends, branch order, state, width and colour."""
 
 
 class SpaceTurtle(Turtle):
-    """A turtle in space: it is at a point, and turned as its frame says."""
+    """A turtle in space, whose position is a point and whose orientation is a frame."""
 
     __slots__ = ("strokes",)
 
@@ -45,24 +45,24 @@ class SpaceTurtle(Turtle):
         super().__init__((0.0, 0.0, 0.0), frame, step)
         self.strokes = array("d")
 
-    def go(self, length: float, drawn: bool) -> None:
-        start, (hx, hy, hz) = self.at, self.way[0]
+    def forward(self, length: float, drawn: bool) -> None:
+        start, (hx, hy, hz) = self.position, self.orientation[0]
         x, y, z = start
-        self.at = end = x + length * hx, y + length * hy, z + length * hz
+        self.position = end = x + length * hx, y + length * hy, z + length * hz
         if drawn:
-            self.last = len(self.strokes) // _COLUMNS
+            self.last = len(self.strokes) // _STROKE_COLUMNS
             self.strokes.extend((*start, *end, len(self.stack), self.state, self.width, self.colour))
-            for pull in self.pulls.values():
-                _pulled(self, pull)
+            for pull in self.tropisms.values():
+                _bend_by_tropism(self, pull)
 
-    def spot(self, ahead: float, left: float, up: float) -> Vector:
-        (x, y, z), ((hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _) = self.at, self.way
+    def local_point(self, ahead: float, left: float, up: float) -> Vector:
+        (x, y, z), ((hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _) = self.position, self.orientation
         return (x + ahead * hx + left * lx + up * ux, y + ahead * hy + left * ly + up * uy,
                 z + ahead * hz + left * lz + up * uz)
 
 
 def initial_frame(dialect: str, heading: float = 90.0) -> TurtleFrame:
-    """How the turtle is turned when it starts; the heading is an angle in the plane of the picture, 90 is up.
+    """The frame in which the turtle starts; the heading is an angle in the plane of the picture, 90 is up.
 
     >>> initial_frame("abop")
     ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), 0)
@@ -96,16 +96,16 @@ def _unit(a: Vector) -> Vector:
     return a[0] / length, a[1] / length, a[2] / length
 
 
-def _towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vector]:
-    """Both vectors after a rotation of the first towards the second."""
+def _rotated_towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vector]:
+    """Two orthogonal unit vectors after a rotation of the first towards the second."""
     (ax, ay, az), (bx, by, bz) = a, b
     return ((cos * ax + sin * bx, cos * ay + sin * by, cos * az + sin * bz),
             (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az))
 
 
-def _framed(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:
-    """A frame after one more rotation; after many it is made orthonormal again."""
-    if rotations < OFTEN:
+def _next_frame(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:
+    """The frame after one more rotation, made orthonormal from time to time."""
+    if rotations < RENORMALISATION_INTERVAL:
         return head, left, up, rotations + 1
     head = _unit(head)
     up = _unit(_cross(head, left))
@@ -113,52 +113,52 @@ def _framed(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFra
 
 
 def _turn(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.way
-    head, left = _towards(head, left, *angle)
-    turtle.way = _framed(head, left, up, rotations)
+    head, left, up, rotations = turtle.orientation
+    head, left = _rotated_towards(head, left, *angle)
+    turtle.orientation = _next_frame(head, left, up, rotations)
 
 
 def _pitch(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.way
-    up, head = _towards(up, head, *angle)
-    turtle.way = _framed(head, left, up, rotations)
+    head, left, up, rotations = turtle.orientation
+    up, head = _rotated_towards(up, head, *angle)
+    turtle.orientation = _next_frame(head, left, up, rotations)
 
 
 def _roll(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.way
-    up, left = _towards(up, left, *angle)
-    turtle.way = _framed(head, left, up, rotations)
+    head, left, up, rotations = turtle.orientation
+    up, left = _rotated_towards(up, left, *angle)
+    turtle.orientation = _next_frame(head, left, up, rotations)
 
 
 def _level(turtle: SpaceTurtle, _: Instruction) -> None:
     """Roll until L is level: it becomes that of vertical x H, unless H is vertical (ABOP, page 57)."""
-    head, _left, _up, rotations = turtle.way
+    head, _left, _up, rotations = turtle.orientation
     across = math.hypot(head[0], head[1])
-    if across > _NOWHERE:
+    if across > _NEGLIGIBLE:
         left = -head[1] / across, head[0] / across, 0.0
-        turtle.way = head, left, _cross(head, left), rotations
+        turtle.orientation = head, left, _cross(head, left), rotations
 
 
-def _droop(turtle: SpaceTurtle, order: Instruction) -> None:
-    """Bend as GROGRA's RV: H becomes that of H - strength * vertical; a vertical H can only be turned round."""
-    (hx, hy, hz), *_ = turtle.way
-    strength = order.factor * turtle.sag + order.addend
+def _bend_by_gravitropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
+    """Bend as GROGRA's RV: H takes the direction of H - strength * vertical; a vertical H can only be reversed."""
+    (hx, hy, hz), *_ = turtle.orientation
+    strength = instruction.factor * turtle.gravitropism + instruction.addend
     across = math.hypot(hx, hy)
-    if across > _NOWHERE:
-        _bend(turtle, (-hy / across, hx / across, 0.0), math.atan2(across, hz - strength) - math.atan2(across, hz))
+    if across > _NEGLIGIBLE:
+        _rotate(turtle, (-hy / across, hx / across, 0.0), math.atan2(across, hz - strength) - math.atan2(across, hz))
     elif hz > 0 and strength > 1:
         _pitch(turtle, (-1.0, 0.0))
 
 
-def _pulled(turtle: SpaceTurtle, pull: Vector) -> None:
+def _bend_by_tropism(turtle: SpaceTurtle, pull: Vector) -> None:
     """Bend towards a tropism T by the angle e |H x T| about H x T; the pull is e T (ABOP, page 58)."""
-    axis = _cross(turtle.way[0], pull)
+    axis = _cross(turtle.orientation[0], pull)
     radians = math.hypot(*axis)
-    if radians > _NOWHERE:
-        _bend(turtle, _unit(axis), radians)
+    if radians > _NEGLIGIBLE:
+        _rotate(turtle, _unit(axis), radians)
 
 
-def _bend(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
+def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
     """Rotate the frame about a unit vector."""
     cos, sin = math.cos(radians), math.sin(radians)
     ax, ay, az = axis
@@ -168,64 +168,65 @@ def _bend(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
         x, y, z = _cross(axis, v)
         return cos * v[0] + sin * x + along * ax, cos * v[1] + sin * y + along * ay, cos * v[2] + sin * z + along * az
 
-    head, left, up, rotations = turtle.way
-    turtle.way = _framed(rotated(head), rotated(left), rotated(up), rotations)
+    head, left, up, rotations = turtle.orientation
+    turtle.orientation = _next_frame(rotated(head), rotated(left), rotated(up), rotations)
 
 
-def _tropism(turtle: SpaceTurtle, order: Instruction) -> None:
-    """Set a tropism: `@Ts(e)`, or `@Ts(number, e)` as in cpfg, perhaps with its direction behind, else gravity."""
-    number, elasticity, *direction = order.values if len(order.values) > 1 else (1.0, *order.values, 0.0)
+def _set_tropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
+    """Set a tropism: `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`."""
+    number, elasticity, *direction = instruction.values if len(instruction.values) > 1 else (1.0, *instruction.values, 0.0)
     x, y, z = direction if len(direction) == 3 else (0.0, -1.0, 0.0)
-    turtle.pulls = {**turtle.pulls, number: _seen((elasticity * x, elasticity * y, elasticity * z))}
+    turtle.tropisms = {**turtle.tropisms, number: _from_cpfg((elasticity * x, elasticity * y, elasticity * z))}
 
 
-def _jump(turtle: SpaceTurtle, order: Instruction) -> None:
-    x, y, z, *_ = (*order.values, 0.0, 0.0, 0.0)
-    turtle.at = _seen((x, y, z))
+def _set_position(turtle: SpaceTurtle, instruction: Instruction) -> None:
+    x, y, z, *_ = (*instruction.values, 0.0, 0.0, 0.0)
+    turtle.position = _from_cpfg((x, y, z))
 
 
-def _seen(point: Vector) -> Vector:
-    """A point or direction of cpfg, where y grows upwards and z towards the viewer, as it is here."""
+def _from_cpfg(point: Vector) -> Vector:
+    """A point or direction in the axes used here, given in cpfg's, where y grows upwards and z towards the viewer."""
     x, y, z = point
     return x, -z, y
 
 
-def _back(turtle: SpaceTurtle, order: Instruction) -> None:
-    """Go to a place on the last stroke."""
+def _return_to_stroke(turtle: SpaceTurtle, instruction: Instruction) -> None:
+    """Move to a point of the last stroke."""
     if turtle.last is not None:
-        first = turtle.last * _COLUMNS
+        first = turtle.last * _STROKE_COLUMNS
         x, y, z, u, v, w = turtle.strokes[first:first + 6]
-        part = order.factor + order.addend
-        turtle.at = x + part * (u - x), y + part * (v - y), z + part * (w - z)
+        part = instruction.factor + instruction.addend
+        turtle.position = x + part * (u - x), y + part * (v - y), z + part * (w - z)
 
 
-_ROTATIONS: Mapping[str, Act] = {"turn": _turn, "pitch": _pitch, "roll": _roll}
-SPACE_ACTS: Mapping[str, Act] = {**COMMON, **_ROTATIONS, "level": _level, "gravitropism": _droop, "set tropism": _tropism,
-                                 "set position": _jump, "return to stroke": _back}
-"""What a turtle in space does, by the names of the actions."""
+_ROTATIONS: Mapping[str, Handler] = {"turn": _turn, "pitch": _pitch, "roll": _roll}
+SPACE_HANDLERS: Mapping[str, Handler] = {
+    **COMMON_HANDLERS, **_ROTATIONS, "level": _level, "gravitropism": _bend_by_gravitropism, "set tropism": _set_tropism,
+    "set position": _set_position, "return to stroke": _return_to_stroke}
+"""The handlers of the turtle in space, by action."""
 
 
 def trace_in_space(word: Word, angle: float | None = None) -> Scene:
-    """What a turtle in space draws that follows a word.
+    """The scene that a turtle in space draws by interpreting a word.
 
     Parameters
     ----------
     word
         The word; interpretation rules are applied first.
     angle
-        Degrees by which `+`, `&`, `/` and their like turn; by default the system's.
+        The angle of turns, pitches and rolls without an argument, in degrees; by default the system's.
 
     Returns
     -------
     Scene
-        Strokes and shapes in space; `unknown` has the symbols that look like commands and are none here.
+        Strokes and shapes in space; `unknown` lists the symbols that look like commands and are none.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
     ModelValueError
-        A value is no number that can be drawn.
+        A value is too large to draw, or symbolic.
 
     Examples
     --------
@@ -238,25 +239,25 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     system = word.states.system
     turn = float(system.angle) if angle is None else angle
     turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
-    run_turtle(turtle, word, SPACE_ACTS, lambda order: prepared(order, turn))
-    polygons, discs = shapes_left(turtle.outlines, turtle.rounds, _points)
+    run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
+    polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:
-    """The strokes that a turtle has left, in the order of their numbers."""
-    rows = np.array(turtle.strokes).reshape(-1, _COLUMNS)
+    """The strokes that a turtle has drawn, in order."""
+    rows = np.array(turtle.strokes).reshape(-1, _STROKE_COLUMNS)
     orders, states, colours = (rows[:, column].astype(np.int64) for column in (6, 7, 9))
     return Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours)
 
 
-def prepared(order: Instruction, angle: float) -> Any:
-    """What an act is given for an order: cosine and sine for a rotation, the order itself for anything else.
+def operand(instruction: Instruction, angle: float) -> Any:
+    """The operand of a handler: cosine and sine for a rotation, else the instruction itself.
 
-    >>> prepared(Instruction("pitch", 0.0, -90.0), 25.7)
+    >>> operand(Instruction("pitch", 0.0, -90.0), 25.7)
     (0.0, -1.0)
     """
-    return cos_sin(order.factor * angle + order.addend) if order.action in _ROTATIONS else order
+    return cos_sin(instruction.factor * angle + instruction.addend) if instruction.action in _ROTATIONS else instruction
 
 
 def _points(places: list[Vector]) -> Floats:

@@ -22,7 +22,7 @@ from lsys_kit.pictures.svg import numbered_colours
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963
 """How glTF calls kinds of numbers, and what a part of its bytes is for."""
-LINES = 65_536
+ROWS_AT_A_TIME = 65_536
 """So many lines of text are written at a time."""
 
 
@@ -131,26 +131,26 @@ def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
     found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n"], 1
     for part in by_colour(mesh, colour_of):
         corners = np.repeat(part.triangles.astype(np.int64) + first, 2, axis=1)
-        found += [*_lines("v %.7g %.7g %.7g\n", part.vertices), *_lines("vn %.7g %.7g %.7g\n", part.normals),
-                  f"usemtl {_called(part.colour)}\n", *_lines("f %d//%d %d//%d %d//%d\n", corners)]
+        found += [*_formatted_rows("v %.7g %.7g %.7g\n", part.vertices), *_formatted_rows("vn %.7g %.7g %.7g\n", part.normals),
+                  f"usemtl {_material_name(part.colour)}\n", *_formatted_rows("f %d//%d %d//%d %d//%d\n", corners)]
         first += len(part.vertices)
     return "".join(found).encode()
 
 
-def _lines(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
-    for first in range(0, len(rows), LINES):
-        some = rows[first:first + LINES]
+def _formatted_rows(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
+    for first in range(0, len(rows), ROWS_AT_A_TIME):
+        some = rows[first:first + ROWS_AT_A_TIME]
         yield pattern * len(some) % tuple(some.ravel().tolist())
 
 
 def mtl(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     """The colours of a mesh as text of an .mtl file."""
-    materials = (f"newmtl {_called(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
+    materials = (f"newmtl {_material_name(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
                  for colour in dict.fromkeys(part.colour for part in by_colour(mesh, colour_of))
                  for red, green, blue in [channels(colour)])
     return "".join(["# Colours of a drawing of lsys-kit\n", *materials]).encode()
 
 
-def _called(colour: str) -> str:
+def _material_name(colour: str) -> str:
     """The name of a colour, as .mtl files may have it: without a sharp, which begins a comment."""
     return f"colour_{colour[1:]}"

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Coordinates: TypeAlias = NDArray[np.float32]
 FINE = 3
 """How many times finer than its pixels a picture is drawn."""
-BLOCK = 2**16
+STROKES_AT_A_TIME = 2**16
 """So many strokes are taken at a time: what lies between two operations stays in the processor's cache."""
 
 
@@ -71,8 +71,8 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> N
     [[1, 1, 1, 0], [0, 0, 0, 0]]
     """
     found = np.zeros(shape[0] * shape[1], dtype=bool)
-    for first in range(0, len(across), BLOCK):
-        x, y = across[first:first + BLOCK], down[first:first + BLOCK]
+    for first in range(0, len(across), STROKES_AT_A_TIME):
+        x, y = across[first:first + STROKES_AT_A_TIME], down[first:first + STROKES_AT_A_TIME]
         wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
         steps = np.ceil(np.maximum(np.abs(wide), np.abs(high))).astype(np.int32)
         np.maximum(steps, 1, out=steps)

@@ -100,7 +100,7 @@ def drawn_lineage(lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (
     middle = tree.y(lineage.times[-1]) + TAIL + half
     legend, parts = _legend(tree), middle + half + 24
     body = [_axis(tree), *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
-            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last(tree, middle),
+            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last_word(tree, middle),
             f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{legend}</g>']
     height = round(parts) + (MARGIN if legend else -MARGIN)
     return document(background(WIDTH, height) + "".join(body), WIDTH, height, f"Lineage of {lineage}")
@@ -142,7 +142,7 @@ def _line(tree: Tree, number: int) -> str:
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
     late = "" if cell.due is None else (f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" '
                                         f'{LATE_LOOK} fill="none"/>')
-    start, turned = _start(tree, number, bottom)
+    start, turned = _branch_path(tree, number, bottom)
     look = f'fill="none" stroke="{kind.colour}" stroke-linecap="round"{kind.broken}'
     if seen <= turned or not tree.lineage.stepwise:
         return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
@@ -151,7 +151,7 @@ def _line(tree: Tree, number: int) -> str:
                    if bottom > seen else "")
 
 
-def _start(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
+def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
     """The beginning of a cell's line, from that of its mother round a corner, and how far down it leads."""
     cell, x = tree.lineage.cells[number], tree.x[number]
     top = tree.y(cell.born)
@@ -175,7 +175,7 @@ def _flags(tree: Tree) -> str:
     return f'<path d="{"".join(parts)}" fill="{INK}"/>'
 
 
-def _last(tree: Tree, middle: float) -> str:
+def _last_word(tree: Tree, middle: float) -> str:
     """The last word below the tree: its cells as they are drawn, else their names where there is room."""
     lineage, system = tree.lineage, tree.lineage.states.system
     if tree.row:

@@ -90,14 +90,14 @@ class Tree:
 
 def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     """The tree of a lineage, with some room left free to its right."""
-    x, row = _places(lineage, WIDTH - MARGIN - right)
+    x, row = _line_positions(lineage, WIDTH - MARGIN - right)
     kinds, kind_of, colour_of = _kinds(lineage)
     return Tree(lineage, x, row, kinds, kind_of, colour_of, WIDTH - MARGIN - right)
 
 
-def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
     """For each cell how far to the right its line stands, and the filament below."""
-    ends = list(_ends(lineage))
+    ends = list(_leaves(lineage))
     row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
     if row:
         x = {cell.state: cell.x for cell in row}
@@ -111,7 +111,7 @@ def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filame
     return x, row
 
 
-def _ends(lineage: Lineage) -> Iterator[int]:
+def _leaves(lineage: Lineage) -> Iterator[int]:
     """The cells without daughters, from left to right."""
     todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
     while todo:

@@ -7,7 +7,7 @@ import math
 from lsys_kit.derivation.petri.net import Stages, Transition, likelihood
 from lsys_kit.notation.model.arithmetic import number_text
 
-MOST_CHARACTERS = 44
+LONGEST_CAPTION = 44
 """Terms with more characters are shortened; their title has them all."""
 _UNITS = ((10 ** 12, "T"), (10 ** 9, "G"), (10 ** 6, "M"), (10 ** 3, "k"))
 
@@ -77,4 +77,4 @@ def width_of(text: str, size: float) -> float:
 
 
 def abbreviated(text: str) -> str:
-    return text if len(text) <= MOST_CHARACTERS else text[:MOST_CHARACTERS - 1].rstrip() + "…"
+    return text if len(text) <= LONGEST_CAPTION else text[:LONGEST_CAPTION - 1].rstrip() + "…"

@@ -134,10 +134,10 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
                      *(_bar_svg(net, layout, number, terms.get(number, "")) for number in layout.bars),
                      *(_note_svg(layout.notes[arc], text) for arc, text in notes.items() if arc in layout.notes),
                      *(_besides_svg(layout, line, text) for line, text in enumerate(besides))])
-    return Diagram(order, names, layout, _start(layout, names, besides), lines, stages)
+    return Diagram(order, names, layout, _svg_head(layout, names, besides), lines, stages)
 
 
-def _start(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
+def _svg_head(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
     width = math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in besides)]))
     height = math.ceil(layout.height + LINE * len(besides))
     told = f"Stage diagram: {len(names)} stage{'' if len(names) == 1 else 's'} {', '.join(names)}".rstrip()
@@ -207,7 +207,7 @@ _STROKE = f'fill="none" stroke="{INK}" stroke-width="1.3"'
 
 def _arc_svg(number: int, corners: Sequence[Point]) -> str:
     """An arc on a white band, which opens the lines that it crosses, with its arrowhead."""
-    path, band = rounded_path(corners), rounded_path([*corners[:-1], _towards(corners[-1], corners[-2], 10)])
+    path, band = rounded_path(corners), rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)])
     (x, y), down = corners[-1], corners[-1][0] == corners[-2][0]
     (a, b), (c, d) = ((-3.4, -8.5), (3.4, -8.5)) if down else ((-8.5, -3.4), (-8.5, 3.4))
     return (f'<path d="{band}" fill="none" stroke="{PAPER}" stroke-width="5"/><path class="arc" data-arc="{number}" d="{path}" '
@@ -223,12 +223,12 @@ def rounded_path(corners: Sequence[Point]) -> str:
     path = ["M{:.1f} {:.1f}".format(*corners[0])]
     for before, corner, after in zip(corners, corners[1:], corners[2:], strict=False):
         reach = min(ROUND, math.dist(before, corner) / 2, math.dist(corner, after) / 2)
-        start, end = _towards(corner, before, reach), _towards(corner, after, reach)
+        start, end = _point_towards(corner, before, reach), _point_towards(corner, after, reach)
         path.append("L{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}".format(*start, *corner, *end))
     return "".join(path) + "L{:.1f} {:.1f}".format(*corners[-1])
 
 
-def _towards(start: Point, end: Point, reach: float) -> Point:
+def _point_towards(start: Point, end: Point, reach: float) -> Point:
     """The point at a distance from the one towards the other."""
     share = reach / (math.dist(start, end) or 1.0)
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])

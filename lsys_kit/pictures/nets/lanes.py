@@ -35,17 +35,17 @@ def ordered(stretches: Sequence[Stretch]) -> list[int]:
     >>> ordered([((1, 1), (2, 1)), ((0, 1), (3, 1))])
     [1, 0]
     """
-    order = sorted(range(len(stretches)), key=lambda i: (-_length(stretches[i]), -i))
+    order = sorted(range(len(stretches)), key=lambda i: (-_extent(stretches[i]), -i))
     cost = [[crossings(a, b) for b in stretches] for a in stretches]
     improved = True
     while improved:
         improved = False
         for number in tuple(order):
-            improved |= _sifted(order, number, cost)
+            improved |= _moved_to_best_place(order, number, cost)
     return order
 
 
-def _sifted(order: list[int], number: int, cost: Sequence[Sequence[int]]) -> bool:
+def _moved_to_best_place(order: list[int], number: int, cost: Sequence[Sequence[int]]) -> bool:
     """Moves a stretch to where it crosses the fewest others; whether that helped."""
     now = order.index(number)
     rest = order[:now] + order[now + 1:]
@@ -80,7 +80,7 @@ def _high(stretch: Stretch) -> float:
     return max(stretch[0][0], stretch[1][0])
 
 
-def _length(stretch: Stretch) -> float:
+def _extent(stretch: Stretch) -> float:
     return _high(stretch) - _low(stretch)
 
 

@@ -105,7 +105,7 @@ def laid_out(net: Stages, plan: Plan, texts: Texts) -> Layout:
     """The measures of a plan."""
     grid = _grid(net, plan, texts)
     circles = {place: (grid.columns[c], grid.rows[r]) for r, row in enumerate(plan.rows) for c, place in enumerate(row)}
-    heights = _heights(plan, circles)
+    heights = _exit_heights(plan, circles)
     bars = {number: bar for place, own in plan.bars.items() for number, bar in
             _bars(own, circles[place], grid.bars[_column(plan, place)], heights, plan, texts.labels[place]).items()}
     arcs = {route.arc: _corners(route, net, plan, grid, circles, heights) for route in plan.routes}
@@ -131,7 +131,7 @@ def _grid(net: Stages, plan: Plan, texts: Texts) -> _Grid:
     first = west[0] if room[0] else max([RADIUS, *(texts.labels[place] / 2 for column in columns[:1] for place in column)])
     xs = tuple(accumulate(pitches, initial=EDGE + room[0] + first))
     right = max((x + reach for x, reach in zip(xs, east, strict=False)), default=0.0)
-    ys, tops, bottom = _rows(plan)
+    ys, tops, bottom = _row_positions(plan)
     return _Grid(xs, ys, tops, tuple(bars), tuple(slots), (xs[0] - (west[0] if west else 0), right + 4),
                  right + room[1] + EDGE, bottom + EDGE)
 
@@ -161,7 +161,7 @@ def _widest(widths: Mapping[int, float], keys: Iterable[int]) -> float:
     return max((widths[key] + 8 for key in keys if key in widths), default=0.0)
 
 
-def _rows(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...], float]:
+def _row_positions(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...], float]:
     """The middle of each row, its upper edge, and the lower edge of the last."""
     middles, tops, bottom = [], [], EDGE
     for number, row in enumerate(plan.rows):
@@ -174,7 +174,7 @@ def _rows(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...], float]:
     return tuple(middles), tuple(tops), bottom
 
 
-def _heights(plan: Plan, circles: Mapping[int, Point]) -> dict[int, float]:
+def _exit_heights(plan: Plan, circles: Mapping[int, Point]) -> dict[int, float]:
     """The height at which each arc leaves its bar; a direct one leaves it in the middle."""
     direct = {route.arc for route in plan.routes if route.direct}
     found = {}
@@ -244,11 +244,11 @@ def _note(arc: int, width: float, arcs: Mapping[int, tuple[Point, ...]]) -> Poin
     def fitness(free: tuple[float, float, float]) -> tuple[float, float]:
         return min(free[1] - free[0], width + 40), -abs((free[0] + free[1]) / 2 - middle)
 
-    left, right, y = max((free for a, b in lanes for free in _free(a, b, others)), key=fitness)
+    left, right, y = max((free for a, b in lanes for free in _free_intervals(a, b, others)), key=fitness)
     return (left + right) / 2, y
 
 
-def _free(a: Point, b: Point, others: Iterable[Sequence[Point]]) -> list[tuple[float, float, float]]:
+def _free_intervals(a: Point, b: Point, others: Iterable[Sequence[Point]]) -> list[tuple[float, float, float]]:
     """The parts of a lane between the lines that cross it, each with the lane's height."""
     left, right = sorted((a[0], b[0]))
     cuts = {p[0] for line in others for p, q in pairwise(line)
