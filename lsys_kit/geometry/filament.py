@@ -1,8 +1,10 @@
-"""Filaments: cells in a row, as in seed 000's figures 1 to 3 and seed 002's figures 1, 3, 4 and 8.
+"""Filaments: cells in a row, as in figures 1 to 3 of Jacob and figures 1, 3, 4 and 8 of Prusinkiewicz.
+
+(C. Jacob, "Modeling Growth with L-Systems & Mathematica"; P. Prusinkiewicz, "Introduction to Modeling with L-systems".)
 
 A cell is what the interpretation rules make of a module: `L(length, width, shade)` points left, `R(length, width, shade)`
-right, `O(length, width, shade)` nowhere. `W(age, shade)` is a wall between two cells, which takes no room. The shade, from 0
-to 1, shows an age and may be left out.
+right, `O(length, width, shade)` nowhere. `W(age, shade)` is a wall between two cells, without thickness. The shade, from 0 to
+1, shows an age and can be omitted.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ def filament(word: Word) -> Scene:
     Raises
     ------
     ModelValueError
-        A cell has a length or width that is not positive, or a value is no number that can be drawn.
+        A cell has a length or width that is not positive, or a value is too large to draw, or symbolic.
 
     Examples
     --------
@@ -51,7 +53,7 @@ def filament(word: Word) -> Scene:
 
 
 def _wall_heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:
-    """For each wall the width of the broader of the cells beside it."""
+    """For each wall the width of the wider of its two neighbours."""
     beside = np.concatenate([[0.0], widths, [0.0]])
     before = np.cumsum(~is_wall)[is_wall]  # how many cells stand before each wall
     heights: Floats = np.maximum(beside[before], beside[before + 1])
@@ -59,13 +61,13 @@ def _wall_heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:
 
 
 def _cell_or_wall(made: Module, module: Module) -> tuple[float, float, float, float, float]:
-    """Whether it is a wall, its length and width, its polarity or age, and its shade."""
+    """Whether a module is drawn as a wall; its length and width, its polarity or age, and its shade."""
     if made.symbol == WALL:
         values = values_of(made)
         return 1, 0, 0, values[0] if values else math.nan, _clamped(values[1] if len(values) > 1 else 0.0)
     length, width, *rest = values_of(made)
     if length <= 0 or width <= 0:
-        raise ModelValueError(f"{module} cannot be drawn as {made}: a cell's length and width are greater than 0")
+        raise ModelValueError(f"{module} cannot be drawn as {made}: the length and width of a cell must be greater than 0")
     return 0, length, width, CELLS[made.symbol], _clamped(rest[0] if rest else 0.0)
 
 

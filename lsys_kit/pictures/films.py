@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 SECONDS, HELD = 0.6, 4
-"""How long each step is shown, and how many times as long the last."""
+"""The duration of each step in seconds, and the factor by which the last is shown longer."""
 MOST_FRAMES = 300
-"""A film has at most so many steps."""
+"""The greatest number of steps of a film."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Film:
     images
         The pictures, all of the same size.
     seconds
-        How long each is shown; the last stays `HELD` times as long.
+        The duration of each picture; the last is shown `HELD` times as long.
     """
 
     text: str
@@ -56,7 +56,7 @@ class Film:
 
     @cached_property
     def gif(self) -> bytes:
-        """The film as a GIF that begins again and again."""
+        """The film as a GIF that loops for ever."""
         return self._film("GIF")
 
     @cached_property
@@ -65,12 +65,12 @@ class Film:
         return self._film("PNG")
 
     def save(self, path: str | Path) -> None:
-        """Write the film to a file, in the format that its name ends in: .gif, .apng or .png.
+        """Write the film to a file, in the format given by its extension: .gif, .apng or .png.
 
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".gif": lambda: self.gif, ".apng": lambda: self.apng, ".png": lambda: self.apng})
 
@@ -96,9 +96,9 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     what
         A system, which is derived first, or a derivation.
     n
-        For a system how many steps; by default those that the system asks for.
+        The number of steps of a system; by default its own.
     seconds
-        How long each step is shown; the last is held longer.
+        The duration of each step; the last is shown longer.
     angle, seed, arithmetic, **constants
         As for `draw`.
 
@@ -139,7 +139,7 @@ def _caption(derivation: Derivation, last: Scene) -> str:
 
 
 def _common_frame(scenes: list[Scene]) -> ViewFrame:
-    """A frame that holds all scenes."""
+    """A frame that contains all scenes."""
     left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
     return frame_of((min(left), min(bottom), max(right), max(top)))
 

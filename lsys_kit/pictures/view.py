@@ -1,4 +1,4 @@
-"""A scene in space as it is seen from one side: a scene in the plane, what is far away first."""
+"""Orthographic projection of a scene in space onto the plane of the picture, sorted from back to front."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 
 
 def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
-    """What is seen of a scene from far away.
+    """The orthographic projection of a scene.
 
     Parameters
     ----------
     scene
-        A scene in space; one in the plane is seen as it is.
+        A scene in space; one in the plane is returned unchanged.
     around, above
-        From where, in degrees: 0 from the front, 90 from the right; 0 from the side, 90 from above.
+        The azimuth and the elevation of the viewer, in degrees: 0 from the front, 90 from the right; 0 from the side, 90 from
+        above.
 
     Examples
     --------
@@ -45,7 +46,7 @@ def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
 
 
 def _axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
-    """The directions that are seen as right, as up, and towards the viewer."""
+    """The directions that appear as right and up, and the one towards the viewer."""
     right = np.array([math.cos(around), math.sin(around), 0.0])
     level = np.array([math.sin(around), -math.cos(around), 0.0])
     vertical = np.array([0.0, 0.0, 1.0])
@@ -54,13 +55,13 @@ def _axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
 
 
 def _mapped(points: Floats, matrix: Floats) -> Floats:
-    """Points times a small matrix, the same to the last bit on every machine."""
+    """The product of points and a small matrix, bit for bit the same on every machine."""
     x, y, z = points.T
     return np.stack([x * column[0] + y * column[1] + z * column[2] for column in matrix.T], axis=1)
 
 
 def _polygons(polygons: Polygons, plane: Floats, towards: Floats) -> Polygons:
-    """Polygons in the plane of the picture, the farthest first."""
+    """The projected polygons, the farthest first."""
     if not len(polygons):
         return Polygons(np.empty((0, 2)), polygons.starts, polygons.states, polygons.colours)
     sizes = np.diff(polygons.starts)

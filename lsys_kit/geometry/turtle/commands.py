@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Literal, NamedTuple
 
 from lsys_kit.geometry.turtle.actions import ACTIONS, Effect
@@ -165,13 +165,13 @@ COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
 """For each dialect its commands, by symbol."""
 
 FIRST_COLOUR = 14
-"""The colour of strokes where none was set, as GROGRA numbers it: yellow."""
+"""The default colour of strokes in the numbering of GROGRA: yellow."""
 WIDTH = 0.1
-"""How wide a stroke is, where a command asks for the width and none was set."""
+"""The width of a stroke for commands that depend on it, where none has been set."""
 
 
 def initial_step(system: LSystem) -> float:
-    """How far one step goes at first."""
+    """The initial length of a step."""
     return TURTLE_DIALECTS[system.turtle].length if system.length is None else float(system.length)
 
 
@@ -186,6 +186,7 @@ def commands_of(system: LSystem) -> Iterator[tuple[Command, Module]]:
     return ((command, module) for module in system.modules for command in table.get(module.symbol, ()))
 
 
+@cache
 def symbols_with(effect: Effect, turtle: str) -> frozenset[str]:
     """The symbols of a dialect whose commands have an effect.
 

@@ -1,4 +1,4 @@
-"""Files: a picture is kept in the format that the file's name ends in."""
+"""Files: a picture is saved in the format given by the extension of the file name."""
 
 from __future__ import annotations
 
@@ -9,47 +9,47 @@ from typing import TypeAlias
 from lsys_kit.errors import ModelFileError, quotable
 
 Encoders: TypeAlias = Mapping[str, Callable[[], bytes]]
-"""For each ending the bytes of such a file, made when they are needed."""
+"""For each extension a function that encodes the picture."""
 
 
-def save_as(path: Path, forms: Encoders, hint: str = "") -> None:
-    """Write a file in the form that its name ends in; where one is there already, it is replaced.
+def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
+    """Write a file in the format given by its extension; an existing file is replaced.
 
     Parameters
     ----------
     path
-        Where.
-    forms
-        The endings that it may have.
+        The path of the file.
+    formats
+        The formats, by extension.
     hint
-        What else to say where it has none of them.
+        An addition to the error message if the extension is unknown.
 
     Raises
     ------
     ModelFileError
         The name ends in something else, or the file cannot be written.
     """
-    if path.suffix.lower() not in forms:
+    if path.suffix.lower() not in formats:
         raise ModelFileError(f'This picture cannot be written to "{quotable(path.name)}"',
-                             hint=f"Let the name end in {_listed(forms)}. {hint}".rstrip())
-    _write(path, forms[path.suffix.lower()]())
+                             hint=f"Let the name end in {_listed(formats)}. {hint}".rstrip())
+    _write(path, formats[path.suffix.lower()]())
 
 
 def save_beside(path: Path, content: bytes) -> None:
-    """Write a file that belongs to another one; a stranger's, whose first line is another, is not replaced.
+    """Write an accompanying file; an existing file with a different first line is not replaced.
 
     Raises
     ------
     ModelFileError
-        A stranger's file is there already, or the file cannot be written.
+        A file of another origin exists already, or the file cannot be written.
     """
     first = content.partition(b"\n")[0]
     try:
         with path.open("rb") as there:
-            strange = there.read(len(first)) != first
+            foreign = there.read(len(first)) != first
     except (OSError, ValueError):
-        strange = False
-    if strange:
+        foreign = False
+    if foreign:
         raise ModelFileError(f'"{quotable(str(path))}" is there already, and was not made by the kit',
                              hint="It would have to be replaced: take another name.")
     _write(path, content)
@@ -64,7 +64,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _listed(endings: Iterable[str]) -> str:
-    """The endings in words.
+    """The extensions, in a sentence.
 
     >>> _listed([".svg", ".png", ".pdf"])
     '.svg, .png or .pdf'

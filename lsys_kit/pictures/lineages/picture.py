@@ -1,4 +1,5 @@
-"""Lineages as trees in continuous time (seed 002, figures 5 and 6).
+"""Lineages as trees in continuous time (P. Prusinkiewicz, "Introduction to Modeling with L-systems",
+figures 5 and 6).
 
 Time runs down. A line is a cell from its birth to its division, thin until the first word that has it, so that what happens
 within a step is told from what the words show. Cells that began alike have the same colour and the same dashes; a flag shows
@@ -27,12 +28,12 @@ from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
 from lsys_kit.pictures.svg import MARGIN, WIDTH, background, document
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
-"""How far lines go on below the last time, how round corners are, and the room for an interval, in pixels."""
+"""The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
 THICK, THIN, LATE = 24, 11, 90
 """Widths of lines, in tenths of a pixel."""
 LATE_LOOK = f'stroke="{VERMILION}" stroke-width="{LATE}" stroke-opacity="0.35"'
 MOST_LINES, MOST_TICKS = 400, 14
-"""At most so many cells at the end, and times on the axis."""
+"""The greatest numbers of cells at the end, and of times on the axis."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class LineagePicture:
     lineage
         The lineage.
     intervals
-        Stretches of time that are marked beside the tree, each from one time to another.
+        Intervals of time that are marked beside the tree.
     """
 
     lineage: Lineage
@@ -61,7 +62,7 @@ class LineagePicture:
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: f"{self.svg}\n".encode()})
 
@@ -73,14 +74,14 @@ class LineagePicture:
 
 
 def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture:
-    """The picture of a lineage, with some stretches of time marked.
+    """The picture of a lineage, with some intervals of time marked.
 
     Raises
     ------
     ModelLimitError
-        More cells live in the end than a picture has room for.
+        More cells are alive at the end than fit into a picture.
     ModelValueError
-        A stretch does not lie within the time of the lineage.
+        An interval does not lie within the time of the lineage.
     """
     if len(lineage.words[-1]) > MOST_LINES:
         raise ModelLimitError(f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have "

@@ -1,6 +1,6 @@
-"""Where the lines of a lineage stand in its picture, and which cells are of one kind.
+"""The layout of a lineage: the positions of its lines, and the kinds of its cells.
 
-A line stands over its cell in the filament of the last word; a mother's in the middle of those of her first and last daughter.
+A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ AXIS, HEAD, TREE = 54, 22, 300
 BROADEST, APART = 30.0, 60.0
 """The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
 MOST_KINDS = 4
-"""At most so many kinds of cells are told apart."""
+"""The greatest number of kinds of cells that are distinguished."""
 DASHES = ("", "80 45", "1 45", "120 40 1 40")
-"""For each kind of cells how its lines are broken, in tenths of a pixel."""
+"""The dash pattern of each kind of cells, in tenths of a pixel."""
 
 
 @dataclass(frozen=True)
@@ -38,9 +38,9 @@ class CellKind:
     label
         What they were, as SVG text.
     characters
-        How long the label is.
+        The number of characters of the label.
     colour, dash
-        How their lines look.
+        The colour and the dash pattern of their lines.
     """
 
     label: str
@@ -50,20 +50,20 @@ class CellKind:
 
     @property
     def broken(self) -> str:
-        """The attribute that breaks its lines."""
+        """The SVG attribute for the dash pattern."""
         return f' stroke-dasharray="{self.dash}"' if self.dash else ""
 
 
 @dataclass(frozen=True)
 class Tree:
-    """Where the lines of a lineage stand, in pixels.
+    """The layout of a lineage, in pixels.
 
     Attributes
     ----------
     lineage
         The lineage.
     x
-        For each cell how far to the right.
+        The horizontal position of the line of each cell.
     row
         The cells of the filament below, or none.
     kinds, kind_of
@@ -83,7 +83,7 @@ class Tree:
     right: float
 
     def y(self, time: Value) -> float:
-        """How far down a time is."""
+        """The vertical position of a time."""
         end = float(self.lineage.times[-1])
         return MARGIN + HEAD + (TREE * float(time) / end if end else 0.0)
 
@@ -96,7 +96,7 @@ def tree_of(lineage: Lineage, right: int = 0) -> Tree:
 
 
 def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
-    """For each cell how far to the right its line stands, and the filament below."""
+    """The horizontal position of the line of each cell, and the filament below."""
     ends = list(_leaves(lineage))
     row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
     if row:
