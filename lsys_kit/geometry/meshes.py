@@ -95,7 +95,7 @@ def mesh_of(scene: Scene) -> Mesh:
     balls = discs.kinds == SPHERE
     centres, radii = _in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
-    return _merged([
+    return _merged_meshes([
         _tubes(scene.segments, _extent(scene)),
         _faces(scene.polygons),
         _copies(_disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
@@ -128,7 +128,7 @@ def _extent(scene: Scene) -> float:
     return float((greatest - least).max())
 
 
-def _merged(meshes: Sequence[Mesh]) -> Mesh:
+def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
     firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     triangles = [mesh.triangles + np.uint32(first) for mesh, first in zip(meshes, firsts, strict=False)]
     joined = {name: np.concatenate([getattr(mesh, name) for mesh in meshes])

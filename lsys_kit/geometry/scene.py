@@ -269,10 +269,11 @@ class Scene:
                  (self.discs, "disc"))
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
         least, greatest = self.corners
-        depth = f", depth {_text(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
-        return (f"{', '.join(counted) or 'nothing to draw'}, width {_text(self.width)}, height {_text(self.height)}{depth}")
+        depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
+        return (f"{', '.join(counted) or 'nothing to draw'}, width {_two_decimals(self.width)}, "
+                f"height {_two_decimals(self.height)}{depth}")
 
 
-def _text(length: float) -> str:
+def _two_decimals(length: float) -> str:
     """A length with at most two decimals, in which rounding errors do not show."""
     return f"{length + 1e-9:.2f}".rstrip("0").rstrip(".")

@@ -38,7 +38,7 @@ def triangulate(points: Floats, facing: Floats) -> list[tuple[int, int, int]]:
     plane = _projected(points, facing)
     size = float(np.ptp(plane, axis=0).max()) if len(plane) else 0.0
     level = _STRAIGHT * size * size
-    if (_turning(plane) >= -level).all():
+    if (_corner_products(plane) >= -level).all():
         return [(0, k, k + 1) for k in range(1, len(plane) - 1)]
     left, triangles = np.arange(len(plane)), []
     while len(left) > 3:
@@ -55,7 +55,7 @@ def _projected(points: Floats, facing: Floats) -> Floats:
     return plane if facing[axis] > 0 else plane[:, ::-1]
 
 
-def _turning(plane: Floats) -> Floats:
+def _corner_products(plane: Floats) -> Floats:
     """The cross product of the edges at each corner: positive where the outline turns left."""
     before, behind = plane - np.roll(plane, 1, axis=0), np.roll(plane, -1, axis=0) - plane
     bends: Floats = before[:, 0] * behind[:, 1] - before[:, 1] * behind[:, 0]
@@ -64,7 +64,7 @@ def _turning(plane: Floats) -> Floats:
 
 def _ear(plane: Floats, level: float) -> int:
     """The first corner whose triangle contains no other corner; if there is none, the first where the outline turns left."""
-    candidates = np.flatnonzero(_turning(plane) > level).tolist()
+    candidates = np.flatnonzero(_corner_products(plane) > level).tolist()
     for corner in candidates:
         a, b, c = plane[corner - 1], plane[corner], plane[(corner + 1) % len(plane)]
         within = _on_the_left(plane, a, b, level) & _on_the_left(plane, b, c, level) & _on_the_left(plane, c, a, level)

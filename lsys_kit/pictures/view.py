@@ -9,14 +9,14 @@ import numpy as np
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 
 
-def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
+def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene:
     """The orthographic projection of a scene.
 
     Parameters
     ----------
     scene
         A scene in space; one in the plane is returned unchanged.
-    around, above
+    azimuth, elevation
         The azimuth and the elevation of the viewer, in degrees: 0 from the front, 90 from the right; 0 from the side, 90 from
         above.
 
@@ -31,7 +31,7 @@ def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
     """
     if scene.dimension == 2:
         return scene
-    right, up, towards = _axes(math.radians(around), math.radians(above))
+    right, up, towards = _axes(math.radians(azimuth), math.radians(elevation))
     plane = np.stack([right, up], axis=1)
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     middles = (segments.ends[:, :3] + segments.ends[:, 3:]) / 2
@@ -45,13 +45,13 @@ def project(scene: Scene, around: float = 0.0, above: float = 0.0) -> Scene:
                  unknown=scene.unknown)
 
 
-def _axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
+def _axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
     """The directions that appear as right and up, and the one towards the viewer."""
-    right = np.array([math.cos(around), math.sin(around), 0.0])
-    level = np.array([math.sin(around), -math.cos(around), 0.0])
+    right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    level = np.array([math.sin(azimuth), -math.cos(azimuth), 0.0])
     vertical = np.array([0.0, 0.0, 1.0])
-    return (right, math.cos(above) * vertical - math.sin(above) * level,
-            math.cos(above) * level + math.sin(above) * vertical)
+    return (right, math.cos(elevation) * vertical - math.sin(elevation) * level,
+            math.cos(elevation) * level + math.sin(elevation) * vertical)
 
 
 def _mapped(points: Floats, matrix: Floats) -> Floats:

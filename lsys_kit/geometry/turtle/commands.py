@@ -75,7 +75,7 @@ class Row(NamedTuple):
         return tuple(command for command in (self.command, self.then) if command)
 
 
-def _set(quantity: str) -> Command:
+def _settable(quantity: str) -> Command:
     """Set a quantity of the turtle; without an argument, to what it was at first."""
     return Command(f"set {quantity}", bare=f"reset {quantity}")
 
@@ -110,7 +110,7 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("",     "RG",   "",    "bend straight down",                                   _DOWN),
     Row("@Ts",  "",     "",    "bend towards gravity after each stroke, elasticity x", Command("set tropism")),
 
-    Row("",     "L",    "",    "the step is x, or what it was at first",               _set("length")),
+    Row("",     "L",    "",    "the step is x, or what it was at first",               _settable("length")),
     Row("",     "L+",   "",    "the step is longer by x",                              _more("set length")),
     Row("",     "L*",   "",    "the step is x times as long",                          _times("set length")),
     Row("",     "Ll",   "",    "the step is x up to the next stroke",                  Command("set length once")),
@@ -118,7 +118,7 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("", "Ll*", "", "the step is x times as long up to the next stroke", _times("set length once")),
     Row("#",    "",     "",    "strokes are x wide, or 10/7 times as wide",            Command("set width", 10 / 7)),
     Row("!",    "",     "",    "strokes are x wide, or 7/10 times as wide",            Command("set width", 7 / 10)),
-    Row("",     "D",    "",    "strokes are x wide, or as wide as at first",           _set("width")),
+    Row("",     "D",    "",    "strokes are x wide, or as wide as at first",           _settable("width")),
     Row("",     "D+",   "",    "strokes are wider by x",                               _more("set width")),
     Row("",     "D*",   "",    "strokes are x times as wide",                          _times("set width")),
     Row("",     "Dl",   "",    "the next stroke is x wide",                            Command("set width once")),
@@ -126,8 +126,8 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("",     "Dl*",  "",    "the next stroke is x times as wide",                   _times("set width once")),
     Row("; '",  "",     "",    "colour x, or the next one",                            Command("set colour", addend=1)),
     Row(",",    "",     "",    "colour x, or the one before",                          Command("set colour", addend=-1)),
-    Row("",     "P",    "",    "colour x, or that at first",                           _set("colour")),
-    Row("",     "V",    "",    "the strength of `RV` is x, or 0 as at first",          _set("gravitropism")),
+    Row("",     "P",    "",    "colour x, or that at first",                           _settable("colour")),
+    Row("",     "V",    "",    "the strength of `RV` is x, or 0 as at first",          _settable("gravitropism")),
     Row("",     "V+",   "",    "the strength of `RV` is greater by x",                 _more("set gravitropism")),
     Row("",     "V*",   "",    "the strength of `RV` is x times as great",             _times("set gravitropism")),
     Row("",     "Vl",   "",    "the strength of `RV` is x up to the next stroke",      Command("set gravitropism once")),

@@ -163,7 +163,7 @@ class Prototypes:
             position, rotation, carried = position + rotation @ prototype.end, rotation @ prototype.rotation, prototype.carried
         if len(row) == 1:
             return parts[0].prototype
-        return _merged(parts, position, rotation, carried)
+        return _merged_instances(parts, position, rotation, carried)
 
     def _of_module(self, state: int, carried: tuple[Any, ...]) -> Prototype:
         """The prototype of a module that is not rewritten."""
@@ -195,7 +195,7 @@ class Prototypes:
         return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
 
 
-def _merged(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[Any, ...]) -> Prototype:
+def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[Any, ...]) -> Prototype:
     """Instances as one prototype."""
     drawn = [part for part in instances if len(part.prototype.strokes)]
     strokes = _transformed([(part, part.prototype.strokes) for part in drawn], len(end))

@@ -32,7 +32,7 @@ def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
     if path.suffix.lower() not in formats:
         raise ModelFileError(f'This picture cannot be written to "{quotable(path.name)}"',
                              hint=f"Let the name end in {_listed(formats)}. {hint}".rstrip())
-    _write(path, formats[path.suffix.lower()]())
+    _write_bytes(path, formats[path.suffix.lower()]())
 
 
 def save_beside(path: Path, content: bytes) -> None:
@@ -52,10 +52,10 @@ def save_beside(path: Path, content: bytes) -> None:
     if foreign:
         raise ModelFileError(f'"{quotable(str(path))}" is there already, and was not made by the kit',
                              hint="It would have to be replaced: take another name.")
-    _write(path, content)
+    _write_bytes(path, content)
 
 
-def _write(path: Path, content: bytes) -> None:
+def _write_bytes(path: Path, content: bytes) -> None:
     try:
         path.write_bytes(content)
     except (OSError, ValueError) as fault:

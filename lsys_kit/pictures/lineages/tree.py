@@ -139,11 +139,11 @@ def _filament(lineage: Lineage, right: int) -> list[filaments.DrawnCell]:
 def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
     """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
 
-    Cells are of one kind that look alike at birth; where too many do not, those of one symbol. Where each kind has a symbol of
-    its own, colours are those of the symbols.
+    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. If each kind has its
+    own symbol, its colour is that of the symbol.
     """
     births = [cell.at_birth for cell in lineage.cells]
-    keys = [(_base(lineage, module), _look(lineage, module)) for module in births]
+    keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
     if len(set(keys)) > MOST_KINDS:
         keys = [(base, None) for base, _ in keys]
     numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
@@ -151,13 +151,13 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     for key, module in zip(keys, births, strict=True):
         members[numbers[key]][module] = None
     palette = colours(lineage.states.system) if len({base for base, _ in numbers}) == len(numbers) else {}
-    kinds = [_kind(lineage, list(modules), number, palette) for number, modules in enumerate(members)]
+    kinds = [_cell_kind(lineage, list(modules), number, palette) for number, modules in enumerate(members)]
     kind_of = [numbers[key] for key in keys]
     return kinds, kind_of, {cell: palette.get(lineage.cells[cell].modules[-1][1].symbol, kinds[kind_of[cell]].colour)
                             for cell in lineage.words[-1]}
 
 
-def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> CellKind:
+def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> CellKind:
     system, symbol = lineage.states.system, modules[0].symbol
     letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
     name = f"{letter}_{subscript}" if subscript else letter
@@ -166,17 +166,17 @@ def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Map
 
 
 def _base(lineage: Lineage, module: Module) -> str:
-    """A module's symbol without its polarity."""
+    """The symbol of a module without its polarity."""
     return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
 
 
-def _look(lineage: Lineage, module: Module) -> object:
-    """What a module looks like without its polarity; itself, where it is not drawn as a cell."""
+def _drawn_shape(lineage: Lineage, module: Module) -> object:
+    """The drawn shape of a module without its polarity; its arguments, if it is not drawn as a cell."""
     return tuple(made.arguments for made in interpretation_of(lineage.states, module) if is_cell(made)) or module.arguments
 
 
 def polarity_of(lineage: Lineage, module: Module) -> int:
-    """Where a cell points: -1 to the left, 1 to the right, 0 nowhere."""
+    """The polarity of a cell: -1 to the left, 1 to the right, 0 for none."""
     drawn = [made for made in interpretation_of(lineage.states, module) if is_cell(made)]
     if drawn:
         return CELLS[drawn[0].symbol]

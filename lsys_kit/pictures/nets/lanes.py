@@ -35,7 +35,7 @@ def ordered(stretches: Sequence[Stretch]) -> list[int]:
     >>> ordered([((1, 1), (2, 1)), ((0, 1), (3, 1))])
     [1, 0]
     """
-    order = sorted(range(len(stretches)), key=lambda i: (-_extent(stretches[i]), -i))
+    order = sorted(range(len(stretches)), key=lambda i: (-_stretch_length(stretches[i]), -i))
     cost = [[crossings(a, b) for b in stretches] for a in stretches]
     improved = True
     while improved:
@@ -80,7 +80,7 @@ def _high(stretch: Stretch) -> float:
     return max(stretch[0][0], stretch[1][0])
 
 
-def _extent(stretch: Stretch) -> float:
+def _stretch_length(stretch: Stretch) -> float:
     return _high(stretch) - _low(stretch)
 
 
