@@ -1,31 +1,33 @@
-"""The scene of a word: put together from pieces where many are alike, else drawn module by module, in the plane or in space."""
+"""The scene of a word: a filament, or what a turtle draws, assembled from instances where that pays, else module by module."""
 
 from __future__ import annotations
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.geometry.instancing import draw_instanced
+from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.space import in_plane, trace_in_space
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.instancing import draw_instanced
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import trace_in_space
 
 
 def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
-    """What the turtle draws of a word, or of a derivation's last one.
+    """The scene of a word, or of the last word of a derivation.
 
     Parameters
     ----------
     what
-        A word; or a derivation, whose word is then often not even built.
+        A word; or a derivation, whose last word is often not even built.
     angle
-        Degrees by which the turtle turns; by default the system's.
+        The turning angle in degrees; by default the system's.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
     ModelValueError
-        A value is no number that can be drawn.
+        A value cannot be drawn.
 
     Examples
     --------
@@ -39,11 +41,16 @@ def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
     """
     system = what.states.system
     turn = float(system.angle) if angle is None else angle
-    if isinstance(what, Derivation):
+    mode = drawing_mode(system)
+    if mode is not DrawingMode.FILAMENT and isinstance(what, Derivation):
         scene = draw_instanced(what, what.steps, turn)
         if scene is not None:
             return scene
-        what = what[-1]
-    if in_plane(system):
-        return place_path(trace(what), turn, float(system.heading))
-    return trace_in_space(what, turn)
+    word = what[-1] if isinstance(what, Derivation) else what
+    match mode:
+        case DrawingMode.FILAMENT:
+            return filament(word)
+        case DrawingMode.PLANE:
+            return place_path(trace(word), turn, float(system.heading))
+        case DrawingMode.SPACE:
+            return trace_in_space(word, turn)

@@ -1,8 +1,10 @@
-"""Filaments: cells in a row, as in seed 000's figures 1 to 3 and seed 002's figures 1, 3, 4 and 8.
+"""Filaments: cells in a row, as in figures 1 to 3 of Jacob and figures 1, 3, 4 and 8 of Prusinkiewicz.
+
+(C. Jacob, "Modeling Growth with L-Systems & Mathematica"; P. Prusinkiewicz, "Introduction to Modeling with L-systems".)
 
 A cell is what the interpretation rules make of a module: `L(length, width, shade)` points left, `R(length, width, shade)`
-right, `O(length, width, shade)` nowhere. `W(age, shade)` is a wall between two cells, which takes no room. The shade, from 0
-to 1, shows an age and may be left out.
+right, `O(length, width, shade)` nowhere. `W(age, shade)` is a wall between two cells, without thickness. The shade, from 0 to
+1, shows an age and can be omitted.
 """
 
 from __future__ import annotations
@@ -15,8 +17,8 @@ from numpy.typing import NDArray
 from lsys_kit.derivation.core.interpretation import interpretations, is_cell
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.commands import values_of
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
+from lsys_kit.geometry.turtle.instructions import values_of
 from lsys_kit.notation.model.modules import CELLS, WALL, Module
 
 
@@ -26,7 +28,7 @@ def filament(word: Word) -> Scene:
     Raises
     ------
     ModelValueError
-        A cell has a length or width that is not positive, or a value is no number that can be drawn.
+        A cell has a length or width that is not positive, or a value is too large to draw, or symbolic.
 
     Examples
     --------
@@ -37,7 +39,7 @@ def filament(word: Word) -> Scene:
     3 cells, width 5, height 1
     """
     numbers = word.numbers()
-    shapes = {state: [_shape(made, word.states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
+    shapes = {state: [_cell_or_wall(made, word.states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
               for state, image in interpretations(word.states, numbers).items()}
     rows = [(*shape, state) for state in numbers for shape in shapes[state]]
     table = np.array(rows, dtype=np.float64).reshape(-1, 6)
@@ -46,28 +48,28 @@ def filament(word: Word) -> Scene:
     cells, walls = table[~is_wall], table[is_wall]
     centres = np.column_stack([(ends - table[:, 1] / 2)[~is_wall], np.zeros(len(cells))])
     return Scene(cells=Cells(centres, cells[:, 1:3], cells[:, 3].astype(np.int64), cells[:, 4], cells[:, 5].astype(np.int64)),
-                 walls=Walls(ends[is_wall], _heights(is_wall, cells[:, 2]), walls[:, 3], walls[:, 4],
+                 walls=Walls(ends[is_wall], _wall_heights(is_wall, cells[:, 2]), walls[:, 3], walls[:, 4],
                              walls[:, 5].astype(np.int64)))
 
 
-def _heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:
-    """For each wall the width of the broader of the cells beside it."""
+def _wall_heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:
+    """For each wall the width of the wider of its two neighbours."""
     beside = np.concatenate([[0.0], widths, [0.0]])
     before = np.cumsum(~is_wall)[is_wall]  # how many cells stand before each wall
     heights: Floats = np.maximum(beside[before], beside[before + 1])
     return heights
 
 
-def _shape(made: Module, module: Module) -> tuple[float, float, float, float, float]:
-    """Whether it is a wall, its length and width, its polarity or age, and its shade."""
+def _cell_or_wall(made: Module, module: Module) -> tuple[float, float, float, float, float]:
+    """Whether a module is drawn as a wall; its length and width, its polarity or age, and its shade."""
     if made.symbol == WALL:
         values = values_of(made)
-        return 1, 0, 0, values[0] if values else math.nan, _within(values[1] if len(values) > 1 else 0.0)
+        return 1, 0, 0, values[0] if values else math.nan, _clamped(values[1] if len(values) > 1 else 0.0)
     length, width, *rest = values_of(made)
     if length <= 0 or width <= 0:
-        raise ModelValueError(f"{module} cannot be drawn as {made}: a cell's length and width are greater than 0")
-    return 0, length, width, CELLS[made.symbol], _within(rest[0] if rest else 0.0)
+        raise ModelValueError(f"{module} cannot be drawn as {made}: the length and width of a cell must be greater than 0")
+    return 0, length, width, CELLS[made.symbol], _clamped(rest[0] if rest else 0.0)
 
 
-def _within(shade: float) -> float:
+def _clamped(shade: float) -> float:
     return min(1.0, max(0.0, shade))

@@ -1,4 +1,4 @@
-"""Where the vertices of maps lie: the first cell is a regular polygon, each new vertex a point of its wall, then all relax."""
+"""The layout of maps: the first cell is a regular polygon, each new vertex a point of its wall; then all vertices relax."""
 
 from __future__ import annotations
 
@@ -13,35 +13,36 @@ import numpy as np
 from lsys_kit.budget import current
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.geometry.relaxation import NORMAL, Forces, Tissue, relax
+from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.model.maps import Edge
 
 FIRST_WALL = 0.28
-"""The length of a wall of the first cell, before it is at rest."""
-OFTEN = 100
-"""After so many iterations the time is looked at."""
+"""The length of a wall of the first cell before relaxation."""
+ITERATIONS_PER_CHECK = 100
+"""The time is checked after this number of iterations."""
 
 
-def place_maps(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]:
-    """Where the vertices of each map lie when all are at rest.
+def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
+    """The positions of the vertices of each map at equilibrium.
 
     Parameters
     ----------
     maps
         The maps of steps 0, 1, 2, ...
     forces
-        How strong cells and walls are.
+        The forces of cells and walls.
 
     Returns
     -------
     iterator of arrays
-        For each map x and y of its vertices, shape (vertices, 2). The first wall lies on top and leads to the right.
+        For each map x and y of its vertices, shape (vertices, 2). The first wall of the first cell lies on top and leads to
+        the right.
 
     Raises
     ------
     ModelLimitError
-        This takes too long.
+        The relaxation takes too long.
 
     Examples
     --------
@@ -54,23 +55,23 @@ def place_maps(maps: Iterable[Map], forces: Forces = NORMAL) -> Iterator[Floats]
     until = time.monotonic() + current().seconds
     points: Floats | None = None
     for step, found in enumerate(maps):
-        points = _at_rest(relax(initial_vertices(found, points), tissue(found), forces), step, until)
+        points = _equilibrium(relax(initial_vertices(found, points), tissue(found), forces), step, until)
         yield points
 
 
-def _at_rest(way: Iterator[Floats], step: int, until: float) -> Floats:
-    """Where the way of the vertices ends."""
-    points = next(way)
-    for iteration, farther in enumerate(way):
-        points = farther
-        if iteration % OFTEN == 0 and time.monotonic() > until:
+def _equilibrium(positions: Iterator[Floats], step: int, until: float) -> Floats:
+    """The last positions of a relaxation."""
+    points = next(positions)
+    for iteration, following in enumerate(positions):
+        points = following
+        if iteration % ITERATIONS_PER_CHECK == 0 and time.monotonic() > until:
             raise ModelLimitError(f"The cells of step {step} did not come to rest in {current().seconds:g} seconds",
                                   limit=current().seconds, hint="Take fewer steps, or set limits(seconds=...).")
     return points
 
 
-def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = NORMAL) -> Iterator[Floats]:
-    """Where the vertices of the last map lie after some numbers of iterations, which grow; before, the map before is at rest.
+def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
+    """The positions of the vertices of the last map after increasing numbers of iterations from the map before at equilibrium.
 
     >>> from lsys_kit.derivation.maps.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
@@ -88,7 +89,7 @@ def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: For
 
 
 def initial_vertices(found: Map, before: Floats | None) -> Floats:
-    """Where the vertices of a map lie at first, given where those of the map before lie, if there is one."""
+    """The initial positions of the vertices of a map, given those of the map before it, if there is one."""
     return polygon(len(found.vertices)) if before is None else insert_vertices(found, before)
 
 
@@ -99,7 +100,7 @@ def polygon(corners: int) -> Floats:
 
 
 def insert_vertices(found: Map, points: Floats) -> Floats:
-    """The vertices of a map, given where those of the map before lie: new ones part their walls into equal parts."""
+    """The positions of the vertices of a map, given those of the map before it: new ones divide their walls."""
     new = found.vertices[len(points):]
     ends = np.array([vertex.between for vertex in new], dtype=np.int64).reshape(-1, 2)
     shares = np.array([float(vertex.share) for vertex in new]).reshape(-1, 1)
@@ -107,7 +108,7 @@ def insert_vertices(found: Map, points: Floats) -> Floats:
 
 
 def tissue(found: Map) -> Tissue:
-    """What is connected with what in a map."""
+    """The topology of a map."""
     ends = np.array([(wall.start, wall.end) for wall in found.walls], dtype=np.int64)
     corners = [corner for cell in found.cells for corner in found.corners(cell)]
     return Tissue(ends, np.array(corners, dtype=np.int64), np.cumsum([0, *map(len, found.cells)]))
@@ -117,7 +118,7 @@ def scenes(maps: Iterable[Map], places: Iterable[Floats]) -> Iterator[Scene]:
     """The walls of each map as segments, its cells as polygons.
 
     The state of a segment is the number of its label, that of a polygon the number of its kind: cells of one kind have the same
-    walls around them. Both are counted from 0 in the order in which they are first met.
+    walls around them. Both are numbered from 0 in the order of their first occurrence.
     """
     labels: dict[str, int] = {}
     kinds: dict[tuple[Edge, ...], int] = {}

@@ -1,7 +1,7 @@
-"""Meshes: a scene's shapes as triangles in space, for files and views that know nothing else.
+"""Meshes: the shapes of a scene as triangles in space, for file formats and viewers.
 
-A stroke is a prism of eight sides, closed at both ends, that runs from the width of the stroke before it to its own. A polygon
-stays flat, a sphere is made from an icosahedron, a cell is a sphere made longer. What lies in the plane is set upright.
+A stroke is a tapered prism with eight sides, closed at both ends, from the width of the stroke before it to its own. A polygon
+stays flat, a sphere is a subdivided icosahedron, a cell is an ellipsoid. A scene in the plane is set upright.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ Singles: TypeAlias = NDArray[np.float32]
 Numbers: TypeAlias = NDArray[np.uint32]
 
 SIDES, ROUND = 8, 24
-"""How many sides a stroke has, and how many corners a disc."""
+"""The number of sides of a stroke, and of corners of a disc."""
 OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
-"""How wide strokes are by their branch order, where the turtle has set no width; deeper branches have the last."""
-PART, LEAST, MOST, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
-"""Such a stroke is this part of the usual stroke's length wide, but at least and at most these parts of the whole drawing; no
-stroke is thinner than the last."""
+"""Relative widths of strokes by branch order, where the turtle has set no width; the last holds for all deeper branches."""
+RELATIVE_WIDTH, LEAST_WIDTH, GREATEST_WIDTH, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
+"""The width of such a stroke relative to the median length of strokes; its bounds, and the least width of any stroke, relative
+to the extent of the scene."""
 MOST_CORNERS = 10_000
-"""A polygon with more corners than this takes too long to be parted."""
+"""A polygon with more corners takes too long to triangulate."""
 _SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
 
 
@@ -42,11 +42,11 @@ class Mesh:
     Attributes
     ----------
     vertices, normals
-        Shape (n, 3): each vertex, in the model's units, and where the surface faces there.
+        Shape (n, 3): each vertex, in the units of the model, and the normal there.
     triangles
         Shape (m, 3): the numbers of its vertices, counter-clockwise as seen from outside.
     states, colours
-        Shape (n,): for each vertex the state of its module, and the number of the colour that the turtle chose, or `OWN`.
+        Shape (n,): for each vertex the state of its module, and the number of its colour, or `OWN`.
     """
 
     vertices: Singles
@@ -57,7 +57,7 @@ class Mesh:
 
     @property
     def corners(self) -> tuple[Singles, Singles]:
-        """The least and the greatest of each coordinate; zeros where there is nothing."""
+        """The bounding box: the least and the greatest of each coordinate; zeros for an empty mesh."""
         some = self.vertices if len(self.vertices) else np.zeros((1, 3), np.float32)
         return some.min(axis=0), some.max(axis=0)
 
@@ -73,7 +73,7 @@ def mesh_of(scene: Scene) -> Mesh:
     Returns
     -------
     Mesh
-        First the strokes, then polygons, discs, spheres and cells, each in the order of the scene. Strokes of no length are
+        First the strokes, then polygons, discs, spheres and cells, each in the order of the scene. Strokes of length 0 are
         left out.
 
     Raises
@@ -90,13 +90,13 @@ def mesh_of(scene: Scene) -> Mesh:
     >>> mesh.vertices.shape, mesh.triangles.shape
     ((194, 3), (376, 3))
     """
-    _check_size(scene)
+    _check_triangles(scene)
     discs, cells = scene.discs, scene.cells
     balls = discs.kinds == SPHERE
     centres, radii = _in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
-    return _together([
-        _tubes(scene.segments, _reach(scene)),
+    return _merged_meshes([
+        _tubes(scene.segments, _extent(scene)),
         _faces(scene.polygons),
         _copies(_disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
         _copies(_ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
@@ -104,7 +104,7 @@ def mesh_of(scene: Scene) -> Mesh:
                 np.full(len(cells), OWN))])
 
 
-def _check_size(scene: Scene) -> None:
+def _check_triangles(scene: Scene) -> None:
     needed = (len(scene.segments) * (_SIDE + _CAPS) + len(scene.polygons.points)
               + len(_ball().triangles) * (len(scene.discs) + len(scene.cells)))
     if needed > current().triangles:
@@ -113,22 +113,22 @@ def _check_size(scene: Scene) -> None:
                               hint="Take fewer steps, or set limits(triangles=...).")
     most = int(np.diff(scene.polygons.starts).max(initial=0))
     if most > MOST_CORNERS:
-        raise ModelLimitError(f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be made into triangles",
+        raise ModelLimitError(f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be triangulated",
                               limit=MOST_CORNERS, needed=most, hint="Take fewer steps.")
 
 
 def _in_space(points: Floats) -> Floats:
-    """Points of the plane, set upright; those in space as they are."""
+    """Points in space: those of the plane are set upright."""
     return points if points.shape[1] == 3 else np.stack([points[:, 0], np.zeros(len(points)), points[:, 1]], axis=1)
 
 
-def _reach(scene: Scene) -> float:
-    """How far a scene reaches, in its widest direction."""
+def _extent(scene: Scene) -> float:
+    """The extent of a scene in its widest direction."""
     least, greatest = scene.corners
     return float((greatest - least).max())
 
 
-def _together(meshes: Sequence[Mesh]) -> Mesh:
+def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
     firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     triangles = [mesh.triangles + np.uint32(first) for mesh, first in zip(meshes, firsts, strict=False)]
     joined = {name: np.concatenate([getattr(mesh, name) for mesh in meshes])
@@ -145,7 +145,7 @@ def _tubes(segments: Segments, reach: float) -> Mesh:
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     there = lengths > 0
     widths = _widths(segments, lengths, reach)
-    radii = np.stack([_before(segments, widths, reach), widths], axis=1)[there] / 2
+    radii = np.stack([_previous_widths(segments, widths, reach), widths], axis=1)[there] / 2
     ways = (points[:, 1] - points[:, 0])[there] / lengths[there, None]
     rings = _rings(ways)
     vertices = points[there][:, :, None] + radii[:, :, None, None] * rings[:, None]
@@ -158,15 +158,15 @@ def _tubes(segments: Segments, reach: float) -> Mesh:
 
 
 def _widths(segments: Segments, lengths: Floats, reach: float) -> Floats:
-    """How wide each stroke is: as the turtle says, else as its branch order does."""
+    """The width of each stroke: as set by the turtle, else by its branch order."""
     usual = float(np.median(lengths)) if len(lengths) else 0.0
-    own = min(max(PART * usual, LEAST * reach), MOST * reach) * np.array(OWN_WIDTHS)
+    own = min(max(RELATIVE_WIDTH * usual, LEAST_WIDTH * reach), GREATEST_WIDTH * reach) * np.array(OWN_WIDTHS)
     by_order = own[np.minimum(segments.orders, len(OWN_WIDTHS) - 1)]
     return np.maximum(np.where(segments.widths == OWN, by_order, segments.widths), THINNEST * reach)
 
 
-def _before(segments: Segments, widths: Floats, reach: float) -> Floats:
-    """How wide each stroke is where it starts: as the last stroke of its branch that ends there, else as it is itself."""
+def _previous_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
+    """The width of each stroke at its start: that of the last stroke of its branch that ends there, else its own."""
     if len(segments) < 2 or (widths == widths[0]).all():
         return widths
     grid = np.rint(segments.points / (reach * 1e-9)).astype(np.int64).reshape(len(segments), 2, -1)
@@ -179,7 +179,7 @@ def _before(segments: Segments, widths: Floats, reach: float) -> Floats:
 
 
 def _rings(ways: Floats) -> Floats:
-    """For each direction the directions of its prism's edges from the axis, shape (n, SIDES, 3)."""
+    """For each direction the radial directions of the edges of its prism, shape (n, SIDES, 3)."""
     aside = np.zeros_like(ways)
     np.put_along_axis(aside, np.abs(ways).argmin(axis=1)[:, None], 1.0, axis=1)
     first = np.cross(ways, aside)
@@ -224,7 +224,7 @@ def _faces(polygons: Polygons) -> Mesh:
 
 
 def _facing(points: Floats, starts: Integers) -> Floats:
-    """Where each polygon faces: Newell's sum over its edges, made one long."""
+    """The unit normal of each polygon, by Newell's method."""
     if len(starts) < 2:
         return np.empty((0, 3))
     following = np.arange(1, len(points) + 1)
@@ -239,7 +239,7 @@ def _facing(points: Floats, starts: Integers) -> Floats:
 
 
 def _copies(shape: Mesh, centres: Floats, sizes: Floats, states: Integers, colours: Integers) -> Mesh:
-    """A shape about the origin at many places, stretched along the axes; sizes have the shape (n, 1) or (n, 3)."""
+    """Copies of a shape about the origin, translated and scaled along the axes; sizes have the shape (n, 1) or (n, 3)."""
     count = len(shape.vertices)
     normals = shape.normals / np.where(sizes > 0, sizes, 1.0)[:, None]
     normals /= np.linalg.norm(normals, axis=2, keepdims=True)
@@ -255,12 +255,12 @@ def _disc() -> Mesh:
     cos, sin = _circle(ROUND)
     rim = np.stack([cos, np.zeros(ROUND), sin], axis=1)
     fan = [(ROUND, k, (k + 1) % ROUND) for k in range(ROUND)]
-    return _shape(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
+    return _shape_mesh(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
 
 
 @cache
 def _ball() -> Mesh:
-    """A sphere of radius 1: an icosahedron, each of whose faces was parted into four twice."""
+    """A sphere of radius 1: an icosahedron, subdivided twice."""
     golden = (1 + 5 ** 0.5) / 2
     corners = [np.roll(np.array([0.0, a, b * golden]), k) for k in range(3) for a in (1, -1) for b in (1, -1)]
     points = [corner / np.linalg.norm(corner) for corner in corners]
@@ -269,13 +269,13 @@ def _ball() -> Mesh:
              for a in range(12) for b in range(a) for c in range(b)
              if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge]
     for _ in range(2):
-        faces = _parted(faces, points)
+        faces = _subdivided(faces, points)
     vertices = np.array(points)
-    return _shape(vertices, vertices, faces)
+    return _shape_mesh(vertices, vertices, faces)
 
 
-def _parted(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list[tuple[int, int, int]]:
-    """Each face of a sphere as four; the middles of the edges become new points."""
+def _subdivided(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list[tuple[int, int, int]]:
+    """Each face of a sphere divided into four; the midpoints of the edges become new points."""
     middles: dict[frozenset[int], int] = {}
 
     def middle(i: int, j: int) -> int:
@@ -288,6 +288,6 @@ def _parted(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list
             for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
 
 
-def _shape(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Mesh:
+def _shape_mesh(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Mesh:
     none = np.empty(0, np.int64)
     return Mesh(vertices.astype(np.float32), normals.astype(np.float32), np.array(triangles, np.uint32), none, none)

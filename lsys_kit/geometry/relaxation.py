@@ -1,8 +1,8 @@
-"""Relaxation: cells press on their walls, walls pull like springs, until all are at rest (The Algorithmic Beauty of Plants,
+"""Relaxation of cells under turgor pressure, with walls as springs, until equilibrium (The Algorithmic Beauty of Plants,
 section 7.4).
 
-The pressure in a cell is that of a dissolved substance, a constant divided by the cell's area. It pushes each wall outward, in
-proportion to the wall's length; half of the push goes to either end. So a cell can be squeezed, but never to nothing.
+The pressure in a cell is osmotic: a constant divided by the area of the cell. It pushes each wall outward in proportion to the
+length of the wall; half of the force acts on either end. So a cell can be compressed, but its area cannot vanish.
 """
 
 from __future__ import annotations
@@ -14,33 +14,33 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Integers
 
-PACE = 0.05
-"""The time of one iteration."""
-LEAST_PACE = PACE / 1_000
-"""That of an iteration in which a cell would else be turned inside out."""
+TIME_STEP = 0.05
+"""The time step of an iteration."""
+SHORTEST_TIME_STEP = TIME_STEP / 1_000
+"""The shortest time step, taken where a cell would otherwise be turned inside out."""
 AT_REST = 1e-6
-"""Vertices that move less in an iteration are at rest."""
-MOST = 20_000
-"""After so many iterations a map is taken to be at rest."""
+"""Vertices that move less than this in an iteration are at rest."""
+MOST_ITERATIONS = 20_000
+"""After this number of iterations a map is taken to be at equilibrium."""
 LEAST_AREA = 1e-3
-"""The area that a cell is taken to have where it has less, so that pressures are finite. A cell that a new wall divides outside
-of it, because it is concave, may stay turned inside out."""
+"""The least area from which a pressure is computed, so that pressures are finite. A concave cell whose new wall lies outside of
+it may stay turned inside out."""
 
 
 @dataclass(frozen=True)
 class Forces:
-    """How strong cells and walls are; with these values a single square cell has walls of length 0.2791.
+    """The forces of cells and walls; with the default values the walls of a single square cell have the length 0.2791.
 
     Attributes
     ----------
     stiffness
-        The force of a wall, for each unit that it is longer than at rest.
+        The spring constant of a wall: force per unit of elongation.
     rest
-        The length of a wall that does not pull.
+        The rest length of a wall.
     pressure
         The pressure in a cell of area 1.
     damping
-        The force that slows a vertex, for each unit of its speed. A vertex has the mass 1.
+        The damping force on a vertex per unit of its speed. A vertex has mass 1.
     """
 
     stiffness: float = 1.0
@@ -49,13 +49,13 @@ class Forces:
     damping: float = 1.0
 
 
-NORMAL = Forces()
-"""The forces where nothing is said."""
+DEFAULT_FORCES = Forces()
+"""The default forces."""
 
 
 @dataclass(frozen=True)
 class Tissue:
-    """What is connected with what.
+    """The topology of a map: which vertices bound its walls and cells.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class Tissue:
     corners
         Shape (k,): the vertices around the cells, one cell after another, clockwise.
     starts
-        Shape (c + 1,): where each cell begins in `corners`; the last is k.
+        Shape (c + 1,): the index in `corners` of the first corner of each cell; the last is k.
     """
 
     ends: Integers
@@ -79,15 +79,15 @@ class Tissue:
         return following
 
 
-def relax(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[Floats]:
-    """The vertices at first, and after each iteration until they are at rest.
+def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
+    """The positions of the vertices at first, and after each iteration until they are at rest.
 
     Parameters
     ----------
     points
-        Shape (n, 2): where the vertices are at first.
+        Shape (n, 2): the initial positions of the vertices.
     tissue, forces
-        What is connected with what, and how strongly.
+        The topology of the map, and the forces of its cells and walls.
 
     Examples
     --------
@@ -99,30 +99,30 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = NORMAL) -> Iterator[F
     speeds, following = np.zeros_like(points), tissue.following
     room = areas(points, tissue)
     yield points
-    for _ in range(MOST):
+    for _ in range(MOST_ITERATIONS):
         push = force(points, tissue, following, room, forces) - forces.damping * speeds
-        pace, moved, left = _moved(points, speeds, push, tissue, room)
+        pace, moved, left = _integrated(points, speeds, push, tissue, room)
         speeds = speeds + push * pace
-        farthest = max(np.abs(moved - points).max(), np.abs(push).max() * PACE**2)
+        farthest = max(np.abs(moved - points).max(), np.abs(push).max() * TIME_STEP**2)
         points, room = moved, left
         yield points
         if farthest < AT_REST:
             return
 
 
-def _moved(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:
-    """The vertices a moment later, so short that no cell loses more than half of its area: the moment, they, and the areas."""
-    pace = PACE
+def _integrated(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:
+    """One time step, short enough that no cell loses more than half of its area: its length, the positions and the areas."""
+    pace = TIME_STEP
     while True:
         moved = points + (speeds + push * pace) * pace
         left = areas(moved, tissue)
-        if pace < LEAST_PACE or ((left > room / 2) | (room < LEAST_AREA)).all():
+        if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < LEAST_AREA)).all():
             return pace, moved, left
         pace /= 2
 
 
 def force(points: Floats, tissue: Tissue, following: Integers, room: Floats, forces: Forces) -> Floats:
-    """The force on each vertex: of the walls that end there, and of the cells that have it as a corner."""
+    """The force on each vertex, of the walls that end there and the cells around it."""
     first, second = tissue.ends.T
     along = points[second] - points[first]
     lengths = np.hypot(*along.T)
@@ -130,17 +130,17 @@ def force(points: Floats, tissue: Tissue, following: Integers, room: Floats, for
     sides = points[following] - points[tissue.corners]
     pressures = forces.pressure / np.maximum(room, LEAST_AREA)
     outward = np.column_stack([-sides[:, 1], sides[:, 0]]) * np.repeat(pressures, np.diff(tissue.starts))[:, None] / 2
-    return (_gathered(first, pull, len(points)) - _gathered(second, pull, len(points))
-            + _gathered(tissue.corners, outward, len(points)) + _gathered(following, outward, len(points)))
+    return (_summed_at_vertices(first, pull, len(points)) - _summed_at_vertices(second, pull, len(points))
+            + _summed_at_vertices(tissue.corners, outward, len(points)) + _summed_at_vertices(following, outward, len(points)))
 
 
-def _gathered(at: Integers, pushes: Floats, size: int) -> Floats:
-    """The sum of the pushes at each vertex."""
+def _summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:
+    """The sum of forces at each vertex."""
     return np.column_stack([np.bincount(at, weights=part, minlength=size) for part in pushes.T])
 
 
 def areas(points: Floats, tissue: Tissue) -> Floats:
-    """The area of each cell, negative for one that is turned inside out."""
+    """The signed area of each cell, negative if it is turned inside out."""
     x, y = points[tissue.corners].T
     beyond, above = points[tissue.following].T
     found: Floats = np.add.reduceat(beyond * y - x * above, tissue.starts[:-1]) / 2

@@ -1,7 +1,7 @@
-"""Scenes: what there is to see, as arrays of plain shapes, each with the module that it came from.
+"""Scenes: arrays of plain shapes, each with the state of the module that it comes from.
 
-Lengths are in the model's units. In the plane x grows to the right and y upwards; in space x grows to the right, z upwards,
-and y away from the viewer. A scene knows no screen, no palette and no file.
+Lengths are in the units of the model. In the plane x grows to the right and y upwards; in space x grows to the right, z
+upwards, and y away from the viewer. A scene knows no screen, no palette and no file.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 
 OWN = -1
-"""The colour of a shape that has that of its symbol, and the width of a stroke that has that of its branch order."""
+"""Stands for the colour that belongs to the symbol of a shape, or the width that belongs to the branch order of a stroke."""
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,13 @@ class Segments:
     ends
         Shape (n, 4) in the plane: x and y of the start, x and y of the end; (n, 6) in space.
     orders
-        Shape (n,): in how many brackets each stands; the branch order.
+        Shape (n,): the branch order of each, the number of brackets around it.
     states
         Shape (n,): the state of the module that drew it.
     widths
-        Shape (n,), in the model's units; or shape (1,) for all. `OWN` where the turtle has set none.
+        Shape (n,), in the model's units; or shape (1,) for all. `OWN` if the turtle has set none.
     colours
-        Shape (n,): numbers of the tradition's colours; or shape (1,) for all. `OWN` where the turtle has chosen none.
+        Shape (n,): numbers of colours; or shape (1,) for all. `OWN` if the turtle has set none.
     """
 
     ends: Floats
@@ -51,7 +51,7 @@ class Segments:
 
     @property
     def points(self) -> Floats:
-        """All their ends, shape (2n, 2) or (2n, 3)."""
+        """All end points, shape (2n, 2) or (2n, 3)."""
         return self.ends.reshape(-1, self.ends.shape[1] // 2)
 
 
@@ -66,11 +66,11 @@ class Cells:
     sizes
         Shape (n, 2): length along the filament, and width.
     polarities
-        Shape (n,): -1 for a cell that points left, 1 for one that points right, 0 for one that points nowhere.
+        Shape (n,): -1 for a cell that points left, 1 for one that points right, 0 for one without polarity.
     shades
         Shape (n,): 0 for a young cell to 1 for an old one.
     states
-        Shape (n,): the state of the module that it is.
+        Shape (n,): the state of the module of each.
     """
 
     centres: Floats
@@ -84,7 +84,7 @@ class Cells:
 
     @property
     def points(self) -> Floats:
-        """The corners around them."""
+        """The corners of their bounding boxes."""
         return np.concatenate([self.centres - self.sizes / 2, self.centres + self.sizes / 2])
 
 
@@ -95,11 +95,11 @@ class Walls:
     Attributes
     ----------
     places
-        Shape (n,): how far along the filament each stands.
+        Shape (n,): the position of each along the filament.
     heights
-        Shape (n,): the width of the broader of the cells beside it.
+        Shape (n,): the width of the wider of the two neighbouring cells.
     ages
-        Shape (n,): not a number where a wall has no age.
+        Shape (n,): NaN if a wall has no age.
     shades, states
         Shape (n,), as of `Cells`.
     """
@@ -115,7 +115,7 @@ class Walls:
 
     @property
     def points(self) -> Floats:
-        """Their ends."""
+        """Their end points."""
         return np.concatenate([np.column_stack([self.places, side * self.heights / 2]) for side in (-1, 1)])
 
 
@@ -128,7 +128,7 @@ class Polygons:
     points
         Shape (m, 2) or (m, 3): the corners of all, one polygon after another.
     starts
-        Shape (n + 1,): where each begins in `points`; the last is m.
+        Shape (n + 1,): the index in `points` of the first corner of each; the last is m.
     states, colours
         Shape (n,), as of `Segments`.
     """
@@ -173,7 +173,7 @@ class Discs:
 
     @property
     def points(self) -> Floats:
-        """The corners around them."""
+        """The corners of their bounding boxes."""
         reach = self.radii[:, None]
         return np.concatenate([self.centres - reach, self.centres + reach])
 
@@ -208,14 +208,14 @@ def no_discs(dimension: int = 2) -> Discs:
 
 @dataclass(frozen=True)
 class Scene:
-    """All shapes of one word, in the plane or in space.
+    """The shapes of a word, in the plane or in space.
 
     Attributes
     ----------
     segments, cells, walls, polygons, discs
         The shapes.
     unknown
-        The symbols that have no meaning to the turtle, in the order in which they were met.
+        The symbols that look like commands and are none, in the order of their first occurrence.
     """
 
     segments: Segments = field(default_factory=no_segments)
@@ -232,47 +232,48 @@ class Scene:
 
     @property
     def corners(self) -> tuple[Floats, Floats]:
-        """The least and the greatest of each coordinate; zeros where there is nothing."""
+        """The bounding box: the least and the greatest of each coordinate; zeros for an empty scene."""
         shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs)
         found = [each.points for each in shapes if len(each)] or [np.zeros((1, self.dimension))]
-        axes = range(self.dimension)  # column by column, which numpy does ten times as fast
+        axes = range(self.dimension)  # column by column, which is ten times as fast
         return (np.array([min(points[:, axis].min() for points in found) for axis in axes]),
                 np.array([max(points[:, axis].max() for points in found) for axis in axes]))
 
     @property
     def box(self) -> tuple[float, float, float, float]:
-        """Least x, least y, greatest x, greatest y of what is seen in the plane; zeros where there is nothing."""
+        """Least x, least y, greatest x, greatest y in the plane of the picture; zeros for an empty scene."""
         least, greatest = self.corners
         up = self.dimension - 1  # y in the plane, z in space
         return float(least[0]), float(least[up]), float(greatest[0]), float(greatest[up])
 
     @property
     def width(self) -> float:
-        """From the least x to the greatest, in the model's units."""
+        """The extent in x, in the units of the model."""
         left, _, right, _ = self.box
         return right - left
 
     @property
     def height(self) -> float:
-        """From the lowest point to the highest, in the model's units."""
+        """The extent from the lowest point to the highest, in the units of the model."""
         _, bottom, _, top = self.box
         return top - bottom
 
     @property
     def passed_over(self) -> str:
-        """Which commands were passed over, in words; empty where there were none."""
+        """The symbols that look like commands and are none, in words; empty if there are none."""
         return f"passed over, without a meaning here: {quotable(' '.join(self.unknown))}" if self.unknown else ""
 
     def __str__(self) -> str:
-        """What there is, in words: the line that stands for a picture where there is none."""
+        """The scene in words: the line that replaces a picture where none can be shown."""
         kinds = ((self.segments, "segment"), (self.cells, "cell"), (self.walls, "wall"), (self.polygons, "polygon"),
                  (self.discs, "disc"))
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
         least, greatest = self.corners
-        depth = f", depth {_short(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
-        return (f"{', '.join(counted) or 'nothing to draw'}, width {_short(self.width)}, height {_short(self.height)}{depth}")
+        depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
+        return (f"{', '.join(counted) or 'nothing to draw'}, width {_two_decimals(self.width)}, "
+                f"height {_two_decimals(self.height)}{depth}")
 
 
-def _short(length: float) -> str:
-    """A length with at most two decimals; a rounding error of the last bits does not show."""
+def _two_decimals(length: float) -> str:
+    """A length with at most two decimals, in which rounding errors do not show."""
     return f"{length + 1e-9:.2f}".rstrip("0").rstrip(".")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
-from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
@@ -16,6 +15,7 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.filaments import LOOKS
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_ROWS = 24
-"""A developmental sequence shows at most so many steps, the last ones."""
+"""The greatest number of rows of a developmental sequence, which shows the last steps."""
 
 
 @overload
@@ -55,9 +55,9 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         A system is derived first. A filament is then shown as a developmental sequence, one row a step; anything else as
         the turtle draws its last word. A single word is shown as it is. The maps of a map system stand side by side.
     n
-        For a system how many steps; by default those that the system asks for.
+        The number of steps of a system; by default its own.
     angle
-        Degrees by which `+` and `-` turn; by default the system's.
+        The turning angle in degrees; by default the system's.
     cells
         How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses"; by default as the system says.
     **choices
@@ -70,7 +70,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     Raises
     ------
     ModelValueError
-        It is nothing that can be drawn, or the choices do not belong to it.
+        It cannot be drawn, or the choices do not apply to it.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     192 segments, width 27, height 31.18
     """
     if isinstance(what, Stages):
-        return _diagram(what, **choices)
+        return _net_picture(what, **choices)
     if isinstance(what, MapSystem | Development):
         return map_picture(what, n, **choices)
     if isinstance(what, Lineage):
@@ -87,7 +87,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     return _drawing(what, n, **choices)
 
 
-def _diagram(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
+def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
 
 
@@ -97,7 +97,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
     what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
-    if is_filament(what.states.system):
+    if drawing_mode(what.states.system) is DrawingMode.FILAMENT:
         return _sequence(what, marked, cells)
     turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
     step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)
@@ -106,7 +106,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
 
 
 def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
-    """The derivation of a system; anything else as it is, for its steps are chosen already."""
+    """The derivation of a system; a derivation or word unchanged, because its steps are fixed already."""
     if isinstance(what, LSystem):
         return derive(what, n if n is not None else what.steps if what.steps is not None else 5, **choices)
     if n is not None or choices.keys() - {"seed", "arithmetic"}:
@@ -125,7 +125,7 @@ def _sequence(what: Derivation | Word, marked: Collection[int], cells: str | Non
 
 def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], current: int | None, marked: Collection[int] = (),
                      cells: str | None = None) -> Picture:
-    """The picture of a filament's rows, as its system asks for it."""
+    """The picture of the rows of a filament, with the settings of its system."""
     look = what.states.system.cells if cells is None else cells
     if look not in LOOKS:
         raise ModelValueError(f"Cells are drawn as {' or '.join(LOOKS)}, not as {look!r}")
@@ -139,7 +139,7 @@ def state_colours(what: Derivation | Word) -> Mapping[int, str]:
 
 
 def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, **choices: Any) -> Axes:
-    """The same drawing in a matplotlib figure, to be put beside other plots.
+    """Draw into a matplotlib figure, to be combined with other plots.
 
     Parameters
     ----------

@@ -1,7 +1,8 @@
 """Filaments as pictures: the rows of a developmental sequence below one another, with a common scale.
 
-Cells are ellipses, as in seed 000's figures, or rectangles with round ends, as in seed 002's, in which the smallest cells are
-round; arrows are their polarity. Walls are bars, thicker and darker with age, with their age in figures.
+Cells are ellipses, as in the figures of C. Jacob ("Modeling Growth with L-Systems & Mathematica"), or rectangles with round
+ends, as in those of P. Prusinkiewicz ("Introduction to Modeling with L-systems"), in which the smallest cells are round; arrows
+show their polarity. Walls are bars, thicker and darker with age, with their age in figures.
 """
 
 from __future__ import annotations
@@ -18,17 +19,17 @@ from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, 
 from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, FilamentRow
 
 LOOKS = ("rectangles", "ellipses")
-"""How cells may be drawn."""
+"""The shapes in which cells can be drawn."""
 HEAD, STEPS, TIMES, AGES = 18, 34, 46, 12
 """Room for the heading, the column of steps, that of times, and the ages of walls, in pixels."""
 TALLEST, FILLED = 46.0, 0.66
-"""How far rows are apart at most, in pixels, and how much of that is filled."""
+"""The greatest distance of rows, in pixels, and the part of it that cells fill."""
 LEGIBLE = 28
-"""Ages of walls are written where rows are so many pixels apart."""
+"""Ages of walls are written where the distance of rows is greater than this, in pixels."""
 
 
 class DrawnCell(NamedTuple):
-    """A cell in the picture: its middle, half its length and width, its polarity, shade and state."""
+    """A cell in the picture: its centre, half its length and width, its polarity, shade and state."""
 
     x: float
     length: float
@@ -39,7 +40,7 @@ class DrawnCell(NamedTuple):
 
 
 class DrawnWall(NamedTuple):
-    """A wall in the picture: where it stands, half its height, its age in figures, its shade and state."""
+    """A wall in the picture: its position, half its height, its age in figures, its shade and state."""
 
     x: float
     height: float
@@ -50,22 +51,22 @@ class DrawnWall(NamedTuple):
 
 @dataclass(frozen=True)
 class FilamentLayout:
-    """Where the rows stand in a picture, in pixels.
+    """The layout of the rows of a picture, in pixels.
 
     Attributes
     ----------
     rows
         The rows.
     numbered
-        Whether their steps stand beside them.
+        Whether the rows are labelled with their steps.
     time
-        How long a step takes; None where times do not stand beside them.
+        The duration of a step; None if rows are not labelled with times.
     scale
-        Pixels for a unit of length.
+        Pixels per unit of length.
     gutter, head, above
         Room to the left of all rows, above them all, and above each row's cells.
     pitch
-        How far rows are apart.
+        The distance of rows.
     """
 
     rows: Sequence[FilamentRow]
@@ -83,7 +84,7 @@ class FilamentLayout:
         return round(self.pitch * len(self.rows)) + self.head + 2 * MARGIN
 
     def middle(self, place: int) -> float:
-        """How far down the cells of a row stand."""
+        """The vertical position of the cells of a row."""
         return MARGIN + self.head + self.pitch * (place + 0.5) + self.above / 2
 
     def cells(self, row: FilamentRow) -> Iterator[DrawnCell]:
@@ -102,22 +103,22 @@ class FilamentLayout:
                     walls.shades.tolist(), walls.states.tolist(), strict=True))
 
     def _left(self, row: FilamentRow) -> float:
-        """Where a row begins: all are centred."""
+        """The left end of a row: all rows are centred."""
         return self.gutter + (WIDTH - self.gutter - MARGIN - row.scene.width * self.scale) / 2
 
 
 def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None,
                     written: bool = True) -> FilamentLayout:
-    """The sheet for some rows.
+    """The layout of some rows.
 
     Parameters
     ----------
     rows
         The rows.
     numbered
-        Whether their steps stand beside them.
+        Whether the rows are labelled with their steps.
     time
-        How long a step takes; times stand beside the rows too, where they are not those of the steps.
+        The duration of a step; rows are labelled with times too, if that is not 1.
     written
         Whether there is any text.
     """
@@ -139,14 +140,14 @@ def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], cur
     for place, row in enumerate(sheet.rows):
         middle = sheet.middle(place)
         if sheet.numbered:
-            body.append(_labels(sheet, row.step, middle, row.step == current))
+            body.append(_row_labels(sheet, row.step, middle, row.step == current))
         body.append(filament_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
         body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
     return "".join(body)
 
 
 def _heading(sheet: FilamentLayout) -> str:
-    """What stands in the columns."""
+    """The headings of the columns."""
     y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
@@ -154,8 +155,8 @@ def _heading(sheet: FilamentLayout) -> str:
                    f'fill="{QUIET}">{text}</text>' for x, text in texts)
 
 
-def _labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
-    """A row's step and time, on a band where it is the current one."""
+def _row_labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
+    """The step and time of a row, on a band if it is the current one."""
     top, size = middle - sheet.above / 2 - sheet.pitch / 2, tenths(min(14.0, 0.8 * sheet.pitch))
     band = (f'<rect x="40" y="{tenths(top)}" width="{WIDTH * 10 - 80}" height="{tenths(sheet.pitch)}" rx="60" fill="{MARK}"/>'
             if current else "")
@@ -168,7 +169,7 @@ def _labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> s
 
 
 def time_text(time: Value) -> str:
-    """A time in figures: exactly where that is short.
+    """A time in figures, exact if that is short.
 
     >>> time_text(0.7), time_text(2 / 3)
     ('0.7', '0.6667')
@@ -203,7 +204,7 @@ def arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
 
 
 def wall_width(shade: float) -> float:
-    """How thick a wall is drawn, in pixels."""
+    """The width of the line of a wall, in pixels."""
     return 1.5 + 3.0 * shade
 
 
@@ -220,14 +221,14 @@ def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
         colour = MARK_EDGE if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
         parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
-    if aged and _apart(walls):
+    if aged and _ages_fit(walls):
         parts += [f'<text x="{tenths(wall.x)}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" text-anchor="middle" '
                   f'font-family="sans-serif" fill="{INK}">{wall.age}</text>' for wall in walls]
     return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
 
 
-def _apart(walls: Sequence[DrawnWall]) -> bool:
-    """Whether the ages of walls can stand side by side."""
+def _ages_fit(walls: Sequence[DrawnWall]) -> bool:
+    """Whether the ages of walls fit side by side."""
     return all(left.x + 3.2 * len(left.age) < right.x - 3.2 * len(right.age) for left, right in pairwise(walls))
 
 

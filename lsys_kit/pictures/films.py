@@ -13,13 +13,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.files import marked_gif, marked_png
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.files import save_as
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 SECONDS, HELD = 0.6, 4
-"""How long each step is shown, and how many times as long the last."""
+"""The duration of each step in seconds, and the factor by which the last is shown longer."""
 MOST_FRAMES = 300
-"""A film has at most so many steps."""
+"""The greatest number of steps of a film."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Film:
     images
         The pictures, all of the same size.
     seconds
-        How long each is shown; the last stays `HELD` times as long.
+        The duration of each picture; the last is shown `HELD` times as long.
     """
 
     text: str
@@ -57,7 +57,7 @@ class Film:
 
     @cached_property
     def gif(self) -> bytes:
-        """The film as a GIF that begins again and again."""
+        """The film as a GIF that loops for ever."""
         return self._film("GIF")
 
     @cached_property
@@ -66,12 +66,12 @@ class Film:
         return self._film("PNG")
 
     def save(self, path: str | Path) -> None:
-        """Write the film to a file, in the format that its name ends in: .gif, .apng or .png.
+        """Write the film to a file, in the format given by its extension: .gif, .apng or .png.
 
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".gif": lambda: marked_gif(self.gif), ".apng": lambda: marked_png(self.apng),
                              ".png": lambda: marked_png(self.apng)})
@@ -98,9 +98,9 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     what
         A system, which is derived first, or a derivation.
     n
-        For a system how many steps; by default those that the system asks for.
+        The number of steps of a system; by default its own.
     seconds
-        How long each step is shown; the last is held longer.
+        The duration of each step; the last is shown longer.
     angle, seed, arithmetic, **constants
         As for `draw`.
 
@@ -128,25 +128,25 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     if derivation.steps >= MOST_FRAMES:
         raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
                               limit=MOST_FRAMES, needed=derivation.steps + 1)
-    if is_filament(derivation.states.system):
-        return _rows(derivation, pace)
+    if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
+        return _sequence_film(derivation, pace)
     turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
     scenes = [project(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
-    frame, colour_of = _common(scenes), state_colours(derivation)
-    return Film(_said(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
+    frame, colour_of = _common_frame(scenes), state_colours(derivation)
+    return Film(_caption(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
 
 
-def _said(derivation: Derivation, last: Scene) -> str:
+def _caption(derivation: Derivation, last: Scene) -> str:
     return f"steps 0 to {derivation.steps}; the last: {last}"
 
 
-def _common(scenes: list[Scene]) -> ViewFrame:
-    """A frame that holds all scenes."""
+def _common_frame(scenes: list[Scene]) -> ViewFrame:
+    """A frame that contains all scenes."""
     left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
     return frame_of((min(left), min(bottom), max(right), max(top)))
 
 
-def _rows(derivation: Derivation, pace: float) -> Film:
+def _sequence_film(derivation: Derivation, pace: float) -> Film:
     """A developmental sequence, whose rows appear one after another."""
     from PIL import Image
 

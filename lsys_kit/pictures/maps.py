@@ -1,5 +1,5 @@
-"""Maps as pictures: the steps of a development side by side, with a common scale, as in seed 003 and The Algorithmic Beauty of
-Plants, chapter 7.
+"""Maps as pictures: the steps of a development side by side, with a common scale, as in The Algorithmic Beauty of Plants,
+chapter 7, and W. Kurth's lecture slides on L-systems.
 
 Walls have their labels, and arrows where they have a direction. Cells of one colour have the same walls around them.
 """
@@ -30,23 +30,23 @@ from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import MARGIN, ViewFrame, background, described, document
 
 WIDTH, HIGHEST = 760, 400
-"""The width of a line of maps and the height of a map at most, in pixels."""
+"""The greatest width of a line of maps and height of a map, in pixels."""
 LARGE, MIDDLE, SMALL = 180.0, 130.0, 95.0
-"""Pixels for a unit: of few maps; of maps in several lines; of maps in one line at least."""
+"""Pixels per unit: for few maps; for maps in several lines; the least for maps in one line."""
 GAP, CAPTION, NUMBER = 22, 34, 14
 """The space between two maps, that below one, and the size of the number of its step there, in pixels."""
 MOST_MAPS, STEPS = 12, 4
-"""A picture shows so many maps, those of the last steps; so many steps are derived where nothing is said."""
+"""The greatest number of maps in a picture, which shows the last ones; the default number of steps."""
 LABEL, LEAST_LABELLED, LEAST_POINTED = 13.0, 24.0, 13.0
-"""The size of a label, and how long walls are that have a label or an arrow, in pixels."""
+"""The size of a label; the least lengths of walls with a label and with an arrow, in pixels."""
 FILLS = tuple(tinted(colour, strength) for strength in (0.3, 0.6) for colour in SERIES)
-"""The colours of the kinds of cells that are met first."""
+"""The colours of the first kinds of cells."""
 REST = tinted(QUIET, 0.13)
-"""The colour of cells of all further kinds."""
+"""The colour of all further kinds of cells."""
 RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "damping": (0.1, 10)}
-"""Between which values the forces can be computed."""
+"""The least and the greatest value of each force."""
 ROUNDING = 1e-6
-"""By how much of a pixel lengths may be wrong that ought to be whole."""
+"""Rounding errors up to this, in pixels, do not enlarge a picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +56,11 @@ class MapPicture:
     Attributes
     ----------
     maps, places, scenes
-        The maps that are shown, where their vertices lie, and their walls and cells.
+        The maps that are shown, the positions of their vertices, and their walls and cells as scenes.
     numbers
-        What stands below them: steps, or iterations.
+        The numbers below them: steps, or iterations.
     step
-        The step whose cells come to rest, or None.
+        The step whose relaxation is shown, or None.
     """
 
     maps: Sequence[Map]
@@ -101,7 +101,7 @@ class MapPicture:
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
@@ -114,7 +114,7 @@ class MapPicture:
 
 def map_picture(what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (),
                 **forces: object) -> MapPicture:
-    """The picture of a map system after `n` steps, or of a development; or of its last step on the way to rest."""
+    """The picture of a map system after `n` steps, or of a development; or of the relaxation of its last step."""
     if isinstance(what, MapSystem):
         what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     elif n is not None:
@@ -122,11 +122,11 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
     if iterations:
         _check_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)
-        _check_size(shown)
+        _check_walls(shown)
         places = [*relaxation_steps(what, iterations, forces_of(forces))]
         return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps)
     first = max(0, len(what) - MOST_MAPS)
-    _check_size(what[first:])
+    _check_walls(what[first:])
     places = [*place_maps(what, forces_of(forces))]
     return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)))
 
@@ -140,7 +140,7 @@ def _check_iterations(iterations: Sequence[int]) -> None:
         raise ModelValueError(f"A picture shows {MOST_MAPS} iterations at most, not {len(iterations)}")
 
 
-def _check_size(maps: Sequence[Map]) -> None:
+def _check_walls(maps: Sequence[Map]) -> None:
     walls = sum(len(found.walls) for found in maps)
     if walls > current().segments:
         raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
@@ -148,7 +148,7 @@ def _check_size(maps: Sequence[Map]) -> None:
 
 
 def forces_of(choices: dict[str, object]) -> Forces:
-    """The forces that are chosen; the others as they are.
+    """The chosen forces; the others by default.
 
     >>> forces_of({"pressure": "1/5"})
     Forces(stiffness=1.0, rest=0.1, pressure=0.2, damping=1.0)
@@ -165,7 +165,7 @@ def forces_of(choices: dict[str, object]) -> Forces:
 
 
 class Panel(NamedTuple):
-    """Where a map stands in the picture, and where the number of its step stands, in tenths of a pixel."""
+    """The frame of a map in the picture, and the position of its number below, in tenths of a pixel."""
 
     frame: ViewFrame
     x: int
@@ -173,9 +173,9 @@ class Panel(NamedTuple):
 
 
 def arranged(some: Sequence[Scene]) -> list[Panel]:
-    """For each map where it stands: in lines, each in the middle, with a common scale."""
-    scale = _scale(some)
-    lines = [*_lines(some, scale)]
+    """The panel of each map: in centred lines, with a common scale."""
+    scale = _common_scale(some)
+    lines = [*_maps_by_line(some, scale)]
     widths = [math.fsum(scene.width * scale + GAP for scene in line) - GAP for line in lines]
     heights = [max(scene.height for scene in line) * scale for line in lines]
     lowest = math.fsum(heights) + len(lines) * CAPTION
@@ -194,15 +194,15 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
     return panels
 
 
-def _scale(some: Sequence[Scene]) -> float:
-    """Pixels for a unit: so many that all maps stand in one line, if they are large enough there."""
+def _common_scale(some: Sequence[Scene]) -> float:
+    """Pixels per unit: such that all maps fit into one line, if they are large enough then."""
     in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / math.fsum(scene.width for scene in some)
     return min(min(LARGE, in_line) if in_line >= SMALL else MIDDLE, *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
                *(HIGHEST / scene.height for scene in some))
 
 
-def _lines(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
-    """Maps that stand beside one another."""
+def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
+    """The maps of each line."""
     line: list[Scene] = []
     across = 0.0
     for scene in some:
@@ -240,17 +240,17 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame) -> str:
         length = math.hypot(to_x - x, to_y - y)
         strokes.append(f"M{x} {y}L{to_x} {to_y}")
         if wall.directed and length > LEAST_POINTED * 10:
-            arrows.append(_arrow(x, y, to_x, to_y, length))
+            arrows.append(_wall_arrow(x, y, to_x, to_y, length))
         if length > LEAST_LABELLED * 10:
-            labels.append(_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
+            labels.append(_wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
     return (f'<path d="{"".join(strokes)}" fill="none" stroke="{INK}" stroke-width="16" stroke-linecap="round"/>'
             f'<path d="{"".join(arrows)}" fill="{INK}"/>'
             f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{INK}" stroke="{PAPER}" '
             f'stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
 
 
-def _arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
-    """A head that points along a wall, behind its middle."""
+def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
+    """An arrowhead along a wall, beyond its middle."""
     along, across = (to_x - x) / length, (to_y - y) / length
     reach = min(70.0, 0.25 * length)
     tip = 0.76 * length + reach / 2
@@ -259,6 +259,6 @@ def _arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
     return f"M{'L'.join(at)}Z"
 
 
-def _label(label: str, x: int, y: int) -> str:
+def _wall_label(label: str, x: int, y: int) -> str:
     letter, number = re.fullmatch(r"(\D)(\d*)", label).groups()  # type: ignore[union-attr]
     return f'<text x="{x}" y="{y + round(3.4 * LABEL)}">{letter_svg(letter, number)}</text>'

@@ -1,4 +1,4 @@
-"""Pictures of words and of stage diagrams: what they show, and every format in which a page or a file has them."""
+"""Pictures of words and of stage diagrams, in every format in which a page shows them or a file keeps them."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ class Picture:
     marked
         The states whose modules are marked.
     solid
-        The scene of the last step as it is in space; None where it lies in the plane.
+        The scene of the last step in space; None if it lies in the plane.
     look
         How cells are drawn: as "rectangles" or "ellipses".
     time
-        How long a step of a filament takes, where its system says so.
+        The duration of a step of a filament, if its system defines one.
     """
 
     rows: tuple[FilamentRow, ...]
@@ -62,7 +62,7 @@ class Picture:
 
     @property
     def scene(self) -> Scene:
-        """The scene of the last step shown, as it is seen."""
+        """The projected scene of the last step shown."""
         return self.rows[-1].scene
 
     @cached_property
@@ -100,15 +100,15 @@ class Picture:
         return mesh_of(self.scene if self.solid is None else self.solid)
 
     def save(self, path: str | Path) -> None:
-        """Write the picture to a file, in the format that its name ends in: .svg, .png, .pdf, .glb or .obj.
+        """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.
 
-        The last two are for programs that show things in space: they have the last step alone. The colours of an .obj file
-        stand in an .mtl file beside it.
+        The last two are for 3D programs and contain only the last step. The colours of an .obj file are kept in an .mtl file
+        beside it.
 
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         path = Path(path)
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
@@ -135,9 +135,9 @@ class NetPicture:
     net
         The diagram's net.
     tokens
-        How many modules lie in each place, or None.
+        The number of modules in each place, or None.
     positions
-        Whether arcs say where in the successor a module stands.
+        Whether arcs are labelled with the positions of their modules in the successor.
     """
 
     net: Stages
@@ -155,7 +155,7 @@ class NetPicture:
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg),
                              ".pnml": lambda: marked_xml(pnml(self.net, self.tokens))})
@@ -168,7 +168,7 @@ class NetPicture:
 
 
 def plotted(picture: Picture, ax: Axes) -> Axes:
-    """The axes into which a picture was drawn, without frame, with equal scales."""
+    """The axes with the picture drawn into them, without frame, with equal scales."""
     if len(picture.scene.cells):
         plot_rows(ax, picture.rows, picture.look, picture.colour_of)
     else:
@@ -186,6 +186,6 @@ def _pdf(picture: Picture) -> bytes:
     sheet = plotted(picture, new_axes()).get_figure(root=True)
     assert sheet is not None
     facts = {"CreationDate": None, "Title": picture.text, "Creator": MARK.decode()}
-    with rc_context({"pdf.fonttype": 42}):  # letters that other programs can change and search
+    with rc_context({"pdf.fonttype": 42}):  # embedded fonts, so that text can be searched and edited
         sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata=facts)
     return buffer.getvalue()

@@ -16,7 +16,7 @@ from lsys_kit.geometry.scene import CIRCLE, OWN, Discs, Floats, Integers, Polygo
 from lsys_kit.pictures.style.palette import CHOSEN, GREEN, MARK_EDGE, PAPER, tinted
 
 WIDTH, HEIGHT = 600, 400
-"""The largest picture, in pixels."""
+"""The size of the largest picture, in pixels."""
 MARGIN = 12
 """White space around a drawing, in pixels."""
 STROKES = (2.4, 1.7, 1.3, 1.0)
@@ -26,12 +26,12 @@ STROKES = (2.4, 1.7, 1.3, 1.0)
 THINNEST, BROADEST = 3, 4_000
 """The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
 SAMPLE = 20_000
-"""Of so many strokes at most the lengths are looked at, to see how close they stand."""
+"""The median length of strokes is estimated from at most this number of them."""
 
 
 @dataclass(frozen=True)
 class ViewFrame:
-    """How a scene's units become tenths of a pixel."""
+    """The transform from the units of a scene to tenths of a pixel."""
 
     scale: float
     left: float
@@ -65,7 +65,7 @@ def document(body: str, width: int, height: int, description: str) -> str:
 
 
 def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
-    """What a turtle has drawn: surfaces, then strokes, then discs."""
+    """A scene of a turtle as SVG: surfaces, then strokes, then discs."""
     parts = (polygons_svg(scene.polygons, frame, colour_of) if len(scene.polygons) else "",
              strokes_svg(scene.segments, frame, colour_of, marked),
              discs_svg(scene.discs, frame, colour_of) if len(scene.discs) else "")
@@ -73,7 +73,7 @@ def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], mar
 
 
 def polygons_svg(polygons: Polygons, frame: ViewFrame, colour_of: Mapping[int, str]) -> str:
-    """Surfaces: filled, with an edge of their own colour."""
+    """Surfaces, filled, with an outline of the same colour."""
     shapes = []
     for corners, colour in zip(polygons, shape_colours(polygons, colour_of), strict=True):
         points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
@@ -93,7 +93,7 @@ def discs_svg(discs: Discs, frame: ViewFrame, colour_of: Mapping[int, str]) -> s
 
 
 def strokes_svg(segments: Segments, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
-    """The strokes of a turtle: a path for each colour and width, marked ones on a broad band."""
+    """The strokes of a turtle: a path for each colour and width; marked strokes lie on a broad band."""
     points = frame.points(segments.ends)
     body = []
     if marked:
@@ -107,9 +107,9 @@ def strokes_svg(segments: Segments, frame: ViewFrame, colour_of: Mapping[int, st
 
 
 def groups(segments: Segments, scale: float, colour_of: Mapping[int, str]) -> Iterator[tuple[str, int, NDArray[np.bool_]]]:
-    """The strokes that are drawn alike: their colour, their width in tenths of a pixel, and which they are; broad ones first.
+    """Groups of strokes with the same look: colour, width in tenths of a pixel, and a mask of the strokes; broad ones first.
 
-    A width that the turtle has set is one of the drawing; else it goes with the branch order, deep ones alike.
+    A width that the turtle has set is scaled with the drawing; other widths depend on the branch order.
     """
     thin = stroke_scale(segments, scale)
     by_order = np.array([round(10 * width * thin) for width in STROKES])
@@ -141,7 +141,7 @@ def shape_colours(shapes: Polygons | Discs, colour_of: Mapping[int, str]) -> lis
 
 
 def stroke_scale(segments: Segments, scale: float) -> float:
-    """How much thinner strokes are drawn where they stand close: 1 for strokes of 12 pixels or more, never below 0.3."""
+    """The factor by which dense strokes are thinned: 1 for a median length of 12 pixels or more, at least 0.3."""
     if not len(segments):
         return 1.0
     some = segments.ends[::len(segments) // SAMPLE + 1]

@@ -1,8 +1,8 @@
-"""Deriving in a world: before each step somebody looks at the word, and answers what its modules ask.
+"""Derivation in an environment: before each step a turtle interprets the word and answers the queries of its modules.
 
-Interpret, ask, fill in, step. The engine is the one of the derivation room, which knows no turtle: it is handed what looks at
-a word (see `World` there), as it is handed a seed. So the public `derive` stands here, above geometry, and a system that asks
-for nothing is derived as if this room were not there.
+Interpret, query, fill in, step. The engines of derivation know no turtle: they are handed a function that observes a word,
+as they are handed a seed. So the public `derive` stands here, above geometry; a system without queries is derived as if this
+module did not exist.
 """
 
 from __future__ import annotations
@@ -28,21 +28,20 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     Parameters
     ----------
     system
-        Any L-system. Where its rules ask for what the turtle sees, by a sensitive function or by a query module such as
-        `?P(x,y)`, each word is looked at before the next step. Or a map system, whose maps are derived, and which has no
-        choices.
+        Any L-system. If its rules depend on the turtle, by a sensitive function or by a query module such as `?P(x,y)`, a
+        turtle interprets each word before the next step. Or a map system, whose maps are derived; it takes no choices.
     steps
-        How many steps.
+        The number of steps.
     **choices
-        `seed`, where chance begins: the same seed gives the same words, on every machine; by default the system's own, else 0.
+        `seed` of the random numbers: the same seed gives the same words on every machine; by default the system's own, else 0.
         `arithmetic`, "exact", or "float" to compute in doubles as cpfg and L-Py do. And new values for declared constants:
         numbers, or texts such as "14/10".
 
     Returns
     -------
     Derivation
-        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those between. A query
-        module has the answer of the last step in it; `sight(step)` tells what the next one sees. For a map system a
+        A sequence of `steps + 1` words. A word is built when it is first used, `[-1]` without those between. A query module
+        holds the answer of the last step; `sight(step)` gives what the next one sees. For a map system a
         `Development`, a sequence of `steps + 1` maps.
 
     Raises

@@ -1,7 +1,7 @@
-"""The sensitive functions of GROGRA: what a module may ask about the shoots around it (seed 003, W. Kurth).
+"""The sensitive functions of GROGRA: what a module can ask about the shoots around it (Kurth's lecture slides on GROGRA).
 
-A shoot is a stroke. A module belongs to the shoot that was drawn last before it, on its own branch, and asks from that shoot's
-tip; before the first shoot it asks from where the turtle is. Functions have the numbers that they have in GROGRA.
+A shoot is a stroke. A module belongs to the last shoot drawn before it on its own branch, and asks from the tip of that shoot;
+before the first shoot it asks from the position of the turtle. The functions have the numbers that GROGRA gives them.
 """
 
 from __future__ import annotations
@@ -13,36 +13,36 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lsys_kit.geometry.commands import FIRST_COLOUR
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
+from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
 
-CLOSE = 1e-9
-"""What is as near to an edge as this is on it."""
+TOLERANCE = 1e-9
+"""A point as close to a boundary as this lies on it."""
 WINDOW = 32
-"""The nearest point is first looked for among so many on each side."""
+"""The nearest point is first sought among this number of points on either side in the sorted order."""
 
 
 @dataclass(frozen=True)
 class EndPoints:
-    """The begin and end points of some shoots.
+    """The start and end points of some shoots.
 
     Attributes
     ----------
     places
-        Shape (n, 3), in the order of their first coordinate, so that few have to be looked at to find the nearest.
+        Shape (n, 3), sorted by their first coordinate, so that few have to be compared to find the nearest.
     owners
-        Shape (n,): the number of each point's shoot.
+        Shape (n,): the number of the shoot of each point.
     """
 
     places: Floats
     owners: Integers
 
     def nearest(self, tip: Floats, near: Sequence[int]) -> float:
-        """How far the nearest is from a tip, those of some shoots near by left out; infinite where there is no other.
+        """The distance of the nearest point from a tip, except those of some shoots; infinite if there is none.
 
-        What is found among the neighbours in the order bounds the stretch in which a nearer one can be; what was found there
-        may lie on the edge of it, or by a rounding error beside it.
+        The nearest of the neighbours in the sorted order bounds the range in which a nearer point can lie. That neighbour
+        itself may lie on the edge of this range, or just outside it by a rounding error, so the smaller distance counts.
         """
         first = self.places[:, 0]
         at = int(np.searchsorted(first, tip[0]))
@@ -63,14 +63,14 @@ class Shoots:
     Parameters
     ----------
     strokes
-        They themselves, in space.
+        The strokes in space, one for each shoot.
     mothers
-        For each the number of the one that it grows from.
+        For each shoot the number of the one from which it grows.
 
     Attributes
     ----------
     ends
-        Shape (n, 2, 3): their begin and end points.
+        Shape (n, 2, 3): their start and end points.
     lengths, colours
         Shape (n,).
     """
@@ -82,11 +82,11 @@ class Shoots:
         self._points: dict[tuple[float, float | None], EndPoints] = {}
 
     def chosen(self, least: float, colour: float | None = None) -> Integers:
-        """The numbers of those that have at least some length, and perhaps a colour."""
-        return np.flatnonzero((self.lengths >= least - CLOSE) & (True if colour is None else self.colours == colour))
+        """The numbers of the shoots with at least some length, and of a colour if one is given."""
+        return np.flatnonzero((self.lengths >= least - TOLERANCE) & (True if colour is None else self.colours == colour))
 
     def points(self, least: float, colour: float | None = None) -> EndPoints:
-        """The begin and end points of the same, put into order once."""
+        """The start and end points of the same shoots, sorted once."""
         if (least, colour) not in self._points:
             numbers = self.chosen(least, colour)
             places, owners = self.ends[numbers].reshape(-1, 3), np.repeat(numbers, 2)
@@ -97,16 +97,16 @@ class Shoots:
 
 @dataclass(frozen=True)
 class Query:
-    """Where a module stands that asks.
+    """The standpoint of a module that asks.
 
     Attributes
     ----------
     shoots
         All shoots.
     near
-        The numbers of its own shoot and of that one's mother, which do not count as neighbours.
+        The numbers of its own shoot and of that shoot's mother, which do not count as neighbours.
     tip, head
-        The tip of its shoot, and where it points.
+        The tip of its shoot, and the direction of the shoot.
     """
 
     shoots: Shoots
@@ -115,56 +115,56 @@ class Query:
     head: Floats
 
 
-def nearest(stand: Query, least: float, colour: float | None = None) -> float:
-    """How far the nearest begin or end point of another shoot is; infinite where there is none."""
-    return stand.shoots.points(least, colour).nearest(stand.tip, stand.near)
+def nearest(query: Query, least: float, colour: float | None = None) -> float:
+    """The distance to the nearest start or end point of another shoot; infinite if there is none."""
+    return query.shoots.points(least, colour).nearest(query.tip, query.near)
 
 
-def ahead(stand: Query, angle: float, least: float, colour: float | None = None) -> float:
-    """The same of the points in a cone around the heading, open by so many degrees to each side."""
-    points = stand.shoots.points(least, colour)
-    away = points.places - stand.tip
+def nearest_ahead(query: Query, angle: float, least: float, colour: float | None = None) -> float:
+    """The same among the points in a cone around the heading with a half-angle in degrees."""
+    points = query.shoots.points(least, colour)
+    away = points.places - query.tip
     distances = np.linalg.norm(away, axis=1)
     edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
-    within = (away @ stand.head >= edge * distances - CLOSE) & ~np.isin(points.owners, stand.near)
+    within = (away @ query.head >= edge * distances - TOLERANCE) & ~np.isin(points.owners, query.near)
     return float(distances[within].min(initial=math.inf))
 
 
-def overhead(stand: Query, least: float) -> float:
-    """At how many degrees from the vertical the steepest way from the tip up to another shoot goes, seen from the front.
+def steepest_above(query: Query, least: float) -> float:
+    """The angle from the vertical, in degrees, of the steepest line from the tip up to another shoot, seen from the front.
 
-    It is 0 where a shoot passes straight above the tip, and infinite where none is above. Only the shoot itself is left out:
-    the one that it grows from may hang over it.
+    It is 0 if a shoot passes straight above the tip, and infinite if none is above. Only the shoot itself is left out: its
+    mother may hang over it.
     """
-    others = np.setdiff1d(stand.shoots.chosen(least), stand.near[:1])
-    (x0, z0), (x1, z1) = (stand.shoots.ends[others] - stand.tip)[:, :, ::2].transpose(1, 2, 0)
-    along = np.divide(-x0, x1 - x0, out=np.ones_like(x0), where=np.abs(x1 - x0) > CLOSE)
-    height = np.where(np.abs(x1 - x0) > CLOSE, z0 + along * (z1 - z0), np.maximum(z0, z1))
-    if np.any((np.minimum(x0, x1) <= CLOSE) & (np.maximum(x0, x1) >= -CLOSE) & (height > CLOSE)):
+    others = np.setdiff1d(query.shoots.chosen(least), query.near[:1])
+    (x0, z0), (x1, z1) = (query.shoots.ends[others] - query.tip)[:, :, ::2].transpose(1, 2, 0)
+    along = np.divide(-x0, x1 - x0, out=np.ones_like(x0), where=np.abs(x1 - x0) > TOLERANCE)
+    height = np.where(np.abs(x1 - x0) > TOLERANCE, z0 + along * (z1 - z0), np.maximum(z0, z1))
+    if np.any((np.minimum(x0, x1) <= TOLERANCE) & (np.maximum(x0, x1) >= -TOLERANCE) & (height > TOLERANCE)):
         return 0.0
     sideways, up = np.abs(np.concatenate((x0, x1))), np.concatenate((z0, z1))
-    return float(np.degrees(np.arctan2(sideways, up))[up > CLOSE].min(initial=math.inf))
+    return float(np.degrees(np.arctan2(sideways, up))[up > TOLERANCE].min(initial=math.inf))
 
 
-def shade(stand: Query, angle: float, least: float) -> int:
-    """How many other shoots begin in a cone above the tip, which is open by so many degrees to each side.
+def shoots_above(query: Query, angle: float, least: float) -> int:
+    """The number of other shoots that start in a cone above the tip with a half-angle in degrees.
 
-    GROGRA sums the leaves of these shoots, its N; here every shoot has 1, for leaves are not seen.
+    GROGRA sums the leaves (N) of these shoots; here every shoot counts as one, because leaves are not modelled.
     """
-    others = np.setdiff1d(stand.shoots.chosen(least), stand.near[:1])
-    away = stand.shoots.ends[others, 0] - stand.tip
+    others = np.setdiff1d(query.shoots.chosen(least), query.near[:1])
+    away = query.shoots.ends[others, 0] - query.tip
     edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
     distances = np.linalg.norm(away, axis=1)
-    return int(np.count_nonzero((distances > CLOSE) & (away[:, 2] >= edge * distances - CLOSE)))
+    return int(np.count_nonzero((distances > TOLERANCE) & (away[:, 2] >= edge * distances - TOLERANCE)))
 
 
-def inclination(stand: Query) -> float:
-    """How far the shoot leans from the vertical: 0 degrees upright, 90 level, 180 hanging."""
-    return math.degrees(math.atan2(math.hypot(stand.head[0], stand.head[1]), stand.head[2]))
+def inclination(query: Query) -> float:
+    """The angle of the shoot from the vertical: 0 degrees upright, 90 horizontal, 180 hanging down."""
+    return math.degrees(math.atan2(math.hypot(query.head[0], query.head[1]), query.head[2]))
 
 
 class SensitiveFunction(NamedTuple):
-    """A sensitive function: what it answers, in words; with how many values it is asked, at least and at most."""
+    """A sensitive function: what it returns, in words; the least and the greatest number of its values."""
 
     words: str
     least: int
@@ -173,10 +173,10 @@ class SensitiveFunction(NamedTuple):
 
 
 SENSITIVE_FUNCTIONS: Mapping[Value, SensitiveFunction] = {
-    1: SensitiveFunction("the inclination of the steepest way to a shoot above", 1, 1, overhead),
+    1: SensitiveFunction("the inclination of the steepest line to a shoot above", 1, 1, steepest_above),
     2: SensitiveFunction("the distance to the nearest shoot", 1, 2, nearest),
-    4: SensitiveFunction("the number of shoots above", 2, 2, shade),
+    4: SensitiveFunction("the number of shoots above", 2, 2, shoots_above),
     7: SensitiveFunction("the inclination", 0, 0, inclination),
-    9: SensitiveFunction("the distance to the nearest shoot ahead", 2, 3, ahead),
+    9: SensitiveFunction("the distance to the nearest shoot ahead", 2, 3, nearest_ahead),
 }
-"""The sensitive functions that are known here, by their numbers."""
+"""The sensitive functions, by number."""

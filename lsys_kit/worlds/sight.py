@@ -1,10 +1,11 @@
-"""What is seen of a word: a turtle in space follows it, and answers what its modules ask (seed 003, globally sensitive growth).
+"""What the modules of a word see: a turtle in space interprets the word and answers their queries (globally sensitive growth).
 
-Two kinds of modules ask. A query module gets values that are the turtle's where it stands: `?P(x,y,z)` its position, `?H`, `?U`
-and `?L` its heading, its up and its left, with x to the right, y upwards and z towards the viewer (Prusinkiewicz, James and
-Mech, Synthetic Topiary, 1994). A module whose rules call a sensitive function gets the number that the function answers there.
+Two kinds of modules ask. A query module receives values of the turtle at its place: `?P(x,y,z)` its position, `?H`, `?U` and
+`?L` its heading, up and left, with x to the right, y upwards and z towards the viewer (Prusinkiewicz, James and
+Mech, Synthetic Topiary, 1994). A module whose rules call a sensitive function receives the value of the function there
+(Kurth's lecture slides on GROGRA).
 
-What is measured is told to nine decimals: so a place that should be 4 is 4, and no rule is at the mercy of the last bits of a
+Measured values are rounded to nine decimals: a coordinate that should be 4 is 4, and no rule depends on the last bits of a
 sine.
 """
 
@@ -22,23 +23,23 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.commands import initial_step
-from lsys_kit.geometry.interpreter import compile_word
-from lsys_kit.geometry.space import SPACE_ACTS, SpaceTurtle, TurtleFrame, Vector, initial_frame, prepared, strokes_of
+from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.interpreter import compile_word
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, TurtleFrame, Vector, initial_frame, operand, strokes_of
 from lsys_kit.notation.model.arithmetic import Value, short_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoots
 
 DECIMALS = 9
-"""To so many decimals is told what is measured."""
-OFTEN = 4_096
-"""After so many modules somebody looks at the clock."""
+"""The number of decimals to which measured values are rounded."""
+MODULES_PER_CHECK = 4_096
+"""The time is checked after this number of modules."""
 NO_SHOOT = -1
 """The number of the shoot before the first one."""
 
 
 class ShootTurtle(SpaceTurtle):
-    """A turtle in space that knows for each stroke from which one it grows."""
+    """A turtle in space that records for each stroke its mother, the stroke from which it grows."""
 
     __slots__ = ("mothers",)
 
@@ -51,23 +52,23 @@ class ShootTurtle(SpaceTurtle):
         """The number of the last stroke on its branch."""
         return NO_SHOOT if self.last is None else self.last
 
-    def go(self, length: float, drawn: bool) -> None:
+    def forward(self, length: float, drawn: bool) -> None:
         if drawn:
             self.mothers.append(self.shoot)
-        super().go(length, drawn)
+        super().forward(length, drawn)
 
 
 class Standpoint(NamedTuple):
-    """Where a module stands that asks: the turtle's position and frame, and the last shoot."""
+    """Where a module asks: the position and frame of the turtle there, and the last shoot."""
 
-    at: Vector
-    way: TurtleFrame
+    position: Vector
+    frame: TurtleFrame
     shoot: int
 
 
 @dataclass(frozen=True)
 class TurtleObservation:
-    """What is seen of a word.
+    """What the modules of a word see.
 
     Attributes
     ----------
@@ -76,7 +77,7 @@ class TurtleObservation:
     shoots
         Its strokes, in space.
     places
-        Where the modules stand that ask, by their positions in the word.
+        The standpoints of the modules that ask, by position in the word.
     """
 
     word: Word
@@ -85,52 +86,52 @@ class TurtleObservation:
     _known: dict[tuple[object, ...], Value] = field(default_factory=dict, compare=False, repr=False)
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
-        """What a sensitive function answers to the module at a position; both apices of a fork get one answer.
+        """The value of a sensitive function for the module at a position; both apices of a fork get the same.
 
         Raises
         ------
         ValueError
-            There is no such function, or it is not asked with so many values.
+            There is no such function, or it takes another number of values.
         """
-        sense = SENSITIVE_FUNCTIONS.get(function)
-        if sense is None:
+        sensitive = SENSITIVE_FUNCTIONS.get(function)
+        if sensitive is None:
             known = ", ".join(map(str, SENSITIVE_FUNCTIONS))
             raise ValueError(f"function {short_text(function)} is not known; functions are {known}")
-        if not sense.least <= len(values) <= sense.most:
-            asked = f"{sense.least}" if sense.least == sense.most else f"{sense.least} or {sense.most}"
-            raise ValueError(f"function {short_text(function)}, {sense.words}, is asked with {asked} values, not {len(values)}")
+        if not sensitive.least <= len(values) <= sensitive.most:
+            asked = f"{sensitive.least}" if sensitive.least == sensitive.most else f"{sensitive.least} or {sensitive.most}"
+            raise ValueError(f"function {short_text(function)}, {sensitive.words}, takes {asked} values, not {len(values)}")
         place = self.places[position]
         key = (position if place.shoot == NO_SHOOT else -1, place.shoot, function, *values)
         if key not in self._known:
-            answer = sense.answer(self._stand(place), *map(float, values))
-            self._known[key] = measured(answer, self.word.states.arithmetic)
+            answer = sensitive.answer(self._query(place), *map(float, values))
+            self._known[key] = rounded(answer, self.word.states.arithmetic)
         return self._known[key]
 
-    def _stand(self, place: Standpoint) -> Query:
+    def _query(self, place: Standpoint) -> Query:
         if place.shoot == NO_SHOOT:
-            return Query(self.shoots, (), np.array(place.at), np.array(place.way[0]))
+            return Query(self.shoots, (), np.array(place.position), np.array(place.frame[0]))
         start, tip = self.shoots.ends[place.shoot]
         length = self.shoots.lengths[place.shoot]
-        head = (tip - start) / length if length else np.array(place.way[0])
+        head = (tip - start) / length if length else np.array(place.frame[0])
         return Query(self.shoots, (place.shoot, self.shoots.mothers[place.shoot]), tip, head)
 
 
 def observe(word: Word, watch: Callable[[], None] = lambda: None) -> TurtleObservation:
-    """Look at a word.
+    """Interpret a word and record what its modules see.
 
     Parameters
     ----------
     word
         The word; interpretation rules are applied first.
     watch
-        What looks at the clock now and then, and may raise an error.
+        Called from time to time; checks the time limit, and may raise an error.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
     ModelValueError
-        A value is no number that can be drawn, or a query module asks for more than three.
+        A value is too large to draw, or symbolic; or a query module asks for more than three values.
 
     Examples
     --------
@@ -141,46 +142,46 @@ def observe(word: Word, watch: Callable[[], None] = lambda: None) -> TurtleObser
     """
     states, system, numbers = word.states, word.states.system, word.numbers()
     turtle = ShootTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
-    told = compile_word(word, SPACE_ACTS, lambda order: prepared(order, float(system.angle))).acts
-    asking = _asking(states, told)
+    calls = compile_word(word, SPACE_HANDLERS, lambda instruction: operand(instruction, float(system.angle))).calls
+    asking = _observing_states(states, calls)
     places: dict[int, Standpoint] = {}
     for position, state in enumerate(numbers):
-        if position % OFTEN == 0:
+        if position % MODULES_PER_CHECK == 0:
             watch()
         if state in asking:
-            places[position] = Standpoint(turtle.at, turtle.way, turtle.shoot)
-        for act, what in told[state]:
-            act(turtle, what)
+            places[position] = Standpoint(turtle.position, turtle.orientation, turtle.shoot)
+        for handler, instruction in calls[state]:
+            handler(turtle, instruction)
     for position, place in places.items():
         module = states.modules[numbers[position]]
         if module.symbol in QUERIES and module.arguments:
-            numbers[position] = states.number(module.symbol, _answered(module, place, states.arithmetic))
+            numbers[position] = states.number(module.symbol, _query_values(module, place, states.arithmetic))
     return TurtleObservation(Word(states, numbers), Shoots(strokes_of(turtle), turtle.mothers), places)
 
 
-def _asking(states: States, present: Iterable[int]) -> frozenset[int]:
-    """The states that ask; all, where decomposition rules look."""
+def _observing_states(states: States, present: Iterable[int]) -> frozenset[int]:
+    """The states whose modules ask; all of them, if a decomposition rule calls a sensitive function."""
     every = any(rule.looks for rules in states.decomposition.values() for rule in rules)
     return frozenset(state for state in present if every or states.modules[state].symbol in QUERIES
                      or any(rule.looks for rule in states.rules.get(kind_of(states.modules[state]), ())))
 
 
-def _answered(module: Module, place: Standpoint, arithmetic: str) -> tuple[Value, ...]:
-    """The values of a query module."""
+def _query_values(module: Module, place: Standpoint, arithmetic: str) -> tuple[Value, ...]:
+    """The values that a query module receives."""
     if len(module.arguments) > 3:
         raise ModelValueError(f"{module} asks for more than the three values x, y and z")
-    head, left, up, _ = place.way
-    x, y, z = {"?P": place.at, "?H": head, "?U": up, "?L": left}[module.symbol]
-    return tuple(measured(value, arithmetic) for value in (x, z, -y)[:len(module.arguments)])
+    head, left, up, _ = place.frame
+    x, y, z = {"?P": place.position, "?H": head, "?U": up, "?L": left}[module.symbol]
+    return tuple(rounded(value, arithmetic) for value in (x, z, -y)[:len(module.arguments)])
 
 
-def measured(value: float, arithmetic: str = "exact") -> Value:
-    """A number as it is told: to nine decimals, and exactly those; what is infinite stays so.
+def rounded(value: float, arithmetic: str = "exact") -> Value:
+    """A measured value, exact to nine decimals; an infinite one stays infinite.
 
-    >>> measured(0.1 + 0.2), measured(4.000000000000001), measured(math.inf)
+    >>> rounded(0.1 + 0.2), rounded(4.000000000000001), rounded(math.inf)
     (Fraction(3, 10), 4, inf)
     """
     if not math.isfinite(value):
         return value
-    told = round(value, DECIMALS) + 0.0
-    return told if arithmetic == "float" else number_from(told)
+    nearest = round(value, DECIMALS) + 0.0
+    return nearest if arithmetic == "float" else number_from(nearest)

@@ -11,7 +11,7 @@ import pytest
 
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.space import trace_in_space
+from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.formats.raster import turtle_png
 from lsys_kit.pictures.svg import frame_of, turtle_svg
 

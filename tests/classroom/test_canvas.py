@@ -13,8 +13,8 @@ from lsys_kit import derive, read, system
 from lsys_kit.classroom.panel.canvas import packed
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import CIRCLE
-from lsys_kit.geometry.space import in_plane
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.mode import in_plane
+from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.svg import shape_colours
 

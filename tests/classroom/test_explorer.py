@@ -13,6 +13,7 @@ from lsys_kit.classroom.panel import view_model as study
 from lsys_kit.classroom.panel.canvas import widget_classes
 from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
 from lsys_kit.derivation.core.states import States
+from lsys_kit.geometry.turtle.mode import DrawingMode
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
 
@@ -72,7 +73,7 @@ def test_the_side_that_is_seen_never_comes_back(monkeypatch):
     panel = explore("K19", 5)
     monkeypatch.setattr(panel, "_show_step", lambda _: pytest.fail("the kernel was asked"))
     panel.around.value, panel.above.value = 40, -20
-    assert panel._study.in_space
+    assert panel._study.mode is DrawingMode.SPACE
 
 
 def test_the_angle_of_a_plant_in_space_is_the_kernels():

@@ -8,32 +8,21 @@ from pathlib import Path
 import pytest
 import sympy
 
-from lsys_kit import ModelValueError, derive, read
-from lsys_kit.geometry import space, turtle
-from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
-from lsys_kit.geometry.space import in_plane, trace_in_space
-from lsys_kit.notation.model.expressions import Number
+from lsys_kit import ModelValueError, derive, read, write
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS
+from lsys_kit.geometry.turtle.instructions import instructions, unknown_commands
+from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 README = Path(__file__).parents[2] / "README.md"
 
 
-def test_a_symbol_means_one_thing_in_a_tradition():
-    for column in range(len(COMMANDS)):
-        assert max(Counter(symbol for row in COMMAND_TABLE for symbol in row.symbols[column].split()).values()) == 1
-
-
-def test_each_command_is_one_that_the_turtle_in_space_follows():
-    commands = [command for row in COMMAND_TABLE for command in row.commands]
-    assert {name for command in commands for name in (command.action, command.bare) if name} <= space.SPACE_ACTS.keys()
-
-
-def test_each_command_that_stays_in_the_plane_is_one_that_the_turtle_there_follows():
-    for tradition, column in COMMANDS.items():
-        for symbol, commands in column.items():
-            if in_plane(LSystem((Pattern(symbol, (Number(180),)),), (), turtle=tradition)):
-                assert {command.action for command in commands} <= turtle.PLANE_ACTS.keys()
+def test_a_symbol_means_one_thing_in_a_dialect():
+    for dialect in TURTLE_DIALECTS.values():
+        symbols = Counter(symbol for row in COMMAND_TABLE for symbol in getattr(row, dialect.column).split())
+        assert max(symbols.values()) == 1
 
 
 @pytest.mark.parametrize("symbol", ["F", "f", "G", "g", "@M", "+", "-", "&", "^", "\\", "/", "|", "$", "@v", ";", ",", "#", "!",
@@ -47,6 +36,13 @@ def test_abop_has_the_commands_of_appendix_c_and_of_cpfg(symbol):
                                     "%", *(letter + more for letter in "LDNVCHU" for more in ("", "+", "*", "l", "l+", "l*"))])
 def test_grogra_has_the_commands_of_kurths_lectures(symbol):
     assert symbol in COMMANDS["grogra"]
+
+
+@pytest.mark.parametrize("notation", ["abop", "grogra", "mathematica", "plant-string"])
+@pytest.mark.parametrize("turtle", TURTLE_DIALECTS)
+def test_a_text_can_choose_every_dialect_of_turtle_commands(notation, turtle):
+    system = LSystem((Pattern("F"),), (), turtle=turtle)
+    assert read(write(system, notation), notation).turtle == turtle
 
 
 def test_plant_strings_have_those_of_seed_004():
@@ -67,26 +63,26 @@ def test_an_argument_is_the_amount_of_a_command():
     assert order(("F", 2)) == ("draw", 0, 2)
     assert order(("-", 30)) == ("turn", 0, -30)
     assert order(("-", -30)) == ("turn", 0, 30)
-    assert order(("!", 3)) == ("width", 0, 3)
-    assert order((",", 3)) == ("colour", 0, 3)
+    assert order(("!", 3)) == ("set width", 0, 3)
+    assert order((",", 3)) == ("set colour", 0, 3)
 
 
 def test_without_an_argument_it_is_the_turtles_own_step_angle_or_width():
     assert order(("F",)) == ("draw", 1, 0)
     assert order(("-",)) == ("turn", -1, 0)
-    assert order(("RV",), "grogra") == ("droop", 1, 0)
-    assert order((",",)) == ("colour", 1, -1)
+    assert order(("RV",), "grogra") == ("gravitropism", 1, 0)
+    assert order((",",)) == ("set colour", 1, -1)
 
 
 def test_an_argument_of_a_command_with_plus_or_times_changes_it():
-    assert order(("L+", 20), "grogra") == ("length", 1, 20)
-    assert order(("L*", 0.5), "grogra") == ("length", 0.5, 0)
-    assert order(("D",), "grogra") == ("first width", 1, 0)
+    assert order(("L+", 20), "grogra") == ("set length", 1, 20)
+    assert order(("L*", 0.5), "grogra") == ("set length", 0.5, 0)
+    assert order(("D",), "grogra") == ("reset width", 1, 0)
 
 
 @pytest.mark.parametrize("value", [1e60, 10**400, sympy.Symbol("t")])
 def test_a_value_that_cannot_be_drawn_is_an_error_that_names_the_module(value):
-    with pytest.raises(ModelValueError, match=r"^F\(.*cannot be drawn: a value is out of reach, or not known"):
+    with pytest.raises(ModelValueError, match=r"^F\(.*cannot be drawn: a value is too large to draw, or symbolic"):
         instructions({0: (Module("F", (value,)),)}, "abop")
 
 
@@ -110,5 +106,6 @@ def cell(symbols):
 
 
 def test_the_readme_says_what_the_commands_mean():
-    lines = [f"| {' | '.join(map(cell, row.symbols))} | {row.words} |" for row in COMMAND_TABLE]
+    columns = [dialect.column for dialect in TURTLE_DIALECTS.values()]
+    lines = [f"| {' | '.join(cell(getattr(row, column)) for column in columns)} | {row.words} |" for row in COMMAND_TABLE]
     assert "\n".join(lines) in README.read_text(encoding="utf-8")

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.instancing import draw_instanced
 from lsys_kit.geometry.scene import OWN, Scene
-from lsys_kit.geometry.space import trace_in_space
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.instancing import draw_instanced
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import trace_in_space
 
 
 def scene(text: str, parts: int) -> Scene:

@@ -7,12 +7,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-import lsys_kit.geometry.instancing as pieces
 from lsys_kit import derive, limits, read
-from lsys_kit.geometry.instancing import draw_instanced
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.space import in_plane, trace_in_space
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle import instancing
+from lsys_kit.geometry.turtle.instancing import draw_instanced
+from lsys_kit.geometry.turtle.mode import in_plane
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.system import LSystem
 
 PLANE = ("F", "f", "+", "-", "F(2)", "+(33)", "|", "!(2)", ";", "A", "B", "@o", "@c(3)", "[+A]", "[F-B]")
@@ -40,9 +41,9 @@ def agree(one: Scene, other: Scene) -> None:
     assert one.unknown == other.unknown
 
 
-def at_once(system: LSystem, steps: int) -> Scene | None:
+def draw_all_instanced(system: LSystem, steps: int) -> Scene | None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pieces, "OFTEN", 0)
+        patch.setattr(instancing, "LEAST_REPETITION", 0)
         return draw_instanced(derive(system, steps), steps, float(system.angle))
 
 
@@ -52,7 +53,7 @@ def test_in_the_plane(axiom: str, a: str, b: str, f: str, angle: float, steps: i
     with limits(modules=1_000_000):
         assume(max(derive(system, 4).lengths) < 3_000)
     assert in_plane(system)
-    found = at_once(system, steps)
+    found = draw_all_instanced(system, steps)
     assert found is not None
     assert found.dimension == 2
     agree(found, place_path(trace(derive(system, steps)[-1]), float(system.angle), float(system.heading)))
@@ -63,7 +64,7 @@ def test_in_space(axiom: str, a: str, b: str, f: str, steps: int) -> None:
     system = read("angle: 22.5\n" + SYSTEM.format(axiom + " &", a, b, f))
     with limits(modules=1_000_000):
         assume(max(derive(system, 4).lengths) < 3_000)
-    found = at_once(system, steps)
+    found = draw_all_instanced(system, steps)
     assert found is not None
     assert found.dimension == 3
     agree(found, trace_in_space(derive(system, steps)[-1]))
@@ -72,7 +73,7 @@ def test_in_space(axiom: str, a: str, b: str, f: str, steps: int) -> None:
 def test_a_step_that_shrinks_goes_with_the_turtle() -> None:
     """K6: a -> L*0.5 [ RU90 F ] F RH180 a halves the step; the branches of the drawing differ in nothing else."""
     system = read("* # F a,\na # L*0.5 [ RU90 F ] F RH180 a", "grogra")
-    found = at_once(system, 8)
+    found = draw_all_instanced(system, 8)
     assert found is not None
     agree(found, place_path(trace(derive(system, 8)[-1]), float(system.angle), float(system.heading)))
     assert found.height == pytest.approx(200, abs=1)
@@ -80,18 +81,26 @@ def test_a_step_that_shrinks_goes_with_the_turtle() -> None:
 
 @pytest.mark.parametrize("text", ["axiom: F $ F", "axiom: {F+F+F}", "axiom: A F\nF < A -> F"])
 def test_what_asks_for_more_goes_module_by_module(text: str) -> None:
-    assert at_once(read(text), 1) is None
+    assert draw_all_instanced(read(text), 1) is None
+
+
+def test_a_branch_is_what_the_turtle_takes_for_one() -> None:
+    """Round brackets are branches to the derivation of a plant string, but ABOP's turtle passes them over."""
+    system = read("turtle: abop\nAxiom: F\nF -> F(+F)F", "plant-string")
+    found = draw_all_instanced(system, 3)
+    assert found is not None
+    agree(found, place_path(trace(derive(system, 3)[-1]), float(system.angle), float(system.heading)))
 
 
 def test_interpretation_rules_are_drawn() -> None:
     system = read("angle: 30\naxiom: A(1)\nA(t) -> A(t+1) [+A(t)]\ninterpretation:\nA(t) -> F(t) [-F] @o")
-    found = at_once(system, 5)
+    found = draw_all_instanced(system, 5)
     assert found is not None
     agree(found, place_path(trace(derive(system, 5)[-1]), 30))
 
 
 def test_many_steps_are_no_deep_recursion() -> None:
     system = read("axiom: A\nA -> F A")
-    found = at_once(system, 3_000)
+    found = draw_all_instanced(system, 3_000)
     assert found is not None
     assert (len(found.segments), found.height) == (3_000, 3_000)

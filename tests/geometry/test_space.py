@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read, system
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.interpreter import run_turtle
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
-from lsys_kit.geometry.space import OFTEN, SPACE_ACTS, SpaceTurtle, in_plane, prepared, trace_in_space
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.interpreter import run_turtle
+from lsys_kit.geometry.turtle.mode import in_plane
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import RENORMALISATION_INTERVAL, SPACE_HANDLERS, SpaceTurtle, operand, trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
@@ -191,8 +192,9 @@ def test_a_frame_stays_orthonormal_in_a_million_commands(tradition, symbols):
 @pytest.mark.parametrize("symbol", ["+", "&", "/"])
 def test_a_frame_that_is_not_orthonormal_is_made_so_after_so_many_rotations(symbol):
     turtle = SpaceTurtle(((1e-3, 0.0, 1.0), (-1.0, 2e-3, 0.0), (0.0, -1.0, 5e-4), 0), 1.0)
-    run_turtle(turtle, word_of([(symbol, 1)] * (OFTEN + 1)), SPACE_ACTS, lambda order: prepared(order, 90))
-    frame = np.array(turtle.way[:3])
+    word = word_of([(symbol, 1)] * (RENORMALISATION_INTERVAL + 1))
+    run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, 90))
+    frame = np.array(turtle.orientation[:3])
     assert frame @ frame.T == pytest.approx(np.eye(3), abs=1e-12)
     assert np.linalg.det(frame) == pytest.approx(1)
 
@@ -389,7 +391,7 @@ def test_too_many_open_brackets_are_an_error():
 
 
 def test_a_step_that_grows_out_of_reach_is_an_error():
-    with pytest.raises(ModelValueError, match="The turtle's step grows out of reach"):
+    with pytest.raises(ModelValueError, match="The turtle's step grows too large to draw"):
         drawn("L*(1e20) " * 4 + "F", turtle="grogra")
 
 

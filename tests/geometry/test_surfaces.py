@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from lsys_kit import derive, read
-from lsys_kit.geometry.space import trace_in_space
-from lsys_kit.geometry.surfaces import surface_called, surfaces
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.geometry.turtle.surfaces import surface_called, surfaces
 
 
 def in_space(text, notation=None):

@@ -249,7 +249,7 @@ def test_everything_lies_inside_the_picture() -> None:
 def test_moving_tokens_lays_nothing_out_again(monkeypatch: pytest.MonkeyPatch) -> None:
     net = stages(system("J4"))
     drawn_stages(net, (1, 0, 0, 0, 0))
-    monkeypatch.setattr(nets, "laid_out", None)
+    monkeypatch.setattr(nets, "layout_of", None)
     assert drawn_stages(net, (0, 1, 0, 0, 0)) != drawn_stages(net, (1, 0, 0, 0, 0))
 
 

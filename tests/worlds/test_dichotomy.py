@@ -28,7 +28,7 @@ def shoots(system: LSystem, steps: int, **choices: object) -> list[int]:
 
 
 def by_definition(threshold: float, steps: int) -> list[str]:
-    """The words of the dichotomy, derived by reading the rules: the turtle in the plane, every distance measured."""
+    """The words of the dichotomy, derived by reading the rules: the turtle in the plane, every distance rounded."""
     word, words = ["a"], []
     for _ in range(steps + 1):
         words.append("".join(word))
@@ -160,7 +160,7 @@ def test_an_answer_is_a_number_like_any_other() -> None:
     ("a # F(f(1)) a", r"a under production 1, .*, has no value: the result is too large.* an answer is infinite", 1),
     ("(f(0-1) > 60) a # F(1/0) a", "has no value: division by zero", 1),
     ("(g(1) > 60) a # F a", "has no value: function 3 is not known; functions are 1, 2, 4, 7, 9", 1),
-    ("(h > 60) a # F a", "function 2, the distance to the nearest shoot, is asked with 1 or 2 values, not 0", 1),
+    ("(h > 60) a # F a", "function 2, the distance to the nearest shoot, takes 1 or 2 values, not 0", 1),
     ("(f > 60) a # F a", r'"f" is a function, and its values are missing', 2),
 ])
 def test_a_question_without_an_answer_is_explained(rule: str, said: str, column: int) -> None:

@@ -16,7 +16,7 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
-from lsys_kit.geometry.space import trace_in_space
+from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle import Path
+from lsys_kit.geometry.turtle.plane import Path
 from lsys_kit.pictures.style.palette import MARK_EDGE
 from lsys_kit.pictures.svg import numbered_colours
 
@@ -58,7 +58,7 @@ def packed(scene: Scene, path: Path | None, colour_of: Mapping[int, str], marked
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.geometry.turtle import place_path, trace
+    >>> from lsys_kit.geometry.turtle.plane import place_path, trace
     >>> from lsys_kit.notation.read import read
     >>> path = trace(derive(read("axiom: F+F"), 0)[0])
     >>> traits = packed(place_path(path, 90), path, {0: "#009E73"})

@@ -24,6 +24,7 @@ from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.geometry.turtle.mode import DrawingMode
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.diagram import drawn_stages
@@ -132,9 +133,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         kinds = widget_classes()
         self._diagram = kinds.diagram() if kinds else widgets.HTML()
         self._drawing, self._by_itself = widgets.HTML(), dict[str, Control]()
-        if kinds and self._study.in_space:
+        if kinds and self._study.mode is DrawingMode.SPACE:
             self._drawing, self._by_itself = kinds.space(), {"around": self._around, "above": self._above}
-        elif kinds and not self._study.is_filament:
+        elif kinds and self._study.mode is DrawingMode.PLANE:
             self._drawing = kinds.flat(heading=float(self.system.heading), angle=self.angle.value)
             self._by_itself = {"angle": self._angle}
 
@@ -171,8 +172,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._reset.on_click(self._back)
 
     def _controls(self) -> list[Control]:
-        turtle = [] if self._study.is_filament else [self._angle]
-        viewer = [self._around, self._above] if self._study.in_space else []
+        turtle = [] if self._study.mode is DrawingMode.FILAMENT else [self._angle]
+        viewer = [self._around, self._above] if self._study.mode is DrawingMode.SPACE else []
         return [self._step, *turtle, *viewer, *self.constants.values()]
 
     def _readings(self) -> list[float]:
@@ -183,7 +184,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._mark.value = -1
         for each, reading in zip(self._controls(), self._start, strict=True):
             each.slider.value = reading
-        if self._study.in_space and self._by_itself:
+        if self._study.mode is DrawingMode.SPACE and self._by_itself:
             self._drawing.returns += 1  # the browser knows of turns that the kernel was not told yet
 
     def _toggle_play(self, _: object = None) -> None:
@@ -257,7 +258,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         if not self._by_itself:
             self._drawing.value = sight.picture.svg
             return
-        there = f"{sight.scene}. {HOW_TO_TURN}" if self._study.in_space else f"{len(sight.scene.segments):,} segments"
+        in_space = self._study.mode is DrawingMode.SPACE
+        there = f"{sight.scene}. {HOW_TO_TURN}" if in_space else f"{len(sight.scene.segments):,} segments"
         with self._drawing.hold_sync():
             self._drawing.description = f"Drawing of step {sight.step}: {there}"
             for trait, value in packed(sight.scene, sight.path, sight.picture.colour_of, sight.marked).items():

@@ -9,15 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.space import in_plane
-from lsys_kit.geometry.turtle import Path, place_path, trace
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
@@ -89,8 +88,7 @@ class ViewModel:
     """
 
     def __init__(self, system: LSystem, seed: int | None = None) -> None:
-        self.system, self.seed, self.is_filament = system, seed, is_filament(system)
-        self.in_space = not self.is_filament and not in_plane(system)
+        self.system, self.seed, self.mode = system, seed, drawing_mode(system)
         self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
         self._rows: dict[tuple[tuple[Value, ...], int], FilamentRow] = {}
         self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
@@ -131,8 +129,8 @@ class ViewModel:
         word = derivation[step]
         marked = frozenset(s for s, module in enumerate(word.states.modules) if net.place_of(module) == place)
         turn = float(self.system.angle) if angle is None else angle
-        path = None if self.is_filament or self.in_space else self._path(derivation, step)
-        if self.is_filament:
+        path = self._path(derivation, step) if self.mode is DrawingMode.PLANE else None
+        if self.mode is DrawingMode.FILAMENT:
             rows = self._sequence(derivation, step)
             scene = rows[-1].scene
             picture = filament_picture(derivation, rows, step, marked)

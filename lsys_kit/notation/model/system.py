@@ -130,7 +130,7 @@ class LSystem:
     length
         The default length of a segment; None where that is left to the turtle.
     turtle
-        Whose turtle commands the symbols are: "abop", "grogra", "plant-string" or "fractint".
+        Whose turtle commands the symbols are: a name in `TURTLE_DIALECTS`.
     steps, seed
         The number of steps and the seed of the random numbers that the model sets, or None.
     alphabet

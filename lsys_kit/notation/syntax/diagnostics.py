@@ -14,6 +14,7 @@ from difflib import get_close_matches
 from lark.exceptions import UnexpectedInput
 
 from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.model.turtle_dialects import quoted_dialects
 from lsys_kit.notation.syntax.common_diagnostics import (
     VALUE_TOKENS,
     foreign_comment,
@@ -41,7 +42,7 @@ KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "d
             "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells")
 _SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books call a keyword."""
-_CHOICES = {"TRADITION": ("turtle", "turtle", 'Turtles are "abop", "grogra", "plant-string" and "fractint".'),
+_CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),
             "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".')}
 """The keywords that take one of a few words, by the token of that word; what it is called, and which there are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")

@@ -9,7 +9,7 @@ from lsys_kit.notation.model.modules import Repeat
 from lsys_kit.notation.model.system import LSystem
 
 OWN_NOTATION = "abop"
-"""The tradition of turtle commands that is the default."""
+"""The dialect of turtle commands, and of the notation, that is meant where nothing is said."""
 
 
 def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:

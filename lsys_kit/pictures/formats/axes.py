@@ -1,4 +1,4 @@
-"""Scenes in a matplotlib figure, to stand beside plots of a teacher's own, or to be printed as PDF."""
+"""Scenes in matplotlib figures, to be combined with other plots or printed as PDF."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
         edges = shape_colours(scene.polygons, colour_of)
         ax.add_collection(PolyCollection(list(scene.polygons), edgecolors=edges, linewidths=0.5,
                                          facecolors=[tinted(colour, 0.7) for colour in edges]))
-    for colour, width, chosen in groups(scene.segments, _scale(ax, scene), colour_of):
+    for colour, width, chosen in groups(scene.segments, _points_per_unit(ax, scene), colour_of):
         strokes = scene.segments.ends[chosen].reshape(-1, 2, 2).tolist()
         ax.add_collection(LineCollection(strokes, capstyle="round", colors=colour, linewidths=width / 10))
     discs = scene.discs
@@ -41,8 +41,8 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
                             facecolor=PAPER if kind == CIRCLE else tinted(colour, 0.7)))
 
 
-def _scale(ax: Axes, scene: Scene) -> float:
-    """How many points a unit of the model is long, where the drawing fills the axes."""
+def _points_per_unit(ax: Axes, scene: Scene) -> float:
+    """The length of a unit of the model in points, if the drawing fills the axes."""
     sheet = ax.get_figure(root=True)
     assert sheet is not None
     width, height = 72 * sheet.get_size_inches() * ax.get_position().size

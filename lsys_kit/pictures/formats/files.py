@@ -1,4 +1,4 @@
-"""Files: a picture is kept in the format that the file's name ends in."""
+"""Files: a picture is saved in the format given by the extension of the file name."""
 
 from __future__ import annotations
 
@@ -10,34 +10,34 @@ from lsys_kit.errors import ModelFileError, quotable
 from lsys_kit.files import save_file
 
 Encoders: TypeAlias = Mapping[str, Callable[[], bytes]]
-"""For each ending the bytes of such a file, made when they are needed."""
+"""For each extension a function that encodes the picture."""
 
 
-def save_as(path: Path, forms: Encoders, hint: str = "") -> None:
-    """Write a file in the form that its name ends in; one that the kit has made before is replaced, no other.
+def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
+    """Write a file in the format given by its extension; a file that the kit has made before is replaced, no other.
 
     Parameters
     ----------
     path
-        Where.
-    forms
-        The endings that it may have.
+        The path of the file.
+    formats
+        The formats, by extension.
     hint
-        What else to say where it has none of them.
+        An addition to the error message if the extension is unknown.
 
     Raises
     ------
     ModelFileError
         The name ends in something else, a file that the kit did not make is there already, or the file cannot be written.
     """
-    if path.suffix.lower() not in forms:
+    if path.suffix.lower() not in formats:
         raise ModelFileError(f'This picture cannot be written to "{quotable(path.name)}"',
-                             hint=f"Let the name end in {_listed(forms)}. {hint}".rstrip())
-    save_file(path, forms[path.suffix.lower()]())
+                             hint=f"Let the name end in {_listed(formats)}. {hint}".rstrip())
+    save_file(path, formats[path.suffix.lower()]())
 
 
 def _listed(endings: Iterable[str]) -> str:
-    """The endings in words.
+    """The extensions, in a sentence.
 
     >>> _listed([".svg", ".png", ".pdf"])
     '.svg, .png or .pdf'

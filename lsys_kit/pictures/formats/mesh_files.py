@@ -22,8 +22,8 @@ from lsys_kit.pictures.svg import numbered_colours
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963
 """How glTF calls kinds of numbers, and what a part of its bytes is for."""
-LINES = 65_536
-"""So many lines of text are written at a time."""
+ROWS_AT_A_TIME = 65_536
+"""The number of lines of text that are formatted at a time."""
 
 
 class ColouredMesh(NamedTuple):
@@ -36,12 +36,12 @@ class ColouredMesh(NamedTuple):
 
 
 def by_colour(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[ColouredMesh]:
-    """A mesh by its colours, set upright for other programs.
+    """The parts of a mesh by colour, with y upwards as other programs expect.
 
     Parameters
     ----------
     mesh
-        Any mesh; all vertices of a triangle have the same colour.
+        A mesh in which all vertices of a triangle have the same colour.
     colour_of
         For each state its colour.
     """
@@ -54,7 +54,7 @@ def by_colour(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[ColouredMesh
 
 
 def _upright(points: Singles) -> Singles:
-    """What grew upwards along z grows upwards along y; `+ 0` leaves no negative zero."""
+    """Points with y upwards instead of z; `+ 0` removes negative zeros."""
     turned: Singles = np.stack([points[:, 0], points[:, 2], -points[:, 1]], axis=1) + np.float32(0)
     return turned
 
@@ -75,7 +75,7 @@ def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
 
 
 def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | Numbers) -> int:
-    """Put numbers behind the others, and say the number under which glTF finds them."""
+    """Append numbers to the buffer; return the index of their accessor."""
     vectors = rows.dtype == np.float32
     added = rows.astype(rows.dtype.newbyteorder("<")).tobytes()
     lists["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(added),
@@ -90,7 +90,7 @@ def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | N
 
 
 def _material(colour: str) -> dict[str, Any]:
-    """A dull surface of a colour, seen from both sides."""
+    """A matt, double-sided material of a colour."""
     factor = [round(_linear(channel), 6) for channel in channels(colour)]
     return {"name": colour, "doubleSided": True,
             "pbrMetallicRoughness": {"baseColorFactor": [*factor, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}}
@@ -107,12 +107,12 @@ def channels(colour: str) -> tuple[float, float, float]:
 
 
 def _linear(channel: float) -> float:
-    """How much light a channel of sRGB stands for, from 0 to 1 (IEC 61966-2-1)."""
+    """The linear intensity of a channel of sRGB, from 0 to 1 (IEC 61966-2-1)."""
     return channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4
 
 
 def _packed(tree: bytes, data: bytes) -> bytes:
-    """The head of a .glb file, its tree and its numbers, each filled up to whole words."""
+    """The header of a .glb file, its JSON and its binary chunk, each padded to four bytes."""
     chunks = [(b"JSON", tree + b" " * (-len(tree) % 4)), *([(b"BIN\0", data + bytes(-len(data) % 4))] if data else [])]
     body = b"".join(struct.pack("<I", len(chunk)) + kind + chunk for kind, chunk in chunks)
     return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
@@ -126,31 +126,31 @@ def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
     mesh, colour_of
         As for `by_colour`.
     library
-        The name of the .mtl file, which stands beside it.
+        The name of the accompanying .mtl file.
     """
     found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n"], 1
     for part in by_colour(mesh, colour_of):
         corners = np.repeat(part.triangles.astype(np.int64) + first, 2, axis=1)
-        found += [*_lines("v %.7g %.7g %.7g\n", part.vertices), *_lines("vn %.7g %.7g %.7g\n", part.normals),
-                  f"usemtl {_called(part.colour)}\n", *_lines("f %d//%d %d//%d %d//%d\n", corners)]
+        found += [*_formatted_rows("v %.7g %.7g %.7g\n", part.vertices), *_formatted_rows("vn %.7g %.7g %.7g\n", part.normals),
+                  f"usemtl {_material_name(part.colour)}\n", *_formatted_rows("f %d//%d %d//%d %d//%d\n", corners)]
         first += len(part.vertices)
     return "".join(found).encode()
 
 
-def _lines(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
-    for first in range(0, len(rows), LINES):
-        some = rows[first:first + LINES]
+def _formatted_rows(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
+    for first in range(0, len(rows), ROWS_AT_A_TIME):
+        some = rows[first:first + ROWS_AT_A_TIME]
         yield pattern * len(some) % tuple(some.ravel().tolist())
 
 
 def mtl(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     """The colours of a mesh as text of an .mtl file."""
-    materials = (f"newmtl {_called(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
+    materials = (f"newmtl {_material_name(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
                  for colour in dict.fromkeys(part.colour for part in by_colour(mesh, colour_of))
                  for red, green, blue in [channels(colour)])
     return "".join(["# Colours of a drawing of lsys-kit\n", *materials]).encode()
 
 
-def _called(colour: str) -> str:
-    """The name of a colour, as .mtl files may have it: without a sharp, which begins a comment."""
+def _material_name(colour: str) -> str:
+    """The name of a material in an .mtl file: without a number sign, which starts a comment."""
     return f"colour_{colour[1:]}"

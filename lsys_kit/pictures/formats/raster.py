@@ -1,6 +1,7 @@
-"""Scenes as PNG: for pictures with more strokes than SVG is good for, and for what a stored notebook shows.
+"""Rasterisation of scenes as PNG, for pictures with too many strokes for SVG and for stored notebooks.
 
-Drawn without text, at three times the size and then reduced, so that edges are smooth and pixels the same everywhere.
+Pictures are drawn without text at three times their size and then reduced, so that edges are smooth and pixels the same
+everywhere.
 """
 
 from __future__ import annotations
@@ -23,21 +24,21 @@ if TYPE_CHECKING:
 
 Coordinates: TypeAlias = NDArray[np.float32]
 FINE = 3
-"""How many times finer than its pixels a picture is drawn."""
-BLOCK = 2**16
-"""So many strokes are taken at a time: what lies between two operations stays in the processor's cache."""
+"""The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
+STROKES_AT_A_TIME = 2**16
+"""Strokes are rasterised in blocks of this size, which stay in the cache of the processor between two operations."""
 
 
 def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
-    """What a turtle has drawn as a PNG picture."""
+    """A scene of a turtle as PNG."""
     return _png(turtle_image(scene, colour_of, frame_of(scene.box)))
 
 
 def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> Image:
-    """What a turtle has drawn, in a frame that holds all of it.
+    """A scene of a turtle as an image, in a frame that contains it.
 
-    Strokes of one colour and width are points on a fine grid, spread to their width all at once; so a million of them take
-    no longer than their points do.
+    Strokes of one colour and width are rasterised on a fine grid and then dilated to their width all at once, so that the time
+    depends on the number of their points.
     """
     from PIL import Image, ImageDraw
 
@@ -65,14 +66,14 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -
 
 
 def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """The points of a grid that strokes run through, given how far across and down they start and end.
+    """The points of a grid that lie on strokes, given the columns and rows of their ends.
 
     >>> touched(np.array([[0.5, 2.5]], dtype=np.float32), np.array([[0.5, 0.5]], dtype=np.float32), (2, 4)).astype(int).tolist()
     [[1, 1, 1, 0], [0, 0, 0, 0]]
     """
     found = np.zeros(shape[0] * shape[1], dtype=bool)
-    for first in range(0, len(across), BLOCK):
-        x, y = across[first:first + BLOCK], down[first:first + BLOCK]
+    for first in range(0, len(across), STROKES_AT_A_TIME):
+        x, y = across[first:first + STROKES_AT_A_TIME], down[first:first + STROKES_AT_A_TIME]
         wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
         steps = np.ceil(np.maximum(np.abs(wide), np.abs(high))).astype(np.int32)
         np.maximum(steps, 1, out=steps)
@@ -85,13 +86,13 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> N
 
 
 def spread(found: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
-    """Every point of a grid within a radius of those given.
+    """The dilation of a set of points of a grid by a disc of a given radius.
 
     >>> spread(np.array([[0, 0, 0], [0, 1, 0], [0, 0, 0]], dtype=bool), 1).astype(int).tolist()
     [[0, 1, 0], [1, 1, 1], [0, 1, 0]]
     """
     reach = int(radius)
-    wide = {0: found}  # what lies within so many points to the left and right
+    wide = {0: found}  # dilated to the left and right by this number of points
     for side in range(1, reach + 1):
         wider = wide[side - 1].copy()
         wider[:, side:] |= found[:, :-side]

@@ -1,4 +1,5 @@
-"""Lineages as trees in continuous time (seed 002, figures 5 and 6).
+"""Lineages as trees in continuous time (P. Prusinkiewicz, "Introduction to Modeling with L-systems",
+figures 5 and 6).
 
 Time runs down. A line is a cell from its birth to its division, thin until the first word that has it, so that what happens
 within a step is told from what the words show. Cells that began alike have the same colour and the same dashes; a flag shows
@@ -28,12 +29,12 @@ from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
 from lsys_kit.pictures.svg import MARGIN, WIDTH, background, document
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
-"""How far lines go on below the last time, how round corners are, and the room for an interval, in pixels."""
+"""The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
 THICK, THIN, LATE = 24, 11, 90
 """Widths of lines, in tenths of a pixel."""
 LATE_LOOK = f'stroke="{VERMILION}" stroke-width="{LATE}" stroke-opacity="0.35"'
 MOST_LINES, MOST_TICKS = 400, 14
-"""At most so many cells at the end, and times on the axis."""
+"""The greatest numbers of cells at the end, and of times on the axis."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class LineagePicture:
     lineage
         The lineage.
     intervals
-        Stretches of time that are marked beside the tree, each from one time to another.
+        Intervals of time that are marked beside the tree.
     """
 
     lineage: Lineage
@@ -62,7 +63,7 @@ class LineagePicture:
         Raises
         ------
         ModelFileError
-            The name ends in something else, or the file cannot be written.
+            The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
@@ -74,14 +75,14 @@ class LineagePicture:
 
 
 def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture:
-    """The picture of a lineage, with some stretches of time marked.
+    """The picture of a lineage, with some intervals of time marked.
 
     Raises
     ------
     ModelLimitError
-        More cells live in the end than a picture has room for.
+        More cells are alive at the end than fit into a picture.
     ModelValueError
-        A stretch does not lie within the time of the lineage.
+        An interval does not lie within the time of the lineage.
     """
     if len(lineage.words[-1]) > MOST_LINES:
         raise ModelLimitError(f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have "
@@ -101,7 +102,7 @@ def drawn_lineage(lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (
     middle = tree.y(lineage.times[-1]) + TAIL + half
     legend, parts = _legend(tree), middle + half + 24
     body = [_axis(tree), *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
-            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last(tree, middle),
+            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last_word(tree, middle),
             f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{legend}</g>']
     height = round(parts) + (MARGIN if legend else -MARGIN)
     return document(background(WIDTH, height) + "".join(body), WIDTH, height, f"Lineage of {lineage}")
@@ -143,7 +144,7 @@ def _line(tree: Tree, number: int) -> str:
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
     late = "" if cell.due is None else (f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" '
                                         f'{LATE_LOOK} fill="none"/>')
-    start, turned = _start(tree, number, bottom)
+    start, turned = _branch_path(tree, number, bottom)
     look = f'fill="none" stroke="{kind.colour}" stroke-linecap="round"{kind.broken}'
     if seen <= turned or not tree.lineage.stepwise:
         return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
@@ -152,7 +153,7 @@ def _line(tree: Tree, number: int) -> str:
                    if bottom > seen else "")
 
 
-def _start(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
+def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
     """The beginning of a cell's line, from that of its mother round a corner, and how far down it leads."""
     cell, x = tree.lineage.cells[number], tree.x[number]
     top = tree.y(cell.born)
@@ -176,7 +177,7 @@ def _flags(tree: Tree) -> str:
     return f'<path d="{"".join(parts)}" fill="{INK}"/>'
 
 
-def _last(tree: Tree, middle: float) -> str:
+def _last_word(tree: Tree, middle: float) -> str:
     """The last word below the tree: its cells as they are drawn, else their names where there is room."""
     lineage, system = tree.lineage, tree.lineage.states.system
     if tree.row:

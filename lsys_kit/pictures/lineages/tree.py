@@ -1,6 +1,6 @@
-"""Where the lines of a lineage stand in its picture, and which cells are of one kind.
+"""The layout of a lineage: the positions of its lines, and the kinds of its cells.
 
-A line stands over its cell in the filament of the last word; a mother's in the middle of those of her first and last daughter.
+A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ AXIS, HEAD, TREE = 54, 22, 300
 BROADEST, APART = 30.0, 60.0
 """The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
 MOST_KINDS = 4
-"""At most so many kinds of cells are told apart."""
+"""The greatest number of kinds of cells that are distinguished."""
 DASHES = ("", "80 45", "1 45", "120 40 1 40")
-"""For each kind of cells how its lines are broken, in tenths of a pixel."""
+"""The dash pattern of each kind of cells, in tenths of a pixel."""
 
 
 @dataclass(frozen=True)
@@ -38,9 +38,9 @@ class CellKind:
     label
         What they were, as SVG text.
     characters
-        How long the label is.
+        The number of characters of the label.
     colour, dash
-        How their lines look.
+        The colour and the dash pattern of their lines.
     """
 
     label: str
@@ -50,20 +50,20 @@ class CellKind:
 
     @property
     def broken(self) -> str:
-        """The attribute that breaks its lines."""
+        """The SVG attribute for the dash pattern."""
         return f' stroke-dasharray="{self.dash}"' if self.dash else ""
 
 
 @dataclass(frozen=True)
 class Tree:
-    """Where the lines of a lineage stand, in pixels.
+    """The layout of a lineage, in pixels.
 
     Attributes
     ----------
     lineage
         The lineage.
     x
-        For each cell how far to the right.
+        The horizontal position of the line of each cell.
     row
         The cells of the filament below, or none.
     kinds, kind_of
@@ -83,21 +83,21 @@ class Tree:
     right: float
 
     def y(self, time: Value) -> float:
-        """How far down a time is."""
+        """The vertical position of a time."""
         end = float(self.lineage.times[-1])
         return MARGIN + HEAD + (TREE * float(time) / end if end else 0.0)
 
 
 def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     """The tree of a lineage, with some room left free to its right."""
-    x, row = _places(lineage, WIDTH - MARGIN - right)
+    x, row = _line_positions(lineage, WIDTH - MARGIN - right)
     kinds, kind_of, colour_of = _kinds(lineage)
     return Tree(lineage, x, row, kinds, kind_of, colour_of, WIDTH - MARGIN - right)
 
 
-def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
-    """For each cell how far to the right its line stands, and the filament below."""
-    ends = list(_ends(lineage))
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
+    """The horizontal position of the line of each cell, and the filament below."""
+    ends = list(_leaves(lineage))
     row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
     if row:
         x = {cell.state: cell.x for cell in row}
@@ -111,7 +111,7 @@ def _places(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filame
     return x, row
 
 
-def _ends(lineage: Lineage) -> Iterator[int]:
+def _leaves(lineage: Lineage) -> Iterator[int]:
     """The cells without daughters, from left to right."""
     todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
     while todo:
@@ -139,11 +139,11 @@ def _filament(lineage: Lineage, right: int) -> list[filaments.DrawnCell]:
 def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
     """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
 
-    Cells are of one kind that look alike at birth; where too many do not, those of one symbol. Where each kind has a symbol of
-    its own, colours are those of the symbols.
+    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. If each kind has its
+    own symbol, its colour is that of the symbol.
     """
     births = [cell.at_birth for cell in lineage.cells]
-    keys = [(_base(lineage, module), _look(lineage, module)) for module in births]
+    keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
     if len(set(keys)) > MOST_KINDS:
         keys = [(base, None) for base, _ in keys]
     numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
@@ -151,13 +151,13 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     for key, module in zip(keys, births, strict=True):
         members[numbers[key]][module] = None
     palette = colours(lineage.states.system) if len({base for base, _ in numbers}) == len(numbers) else {}
-    kinds = [_kind(lineage, list(modules), number, palette) for number, modules in enumerate(members)]
+    kinds = [_cell_kind(lineage, list(modules), number, palette) for number, modules in enumerate(members)]
     kind_of = [numbers[key] for key in keys]
     return kinds, kind_of, {cell: palette.get(lineage.cells[cell].modules[-1][1].symbol, kinds[kind_of[cell]].colour)
                             for cell in lineage.words[-1]}
 
 
-def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> CellKind:
+def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> CellKind:
     system, symbol = lineage.states.system, modules[0].symbol
     letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
     name = f"{letter}_{subscript}" if subscript else letter
@@ -166,17 +166,17 @@ def _kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Map
 
 
 def _base(lineage: Lineage, module: Module) -> str:
-    """A module's symbol without its polarity."""
+    """The symbol of a module without its polarity."""
     return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
 
 
-def _look(lineage: Lineage, module: Module) -> object:
-    """What a module looks like without its polarity; itself, where it is not drawn as a cell."""
+def _drawn_shape(lineage: Lineage, module: Module) -> object:
+    """The drawn shape of a module without its polarity; its arguments, if it is not drawn as a cell."""
     return tuple(made.arguments for made in interpretation_of(lineage.states, module) if is_cell(made)) or module.arguments
 
 
 def polarity_of(lineage: Lineage, module: Module) -> int:
-    """Where a cell points: -1 to the left, 1 to the right, 0 nowhere."""
+    """The polarity of a cell: -1 to the left, 1 to the right, 0 for none."""
     drawn = [made for made in interpretation_of(lineage.states, module) if is_cell(made)]
     if drawn:
         return CELLS[drawn[0].symbol]

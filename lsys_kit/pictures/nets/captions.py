@@ -1,4 +1,4 @@
-"""Captions: the texts of a stage diagram, in few characters: what stands at bars, at arcs and in places."""
+"""Captions: the short texts of a stage diagram, at bars, at arcs and in places."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import math
 from lsys_kit.derivation.petri.net import Stages, Transition, likelihood
 from lsys_kit.notation.model.arithmetic import number_text
 
-MOST_CHARACTERS = 44
-"""Terms with more characters are shortened; their title has them all."""
+LONGEST_CAPTION = 44
+"""Longer terms are abbreviated; their title shows the full text."""
 _UNITS = ((10 ** 12, "T"), (10 ** 9, "G"), (10 ** 6, "M"), (10 ** 3, "k"))
 
 
 
 def short(count: int) -> str:
-    """A number of tokens in at most five characters, its last digits cut off.
+    """A number of tokens in at most five characters, rounded down.
 
     >>> [short(n) for n in (7, 999, 1000, 1250, 31_999, 3_400_000, 10 ** 40)]
     ['7', '999', '1k', '1.2k', '31k', '3.4M', '10^40']
@@ -30,7 +30,7 @@ def short(count: int) -> str:
 
 
 def terms_of(transition: Transition) -> str:
-    """What stands beside a bar: how likely it is, how long it takes, what it asks for.
+    """The text beside a bar: its probability, its duration and its condition.
 
     >>> terms_of(Transition(0, 0, "t >= 1", at_once=True)), terms_of(Transition(0, 1, chance=0.5))
     ('at once, t ≥ 1', 'p = 0.5')
@@ -42,7 +42,7 @@ def terms_of(transition: Transition) -> str:
 
 
 def notes_of(net: Stages, positions: bool) -> dict[int, str]:
-    """What stands at each arc: how many copies, unless it is 1, or the positions in a successor of several modules."""
+    """The text at each arc: the number of copies, unless it is 1, or the positions in a successor of several modules."""
     made = [0] * len(net.transitions)
     for arc in net.arcs:
         made[arc.transition] += arc.copies
@@ -60,7 +60,7 @@ def _ordinal(number: int) -> str:
 
 
 def readable(condition: str) -> str:
-    """A condition as it is set beside a bar.
+    """A condition as it is typeset beside a bar.
 
     >>> readable("t >= 1 && p != -1")
     't ≥ 1 and p ≠ -1'
@@ -71,10 +71,10 @@ def readable(condition: str) -> str:
 
 
 def width_of(text: str, size: float) -> float:
-    """About how wide a text is, rather more than less: no font is asked, so that it is the same everywhere."""
+    """An upper estimate of the width of a text, independent of installed fonts."""
     return size * math.fsum(0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else
                             0.8 if letter.isupper() else 0.64 for letter in text)
 
 
 def abbreviated(text: str) -> str:
-    return text if len(text) <= MOST_CHARACTERS else text[:MOST_CHARACTERS - 1].rstrip() + "…"
+    return text if len(text) <= LONGEST_CAPTION else text[:LONGEST_CAPTION - 1].rstrip() + "…"

@@ -1,7 +1,8 @@
-"""Stage diagrams as pictures, in the style of Petri nets (seed 002, figure 2).
+"""Stage diagrams as pictures, in the style of Petri nets (P. Prusinkiewicz, "Introduction to Modeling with
+L-systems", figure 2).
 
 Places are circles and hold tokens, transitions are bars. A row of stages reads from left to right; the arcs of a division
-leave its bar and return over the row, each in a lane of its own, so that no line crosses a circle.
+leave its bar and return above the row, each in its own lane, so that no line crosses a circle.
 """
 
 from __future__ import annotations
@@ -14,18 +15,17 @@ from string import punctuation
 
 from lsys_kit.derivation.petri.net import Place, Stages
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.commands import COMMANDS
+from lsys_kit.geometry.turtle.actions import Effect
+from lsys_kit.geometry.turtle.commands import COMMANDS, symbols_with
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, short, terms_of, width_of
-from lsys_kit.pictures.nets.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, laid_out
+from lsys_kit.pictures.nets.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, layout_of
 from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
 from lsys_kit.pictures.style.labels import escaped, place_parts, place_text, svg_label
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, PAPER, QUIET, colours, tinted
 
-SEEN = frozenset(("draw", "draw past", "move", "move past", "surface", "circle", "disc", "sphere"))
-"""What a turtle does that leaves something behind, if only a gap; whatever else it is told only steers it."""
 LABEL_SIZE, SMALL = 14, 11
-"""Of letters, in pixels."""
+"""Font sizes, in pixels."""
 LINE = 16.0
 """The height of a line below the diagram."""
 
@@ -40,13 +40,13 @@ class Diagram:
     Attributes
     ----------
     order
-        The places in the order in which they are read.
+        The places in reading order.
     names
         Their labels, in words.
     layout
-        Where everything stands.
+        The positions of circles, bars and arcs.
     start
-        The picture up to its description's end.
+        The SVG up to the end of its description.
     lines
         The bars and arcs, as SVG.
     stages
@@ -70,13 +70,13 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     net
         The stages of a system.
     tokens
-        How many tokens lie in each place; none are drawn without it.
+        The number of tokens in each place; by default none are drawn.
     marked
-        The number of a place to be marked.
+        The number of the place that is highlighted.
     positions
-        Whether arcs say where in the successor their modules stand, rather than how many there are.
+        Whether arcs are labelled with the positions of their modules in the successor, rather than with their number.
     steering
-        Symbols whose places are left out if they are never rewritten; by default those that only steer the turtle.
+        Symbols whose places are omitted if they are never rewritten; by default those that only steer the turtle.
 
     Raises
     ------
@@ -105,20 +105,20 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
 
 
 def steering_of(system: LSystem) -> frozenset[str]:
-    """The symbols that only steer the turtle: they are no stages of anything.
+    """The symbols that only steer the turtle, and so are no stages.
 
     >>> from lsys_kit.notation.read import read
     >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
     ['&', '+', '[', ']']
     """
-    drawn = {rule.predecessor.symbol for rule in system.interpretation}
-    return frozenset(punctuation) | {symbol for symbol, commands in COMMANDS[system.turtle].items()
-                                     if symbol not in drawn and not any(command.action in SEEN for command in commands)}
+    interpreted = {rule.predecessor.symbol for rule in system.interpretation}
+    invisible = COMMANDS[system.turtle].keys() - symbols_with(Effect.VISIBLE, system.turtle)
+    return frozenset(punctuation) | (invisible - interpreted)
 
 
 @lru_cache(maxsize=64)
 def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
-    """Everything that does not change with the tokens."""
+    """The parts of the diagram that do not depend on the tokens."""
     rows = rows_of(net, shown_places(net, steering))
     plan = planned(net, rows)
     order = tuple(place for row in rows for place in row)
@@ -126,7 +126,7 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
     notes = notes_of(net, positions)
     besides = tuple(f"besides: {readable(text)}" for text in net.besides)
     terms = {number: abbreviated(text) for number, transition in enumerate(net.transitions) if (text := terms_of(transition))}
-    layout = laid_out(net, plan, Texts({place: width_of(name, LABEL_SIZE) for place, name in zip(order, names, strict=True)},
+    layout = layout_of(net, plan, Texts({place: width_of(name, LABEL_SIZE) for place, name in zip(order, names, strict=True)},
                                        {number: width_of(text, SMALL) for number, text in terms.items()},
                                        {arc: width_of(text, SMALL) for arc, text in notes.items()}))
     fills = _fills(net, order)
@@ -135,10 +135,10 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
                      *(_bar_svg(net, layout, number, terms.get(number, "")) for number in layout.bars),
                      *(_note_svg(layout.notes[arc], text) for arc, text in notes.items() if arc in layout.notes),
                      *(_besides_svg(layout, line, text) for line, text in enumerate(besides))])
-    return Diagram(order, names, layout, _start(layout, names, besides), lines, stages)
+    return Diagram(order, names, layout, _svg_head(layout, names, besides), lines, stages)
 
 
-def _start(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
+def _svg_head(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
     width = math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in besides)]))
     height = math.ceil(layout.height + LINE * len(besides))
     told = f"Stage diagram: {len(names)} stage{'' if len(names) == 1 else 's'} {', '.join(names)}".rstrip()
@@ -149,7 +149,7 @@ def _start(layout: Layout, names: Sequence[str], besides: Sequence[str]) -> str:
 
 
 def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, str]]:
-    """The fill and edge of each circle; the fills of one symbol grow stronger with its values."""
+    """The fill and stroke of each circle; fills of one symbol darken with its values."""
     palette = colours(net.system)
     groups: dict[str, list[int]] = {}
     for place in sorted(order, key=lambda place: _rank(net.places[place])):
@@ -207,8 +207,8 @@ _STROKE = f'fill="none" stroke="{INK}" stroke-width="1.3"'
 
 
 def _arc_svg(number: int, corners: Sequence[Point]) -> str:
-    """An arc on a white band, which opens the lines that it crosses, with its arrowhead."""
-    path, band = rounded_path(corners), rounded_path([*corners[:-1], _towards(corners[-1], corners[-2], 10)])
+    """An arc with its arrowhead, on a white band that interrupts the lines it crosses."""
+    path, band = rounded_path(corners), rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)])
     (x, y), down = corners[-1], corners[-1][0] == corners[-2][0]
     (a, b), (c, d) = ((-3.4, -8.5), (3.4, -8.5)) if down else ((-8.5, -3.4), (-8.5, 3.4))
     return (f'<path d="{band}" fill="none" stroke="{PAPER}" stroke-width="5"/><path class="arc" data-arc="{number}" d="{path}" '
@@ -224,13 +224,13 @@ def rounded_path(corners: Sequence[Point]) -> str:
     path = ["M{:.1f} {:.1f}".format(*corners[0])]
     for before, corner, after in zip(corners, corners[1:], corners[2:], strict=False):
         reach = min(ROUND, math.dist(before, corner) / 2, math.dist(corner, after) / 2)
-        start, end = _towards(corner, before, reach), _towards(corner, after, reach)
+        start, end = _point_towards(corner, before, reach), _point_towards(corner, after, reach)
         path.append("L{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}".format(*start, *corner, *end))
     return "".join(path) + "L{:.1f} {:.1f}".format(*corners[-1])
 
 
-def _towards(start: Point, end: Point, reach: float) -> Point:
-    """The point at a distance from the one towards the other."""
+def _point_towards(start: Point, end: Point, reach: float) -> Point:
+    """The point at some distance from the start towards the end."""
     share = reach / (math.dist(start, end) or 1.0)
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
 

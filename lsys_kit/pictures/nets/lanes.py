@@ -1,7 +1,7 @@
-"""Lanes: side by side lines that run the same way, in an order in which few of them cross.
+"""Lanes: parallel lines side by side, in an order with few crossings.
 
-A stretch is the straight part of a line that runs in a lane. At both ends the line turns off, to the one side (-1: up or
-left) or the other (+1: down or right), and crosses the stretches that it meets there.
+A stretch is the straight part of a line that runs in a lane. At both ends the line turns off, to one side (-1: up or left) or
+the other (+1: down or right), and crosses the stretches that it meets there.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 Stretch: TypeAlias = tuple[tuple[float, int], tuple[float, int]]
-"""Two ends, each a position along the lane and the side to which the line turns off."""
+"""Two ends: for each its position along the lane and the side to which the line turns off."""
 
 
 def crossings(first: Stretch, second: Stretch) -> int:
-    """How often two lines cross when the lane of the first lies on the -1 side of the second's.
+    """The number of crossings of two lines, if the lane of the first lies on the -1 side of that of the second.
 
     >>> crossings(((0, 1), (3, 1)), ((1, 1), (2, 1))), crossings(((1, 1), (2, 1)), ((0, 1), (3, 1)))
     (0, 2)
@@ -27,26 +27,26 @@ def crossings(first: Stretch, second: Stretch) -> int:
 
 
 def ordered(stretches: Sequence[Stretch]) -> list[int]:
-    """The numbers of the stretches, that of the lane furthest to the -1 side first.
+    """The numbers of the stretches in the order of their lanes, from the -1 side.
 
-    At first longer stretches lie outside, and later ones where they are as long; then each is moved to its best place until no
-    move helps.
+    Initially longer stretches lie outside, and later ones before earlier ones of the same length; then each is moved to its
+    best place until no move reduces the crossings.
 
     >>> ordered([((1, 1), (2, 1)), ((0, 1), (3, 1))])
     [1, 0]
     """
-    order = sorted(range(len(stretches)), key=lambda i: (-_length(stretches[i]), -i))
+    order = sorted(range(len(stretches)), key=lambda i: (-_stretch_length(stretches[i]), -i))
     cost = [[crossings(a, b) for b in stretches] for a in stretches]
     improved = True
     while improved:
         improved = False
         for number in tuple(order):
-            improved |= _sifted(order, number, cost)
+            improved |= _moved_to_best_place(order, number, cost)
     return order
 
 
-def _sifted(order: list[int], number: int, cost: Sequence[Sequence[int]]) -> bool:
-    """Moves a stretch to where it crosses the fewest others; whether that helped."""
+def _moved_to_best_place(order: list[int], number: int, cost: Sequence[Sequence[int]]) -> bool:
+    """Move a stretch to the place with the fewest crossings; tell whether that helped."""
     now = order.index(number)
     rest = order[:now] + order[now + 1:]
     totals = [sum(cost[number][other] for other in rest)]
@@ -60,7 +60,7 @@ def _sifted(order: list[int], number: int, cost: Sequence[Sequence[int]]) -> boo
 
 
 def levels(stretches: Sequence[Stretch], order: Sequence[int]) -> list[int]:
-    """For each stretch its lane, from 0: lanes are shared by stretches that do not meet, and the order is kept.
+    """The lane of each stretch, from 0: stretches that do not overlap share a lane, and the order is kept.
 
     >>> levels([((0, 1), (1, 1)), ((2, 1), (3, 1)), ((0, 1), (3, 1))], [0, 1, 2])
     [0, 0, 1]
@@ -80,7 +80,7 @@ def _high(stretch: Stretch) -> float:
     return max(stretch[0][0], stretch[1][0])
 
 
-def _length(stretch: Stretch) -> float:
+def _stretch_length(stretch: Stretch) -> float:
     return _high(stretch) - _low(stretch)
 
 
@@ -89,7 +89,7 @@ def _inside(position: float, stretch: Stretch) -> bool:
 
 
 def _onward(end: float, stretch: Stretch) -> bool:
-    """Whether a stretch goes on to higher positions from one of its ends."""
+    """Whether a stretch runs towards higher positions from one of its ends."""
     return end == _low(stretch)
 
 

@@ -1,4 +1,4 @@
-"""Layout: the measures of a stage diagram, all in pixels, from its plan."""
+"""Layout: the coordinates of a stage diagram, in pixels, computed from its plan."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ RADIUS = 17.0
 BAR = 13.0
 """Half the height of a bar."""
 LABEL = 22.0
-"""From a circle down to the end of its label."""
+"""The distance from a circle to the lower edge of its label."""
 LANE, SLOT, STEP = 14.0, 7.0, 6.0
-"""Between neighbouring lanes: in the gaps, in the channels and margins, at the bars."""
+"""The distances of neighbouring lanes in gaps, in channels and margins, and at the bars."""
 LANDING = 24.0
-"""From the nearest lane down to the row."""
+"""The distance from the lowest lane to the row."""
 BEFORE_BAR, BEFORE_BARS = 17.0, 30.0
-"""From a circle to its bar, or to its several bars."""
+"""The distance from a circle to its bar, or to several bars."""
 STACKED = 38.0
-"""Between the bars of one place."""
+"""The distance of the bars of one place."""
 ARROW_LENGTH = 17.0
-"""The room for the end of an arrow."""
+"""The length of the last segment of an arrow."""
 ROUND = 10.0
 """The radius of a line's corners."""
 EDGE = 14.0
@@ -35,7 +35,7 @@ Point: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True)
 class Texts:
-    """How wide the texts of a diagram are: labels by place, terms by transition, notes by arc."""
+    """The widths of the texts of a diagram: labels by place, terms by transition, notes by arc."""
 
     labels: Mapping[int, float]
     terms: Mapping[int, float]
@@ -43,8 +43,8 @@ class Texts:
 
 
 @dataclass(frozen=True)
-class BarSpot:
-    """Where a bar stands: its middle, half its height, the line to it, and the left end of the base line of its terms."""
+class BarPosition:
+    """The position of a bar: its centre, half its height, the line to it, and the left end of the baseline of its terms."""
 
     x: float
     y: float
@@ -55,7 +55,7 @@ class BarSpot:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where everything stands.
+    """The positions of all parts of a diagram.
 
     Attributes
     ----------
@@ -66,22 +66,22 @@ class Layout:
     bars
         For each transition its bar.
     arcs
-        For each arc the corners of its line, from the bar to the circle.
+        For each arc the vertices of its line, from the bar to the circle.
     notes
-        For each arc that has a note the note's centre.
+        For each arc with a note the centre of the note.
     """
 
     width: float
     height: float
     circles: Mapping[int, Point]
-    bars: Mapping[int, BarSpot]
+    bars: Mapping[int, BarPosition]
     arcs: Mapping[int, tuple[Point, ...]]
     notes: Mapping[int, Point]
 
 
 @dataclass(frozen=True)
 class _Grid:
-    """The lines that everything is measured from: columns, rows and the ground of each gap's lanes."""
+    """The reference lines of a layout: columns, rows and the base of the lanes of each gap."""
 
     columns: tuple[float, ...]
     rows: tuple[float, ...]
@@ -93,19 +93,19 @@ class _Grid:
     height: float
 
     def lane(self, gap: int, level: int) -> float:
-        """The height of a lane."""
+        """The vertical position of a lane."""
         return self.tops[gap] - LANDING - level * LANE
 
     def margin(self, side: int, level: int) -> float:
-        """Where a lane of a margin lies."""
+        """The horizontal position of a lane of a margin."""
         return self.margins[side > 0] + side * level * SLOT
 
 
-def laid_out(net: Stages, plan: Plan, texts: Texts) -> Layout:
-    """The measures of a plan."""
+def layout_of(net: Stages, plan: Plan, texts: Texts) -> Layout:
+    """The layout of a plan."""
     grid = _grid(net, plan, texts)
     circles = {place: (grid.columns[c], grid.rows[r]) for r, row in enumerate(plan.rows) for c, place in enumerate(row)}
-    heights = _heights(plan, circles)
+    heights = _exit_heights(plan, circles)
     bars = {number: bar for place, own in plan.bars.items() for number, bar in
             _bars(own, circles[place], grid.bars[_column(plan, place)], heights, plan, texts.labels[place]).items()}
     arcs = {route.arc: _corners(route, net, plan, grid, circles, heights) for route in plan.routes}
@@ -131,7 +131,7 @@ def _grid(net: Stages, plan: Plan, texts: Texts) -> _Grid:
     first = west[0] if room[0] else max([RADIUS, *(texts.labels[place] / 2 for column in columns[:1] for place in column)])
     xs = tuple(accumulate(pitches, initial=EDGE + room[0] + first))
     right = max((x + reach for x, reach in zip(xs, east, strict=False)), default=0.0)
-    ys, tops, bottom = _rows(plan)
+    ys, tops, bottom = _row_positions(plan)
     return _Grid(xs, ys, tops, tuple(bars), tuple(slots), (xs[0] - (west[0] if west else 0), right + 4),
                  right + room[1] + EDGE, bottom + EDGE)
 
@@ -143,7 +143,7 @@ def _before_bar(plan: Plan, place: int, label: float) -> float:
 
 
 def _turning(plan: Plan, place: int, bar: float, texts: Texts) -> float:
-    """Where lines first turn off in a channel: right of terms and labels, and so that a loop has room for its note."""
+    """Where lines first turn off in a channel: to the right of terms and labels, with room for the note of a loop."""
     loops = (arc for arc in plan.entries.get(place, ()) if any(arc in plan.exits[t] for t in plan.bars[place]))
     return max(bar + 10 + _widest(texts.terms, plan.bars[place]), texts.labels[place] / 2 + 6,
                _widest(texts.notes, loops) + 2 * ROUND)
@@ -161,8 +161,8 @@ def _widest(widths: Mapping[int, float], keys: Iterable[int]) -> float:
     return max((widths[key] + 8 for key in keys if key in widths), default=0.0)
 
 
-def _rows(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...], float]:
-    """The middle of each row, its upper edge, and the lower edge of the last."""
+def _row_positions(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...], float]:
+    """The middle and the upper edge of each row, and the lower edge of the last."""
     middles, tops, bottom = [], [], EDGE
     for number, row in enumerate(plan.rows):
         stack = max((len(plan.bars[place]) - 1) * STACKED / 2 + BAR + 8 for place in row)
@@ -174,8 +174,8 @@ def _rows(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...], float]:
     return tuple(middles), tuple(tops), bottom
 
 
-def _heights(plan: Plan, circles: Mapping[int, Point]) -> dict[int, float]:
-    """The height at which each arc leaves its bar; a direct one leaves it in the middle."""
+def _exit_heights(plan: Plan, circles: Mapping[int, Point]) -> dict[int, float]:
+    """The vertical position at which each arc leaves its bar; a direct arc leaves it in the middle."""
     direct = {route.arc for route in plan.routes if route.direct}
     found = {}
     for place, own in plan.bars.items():
@@ -189,7 +189,7 @@ def _heights(plan: Plan, circles: Mapping[int, Point]) -> dict[int, float]:
 
 
 def _bars(own: Sequence[int], circle: Point, reach: float, heights: Mapping[int, float], plan: Plan,
-          label: float) -> dict[int, BarSpot]:
+          label: float) -> dict[int, BarPosition]:
     """The bars of a place, and the lines to them; the line to one of several bars turns beside the label."""
     found = {}
     x, start = circle[0] + reach, (circle[0] + RADIUS, circle[1])
@@ -199,13 +199,13 @@ def _bars(own: Sequence[int], circle: Point, reach: float, heights: Mapping[int,
         ends = [heights[arc] for arc in plan.exits[bar]] or [y]
         half = max([BAR, *(abs(end - y) + 4 for end in ends)])
         line = (start, (x, y)) if y == circle[1] else (start, (bend, circle[1]), (bend, y), (x, y))
-        found[bar] = BarSpot(x, y, half, line, (x + 6, min(ends) - 5))
+        found[bar] = BarPosition(x, y, half, line, (x + 6, min(ends) - 5))
     return found
 
 
 def _corners(route: Route, net: Stages, plan: Plan, grid: _Grid, circles: Mapping[int, Point],
              heights: Mapping[int, float]) -> tuple[Point, ...]:
-    """The corners of an arc's line."""
+    """The vertices of the line of an arc."""
     arc, (row, column), to = route.arc, route.source, route.target[0]
     place = net.arcs[arc].place
     x, y, y_circle = grid.columns[column] + grid.bars[column], heights[arc], circles[place][1]
@@ -227,13 +227,13 @@ def _corners(route: Route, net: Stages, plan: Plan, grid: _Grid, circles: Mappin
 
 
 def _shift(arc: int, entries: Sequence[int]) -> float:
-    """How far right of the middle an arc meets its circle."""
+    """The horizontal offset from the centre at which an arc meets its circle."""
     middle = (len(entries) - 1) / 2
     return (entries.index(arc) - middle) * min(9.0, 0.7 * RADIUS / max(1.0, middle))
 
 
 def _note(arc: int, width: float, arcs: Mapping[int, tuple[Point, ...]]) -> Point:
-    """Where an arc's note stands: on its lane, in the widest stretch that no other line crosses; a direct arc's above it."""
+    """The position of the note of an arc: on its lane, in the widest stretch without crossings; above a direct arc."""
     corners = arcs[arc]
     if len(corners) == 2:
         return corners[1][0] - 6 - width / 2, corners[1][1] - 10
@@ -244,12 +244,12 @@ def _note(arc: int, width: float, arcs: Mapping[int, tuple[Point, ...]]) -> Poin
     def fitness(free: tuple[float, float, float]) -> tuple[float, float]:
         return min(free[1] - free[0], width + 40), -abs((free[0] + free[1]) / 2 - middle)
 
-    left, right, y = max((free for a, b in lanes for free in _free(a, b, others)), key=fitness)
+    left, right, y = max((free for a, b in lanes for free in _free_intervals(a, b, others)), key=fitness)
     return (left + right) / 2, y
 
 
-def _free(a: Point, b: Point, others: Iterable[Sequence[Point]]) -> list[tuple[float, float, float]]:
-    """The parts of a lane between the lines that cross it, each with the lane's height."""
+def _free_intervals(a: Point, b: Point, others: Iterable[Sequence[Point]]) -> list[tuple[float, float, float]]:
+    """The intervals of a lane between the lines that cross it, each with the vertical position of the lane."""
     left, right = sorted((a[0], b[0]))
     cuts = {p[0] for line in others for p, q in pairwise(line)
             if p[0] == q[0] and min(p[1], q[1]) - 7 < a[1] < max(p[1], q[1]) + 7 and left < p[0] < right}

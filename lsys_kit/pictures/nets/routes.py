@@ -1,8 +1,8 @@
-"""Routes: in which rows the stages of a diagram stand, and which way each arc goes round them.
+"""Routes: the rows of a stage diagram, and the route of each arc around them.
 
-Places stand in the columns of a grid, bars right of them in the channels between the columns. An arc to the right neighbour is
-direct. Every other one leaves its bar sideways, turns up or down in the channel, runs in a lane of the gap above its target's
-row, and comes down into the target: so no arc can meet a circle. To a row that is not the next one it goes round by a margin.
+Places stand in the columns of a grid, bars to their right in the channels between the columns. An arc to the right neighbour is
+direct. Every other arc leaves its bar sideways, turns up or down in the channel, runs in a lane of the gap above the row of its
+target, and enters the target from above: so no arc can meet a circle. To a row that is not adjacent it runs through a margin.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from lsys_kit.pictures.style.labels import polar_symbols
 
 LONGEST_ROW = 8
 _GAP = 1000.0
-"""Gaps lie this far apart where lanes are counted in ones."""
+"""The distance of gaps in units of lanes."""
 
 
 @dataclass(frozen=True)
 class Route:
-    """Which way an arc goes.
+    """The route of an arc.
 
     Attributes
     ----------
@@ -31,9 +31,9 @@ class Route:
     source, target
         The row and column of the place whose bar it leaves, and of the place it leads to.
     way
-        How it leaves the bar: -1 up, 1 down, 0 straight on.
+        The direction in which it leaves the bar: -1 up, 1 down, 0 straight on.
     side
-        The margin it goes round by: -1 left, 1 right, 0 none.
+        The margin through which it runs: -1 left, 1 right, 0 none.
     """
 
     arc: int
@@ -44,13 +44,13 @@ class Route:
 
     @property
     def direct(self) -> bool:
-        """Whether it is the straight line to the right neighbour."""
+        """Whether the arc is the straight line to the right neighbour."""
         return self.way == self.side == 0
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A diagram before it has any measures.
+    """A diagram without coordinates.
 
     Attributes
     ----------
@@ -63,13 +63,13 @@ class Plan:
     lanes
         For each arc and gap the number of its lane, counted from the row below; gap r is the one above row r.
     climbs
-        For each arc that goes round by a margin the number of its lane there, counted from the rows.
+        For each arc through a margin the number of its lane there, counted from the rows.
     slots
         For each arc that turns off in a channel the number of its lane there, counted from the bar.
     exits
         For each transition the arcs that leave its bar, from top to bottom.
     entries
-        For each place the arcs that come down into it, from left to right.
+        For each place the arcs that enter it from above, from left to right.
     """
 
     rows: tuple[tuple[int, ...], ...]
@@ -83,13 +83,13 @@ class Plan:
 
 
 def shown_places(net: Stages, steering: Collection[str]) -> tuple[int, ...]:
-    """The places that are drawn: all but those that are never rewritten and only steer the turtle."""
+    """The places that are drawn: all except those that are never rewritten and only steer the turtle."""
     moved = {transition.place for transition in net.transitions}
     return tuple(i for i, place in enumerate(net.places) if i in moved or place.symbol not in steering)
 
 
 def rows_of(net: Stages, shown: Collection[int]) -> tuple[tuple[int, ...], ...]:
-    """The rows of places: one for each symbol that has several stages, one for all the others; long ones are wrapped.
+    """The rows of places: one for each symbol with several stages, one for all others; long rows are wrapped.
 
     >>> from lsys_kit.derivation.petri.stages import stages
     >>> from lsys_kit.notation.read import read
@@ -105,7 +105,7 @@ def rows_of(net: Stages, shown: Collection[int]) -> tuple[tuple[int, ...], ...]:
 
 
 def _chained(net: Stages, group: Sequence[int]) -> list[int]:
-    """Places in the order in which a module passes through them, each chain begun where no other stage leads."""
+    """Places in the order in which a module passes through them; a chain begins at a stage without predecessors."""
     leads, sole = _leads(net, group), _leads(net, group, sole=True)
     led = {target for place, targets in sole.items() for target in targets if target != place}
     left = sorted(group, key=lambda place: (place in led, not leads[place], place))
@@ -121,7 +121,7 @@ def _chained(net: Stages, group: Sequence[int]) -> list[int]:
 
 
 def _leads(net: Stages, group: Sequence[int], sole: bool = False) -> dict[int, list[int]]:
-    """For each place of a group those of its targets in the group; only of transitions that make one token, if `sole`."""
+    """The targets in a group of each of its places; if `sole`, only by transitions that make one token."""
     found: dict[int, list[int]] = {place: [] for place in group}
     made = [0] * len(net.transitions)
     for arc in net.arcs:
@@ -140,7 +140,7 @@ def _wrapped(chain: Sequence[int]) -> list[tuple[int, ...]]:
 
 
 def planned(net: Stages, rows: Sequence[tuple[int, ...]]) -> Plan:
-    """The plan of a diagram whose places stand in given rows."""
+    """The plan of a diagram with given rows of places."""
     cells = {place: (r, c) for r, row in enumerate(rows) for c, place in enumerate(row)}
     columns = max(map(len, rows), default=0)
     bars: dict[int, list[int]] = {place: [] for place in cells}
@@ -157,7 +157,7 @@ def planned(net: Stages, rows: Sequence[tuple[int, ...]]) -> Plan:
 
 def _route(number: int, net: Stages, cells: Mapping[int, tuple[int, int]], bars: Mapping[int, Sequence[int]],
            rows: Sequence[Sequence[int]]) -> Route:
-    """The way of one arc, the shorter one where there are two."""
+    """The route of an arc, the shorter one if there are two."""
     arc = net.arcs[number]
     place = net.transitions[arc.transition].place
     (row, column), (to, at) = cells[place], cells[arc.place]
@@ -173,7 +173,7 @@ def _route(number: int, net: Stages, cells: Mapping[int, tuple[int, int]], bars:
 
 
 def _stretches(route: Route, columns: int) -> list[tuple[int, Stretch]]:
-    """The gaps in which an arc runs, with its stretch in each; positions are columns, channels lie half way between."""
+    """The gaps through which an arc runs, with its stretch in each; positions are columns, channels lie half-way between."""
     (row, column), (to, at) = route.source, route.target
     gap = row if route.way < 0 else row + 1
     leave, margin, arrive = (column + 0.5, -route.way), -1.0 if route.side < 0 else float(columns), (float(at), 1)
@@ -219,7 +219,7 @@ def _climb(route: Route, lanes: Mapping[tuple[int, int], int]) -> Stretch:
 
 
 def _slots(routes: Sequence[Route], lanes: Mapping[tuple[int, int], int], columns: int) -> dict[int, int]:
-    """Lanes in the channels, such that arcs that leave one bar do not cross there."""
+    """Lanes in the channels, such that the arcs of one bar do not cross there."""
     channels: dict[tuple[int, int], list[tuple[bool, int, int]]] = {}
     for route in routes:
         if route.way:
@@ -231,7 +231,7 @@ def _slots(routes: Sequence[Route], lanes: Mapping[tuple[int, int], int], column
 
 def _exits(net: Stages, routes: Sequence[Route], slots: Mapping[int, int],
            climbs: Mapping[int, int]) -> dict[int, tuple[int, ...]]:
-    """The arcs of each bar from top to bottom: what turns up, what goes straight on, what turns down."""
+    """The arcs of each bar from top to bottom: those that turn up, go straight on, and turn down."""
     found: dict[int, list[tuple[int, int, int]]] = {number: [] for number in range(len(net.transitions))}
     for route in routes:
         up = route.target[0] < route.source[0]
@@ -241,7 +241,7 @@ def _exits(net: Stages, routes: Sequence[Route], slots: Mapping[int, int],
 
 
 def _entries(net: Stages, routes: Sequence[Route], lanes: Mapping[tuple[int, int], int]) -> dict[int, tuple[int, ...]]:
-    """The arcs that come down into each place: those from the left, the nearest lane first, then those from the right."""
+    """The arcs that enter each place: those from the left, the nearest lane first, then those from the right."""
     found: dict[int, list[tuple[bool, int, int]]] = {}
     for route in routes:
         if not route.direct:

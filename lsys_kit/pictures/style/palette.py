@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from lsys_kit.geometry.surfaces import surfaces_of
+from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.style.labels import polar_symbols
 
@@ -19,7 +19,7 @@ NATURAL = {"leaf": GREEN, "petal": PURPLE, "flower": PURPLE, "rosette": PURPLE}
 """What has its natural colour, as far as there is one."""
 CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A5A2B", "#B9C0C6", "#6B7680", "#56B4E9",
           "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8")
-"""What a turtle chooses by number: the sixteen colours of GROGRA (seed 003), in shades that can be told apart and be seen on
+"""The colours that a turtle chooses by number: the sixteen of GROGRA, in shades that can be told apart and be seen on
 white: black, blue, green, cyan, red, magenta, brown, light and dark grey, the light ones, yellow, white."""
 INK = "#22303C"
 """Text and arrows."""

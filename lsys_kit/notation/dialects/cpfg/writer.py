@@ -12,6 +12,7 @@ from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.modules import END, Module, Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.syntax.formatting import first_missing
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
@@ -102,8 +103,7 @@ def _right_context(modules: Iterable[Pattern]) -> Iterator[str]:
 def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
-        whose = {"grogra": "GROGRA", "plant-string": "plant strings", "fractint": "Fractint"}
-        return f"turtle commands of {whose[system.turtle]}"
+        return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
     found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules"),),
                   map(_lacking_symbol, _symbols(system)), map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.grogra.spelling import RULE_ARROW, SPELLING
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.syntax.common_diagnostics import (
     VALUE_TOKENS,
     after_first,
@@ -77,7 +78,7 @@ def _directive(failure: ParseFailure) -> ModelSyntaxError | None:
         return failure.error('This "=" is not needed', f'Type "{failure.before} {excerpt(failure.after[1:].strip())},".')
     if "TRADITION" in failure.accepted:
         return failure.error(f"There is no turtle called {quoted(failure.found)}",
-                             "Turtles are: abop, grogra, plant-string, fractint.")
+                             f"Turtles are: {', '.join(TURTLE_DIALECTS)}.")
     behind = failure.text[failure.start + len(word[0]):failure.at].strip()
     if failure.found or (behind and name not in ("const", "var")):
         return None

@@ -19,6 +19,7 @@ from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling
 from lsys_kit.notation.model.expressions import Apply, Expression, Name
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, quoted_dialects
 from lsys_kit.notation.syntax.actions import ActionError, Expressions, check_name, place_of
 
 WordDefinition: TypeAlias = tuple[Pattern, ...]
@@ -204,9 +205,9 @@ class _MathematicaStatements(MathematicaExpressions):
         return "deferred", ("setting", (str(keyword), value))
 
     def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
-        if tradition[1:-1] not in ("abop", "grogra", "plant-string", "fractint"):
+        if tradition[1:-1] not in TURTLE_DIALECTS:
             raise ActionError(ModelNameError, f"I do not know the turtle commands of {tradition}", place_of(tradition),
-                          'Turtle commands are those of "abop", "grogra", "plant-string" or "fractint".')
+                          f'Turtle commands are those of {quoted_dialects("or")}.')
         return "deferred", ("setting", ("turtle", str(tradition[1:-1])))
 
     def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:

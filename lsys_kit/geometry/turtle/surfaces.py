@@ -1,4 +1,4 @@
-"""Surfaces that a model can name, as in `~L(2)`: leaves, petals, buds and flowers; their shapes are in `surfaces.toml`."""
+"""Predefined surfaces, as in `~L(2)`: leaves, petals, buds and flowers; their shapes are defined in `surfaces.toml`."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from importlib.resources import files
 from itertools import pairwise
 from typing import TypeAlias
 
-from lsys_kit.geometry.commands import COMMANDS
+from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
 
 Corner: TypeAlias = tuple[float, float, float]
-"""A point in the turtle's own axes: ahead, to the left, up."""
+"""A point in the frame of the turtle: ahead, to the left, up."""
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface of plane faces.
+    """A surface composed of plane faces.
 
     Attributes
     ----------
     name
-        What it is called.
+        Its name.
     symbols
-        The symbols that stand for it behind a tilde.
+        The symbols that stand for it after a tilde.
     faces
-        The corners of each face, one after another; the surface is about 1 long.
+        The corners of each face, in order; the surface has about unit length.
     """
 
     name: str
@@ -39,7 +39,7 @@ class Surface:
 
 @cache
 def surfaces() -> Mapping[str, Surface]:
-    """All surfaces, by their names.
+    """All surfaces, by name.
 
     >>> list(surfaces())
     ['leaf', 'petal', 'bud', 'flower', 'rosette']
@@ -54,7 +54,7 @@ def surfaces() -> Mapping[str, Surface]:
 
 @cache
 def surface_called(symbol: str) -> Surface | None:
-    """The surface that a symbol stands for behind a tilde, or None.
+    """The surface that a symbol stands for after a tilde, or None.
 
     >>> surface_called("K").name
     'flower'
@@ -63,7 +63,7 @@ def surface_called(symbol: str) -> Surface | None:
 
 
 def surfaces_of(system: LSystem) -> Mapping[str, str]:
-    """The symbols of a system that are drawn as a surface, by themselves or by their interpretation, and its name.
+    """For each symbol of a system that is drawn as a surface, directly or by interpretation, the name of the surface.
 
     >>> from lsys_kit.notation.read import read
     >>> surfaces_of(read("axiom: A\\nA -> F [+ ~ L] B\\ninterpretation:\\nB -> ~flower(2)"))
@@ -72,9 +72,9 @@ def surfaces_of(system: LSystem) -> Mapping[str, str]:
     words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
     called = [(behind.symbol, surface.name) for word in words for before, behind in pairwise(word)
               if before.symbol == "~" and (surface := surface_called(behind.symbol))]
-    told = [(module.symbol, command.surface) for word in words for module in word
+    drawn = [(module.symbol, command.surface) for word in words for module in word
             for command in COMMANDS[system.turtle].get(module.symbol, ()) if command.surface]
-    found = dict((*called, *told))
+    found = dict((*called, *drawn))
     for rule in system.interpretation:
         shown = next((found[module.symbol] for module in flat(rule.successor) if module.symbol in found), None)
         if shown:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, limits, read, system
-from lsys_kit.geometry.turtle import place_path, trace
+from lsys_kit.geometry.turtle.plane import place_path, trace
 
 
 def scene(text, angle=60.0, heading=0.0, notation=None):

@@ -1,0 +1,222 @@
+"""What each symbol tells the turtle, in each dialect of turtle commands, side by side.
+
+ABOP's commands are those of The Algorithmic Beauty of Plants, appendix C, and of cpfg, which follows it; GROGRA's are those of
+W. Kurth's lecture slides; those of plant strings are the applet's; Fractint's are those of its documentation. The dialects
+agree on most symbols and differ on some: in GROGRA `/` is no roll, and a turn to the left appears as a turn to the right,
+because its turtle shows the picture its other side; in plant strings round brackets are branches; Fractint's turtle has two
+headings, one that `+` and `-` turn by the angle, and another that `\\` and `/` turn by degrees. A symbol that is in no column
+tells the turtle nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Literal, NamedTuple
+
+from lsys_kit.geometry.turtle.actions import ACTIONS, Effect
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command: an action, and how much of it.
+
+    Most actions concern one quantity of the turtle: a stroke its step, a turn the angle, `D` its width. The amount is
+    factor * quantity + addend, unless an argument changes it.
+
+    Attributes
+    ----------
+    action
+        What to do, by its name in `ACTIONS`.
+    factor, addend
+        The amount where there is no argument.
+    argument
+        What an argument x stands for: the amount itself ("all", with the sign of the factor), what is added to or subtracted
+        from the quantity ("more", "less"), or what the quantity is multiplied by: x, 1/x or a root of these ("times",
+        "inverse", "root", "inverse root"); "" where arguments are ignored.
+    bare
+        The action where there is no argument, if that is a different one.
+    surface
+        The surface that is drawn.
+    """
+
+    action: str
+    factor: float = 1.0
+    addend: float = 0.0
+    argument: Literal["all", "more", "less", "times", "inverse", "root", "inverse root", ""] = "all"
+    bare: str = ""
+    surface: str = ""
+
+    @property
+    def effects(self) -> Effect:
+        """What the command does, with an argument or without."""
+        return ACTIONS[self.action] | ACTIONS[self.bare or self.action]
+
+    @property
+    def instanceable(self) -> bool:
+        """Whether copies of what the command does can be placed anywhere, with an argument or without."""
+        return Effect.INSTANCEABLE in ACTIONS[self.action] & ACTIONS[self.bare or self.action]
+
+
+class Row(NamedTuple):
+    """A row of the table: the symbols of each dialect, separated by blanks, and the commands that they give the turtle."""
+
+    abop: str
+    grogra: str
+    plant_string: str
+    words: str
+    command: Command | None = None
+    then: Command | None = None
+    fractint: str = ""
+
+    @property
+    def symbols(self) -> Mapping[str, tuple[str, ...]]:
+        """The symbols of each dialect."""
+        return {name: tuple(getattr(self, dialect.column).split()) for name, dialect in TURTLE_DIALECTS.items()}
+
+    @property
+    def commands(self) -> tuple[Command, ...]:
+        """What the turtle does; empty for a symbol whose meaning does not concern the turtle."""
+        return tuple(command for command in (self.command, self.then) if command)
+
+
+def _settable(quantity: str) -> Command:
+    """Set a quantity of the turtle; without an argument, to what it was at first."""
+    return Command(f"set {quantity}", bare=f"reset {quantity}")
+
+
+_plain, _more, _times = partial(Command, argument=""), partial(Command, argument="more"), partial(Command, argument="times")
+_LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 0.0, 180, "")
+_DOWN, _OPEN = Command("gravitropism", 0.0, math.inf, ""), _plain("push")
+_LEAF, _FLOWER = Command("draw surface", 1 / 2, surface="leaf"), Command("draw surface", 1 / 4, surface="rosette")
+
+COMMAND_TABLE: tuple[Row, ...] = (
+    #   ABOP    GROGRA  plants in words; x is the argument                               what to do
+    Row("F",    "F",    "I",   "a stroke forward, as long as the step or x",           Command("draw"), fractint="F"),
+    Row("",     "",     "A",   "a stroke of two thirds of the step",                   Command("draw", 2 / 3)),
+    Row("",     "",     "B",   "a stroke of a third of the step",                      Command("draw", 1 / 3)),
+    Row("",     "F+",   "",    "a stroke that is longer than the step by x",           _more("draw")),
+    Row("",     "F*",   "",    "a stroke of x times the step",                         _times("draw")),
+    Row("f",    "f",    "",    "forward like `F`, without a stroke",                   Command("move"), fractint="G"),
+    Row("G",    "",     "",    "a stroke like `F` that makes no corner in `{ }`",      Command("draw without vertex")),
+    Row("g",    "",     "",    "forward, without a stroke and without a corner",       Command("move without vertex")),
+    Row("@M",   "",     "",    "to the point (x, y, z): z towards the viewer",         Command("set position")),
+    Row("",     "@",    "",    "on the last stroke: 0 its start, 1 its end",           Command("return to stroke")),
+
+    Row("+",    "+ RU", "+",   "turn to its left, by the angle or x degrees",          _LEFT),
+    Row("- RU", "-",    "-",   "turn to its right",                                    _RIGHT),
+    Row("|",    "",     "",    "turn round",                                           _ROUND),
+    Row("&",    "RL",   "",    "pitch its head down, by the angle or x degrees",       Command("pitch")),
+    Row("^",    "",     "",    "pitch its head up",                                    Command("pitch", -1.0)),
+    Row("\\",   "",     "",    "roll to its left, by the angle or x degrees",          Command("roll")),
+    Row("/",    "RH",   "",    "roll to its right",                                    Command("roll", -1.0)),
+    Row("$ @v", "$",    "",    "roll until its left is level and its up points up",    _plain("level")),
+    Row("",     "RV",   "",    "bend down, with the strength x or that of `V`",        Command("gravitropism")),
+    Row("",     "RG",   "",    "bend straight down",                                   _DOWN),
+    Row("@Ts",  "",     "",    "bend towards gravity after each stroke, elasticity x", Command("set tropism")),
+
+    Row("",     "L",    "",    "the step is x, or what it was at first",               _settable("length")),
+    Row("",     "L+",   "",    "the step is longer by x",                              _more("set length")),
+    Row("",     "L*",   "",    "the step is x times as long",                          _times("set length")),
+    Row("",     "Ll",   "",    "the step is x up to the next stroke",                  Command("set length once")),
+    Row("",     "Ll+",  "",    "the step is longer by x up to the next stroke",        _more("set length once")),
+    Row("", "Ll*", "", "the step is x times as long up to the next stroke", _times("set length once")),
+    Row("#",    "",     "",    "strokes are x wide, or 10/7 times as wide",            Command("set width", 10 / 7)),
+    Row("!",    "",     "",    "strokes are x wide, or 7/10 times as wide",            Command("set width", 7 / 10)),
+    Row("",     "D",    "",    "strokes are x wide, or as wide as at first",           _settable("width")),
+    Row("",     "D+",   "",    "strokes are wider by x",                               _more("set width")),
+    Row("",     "D*",   "",    "strokes are x times as wide",                          _times("set width")),
+    Row("",     "Dl",   "",    "the next stroke is x wide",                            Command("set width once")),
+    Row("",     "Dl+",  "",    "the next stroke is wider by x",                        _more("set width once")),
+    Row("",     "Dl*",  "",    "the next stroke is x times as wide",                   _times("set width once")),
+    Row("; '",  "",     "",    "colour x, or the next one",                            Command("set colour", addend=1)),
+    Row(",",    "",     "",    "colour x, or the one before",                          Command("set colour", addend=-1)),
+    Row("",     "P",    "",    "colour x, or that at first",                           _settable("colour")),
+    Row("",     "V",    "",    "the strength of `RV` is x, or 0 as at first",          _settable("gravitropism")),
+    Row("",     "V+",   "",    "the strength of `RV` is greater by x",                 _more("set gravitropism")),
+    Row("",     "V*",   "",    "the strength of `RV` is x times as great",             _times("set gravitropism")),
+    Row("",     "Vl",   "",    "the strength of `RV` is x up to the next stroke",      Command("set gravitropism once")),
+    Row("",     "Vl+",  "",    "the same, greater by x",                               _more("set gravitropism once")),
+    Row("",     "Vl*",  "",    "the same, x times as great",                           _times("set gravitropism once")),
+
+    Row("[",    "[",    "",    "a branch begins: the turtle remembers how it is",      _OPEN, fractint="["),
+    Row("",     "",     "[",   "a branch begins, to the left",                         _OPEN, _LEFT),
+    Row("",     "",     "(",   "a branch begins, to the right",                        _OPEN, _RIGHT),
+    Row("]",    "]",    "] )", "the branch ends: the turtle is as it was",             _plain("pop"), fractint="]"),
+
+    Row("{",    "",     "",    "a polygon begins: `F` and `f` end in its corners",     _plain("begin polygon")),
+    Row(".",    "",     "",    "a corner of the polygon",                              _plain("record vertex")),
+    Row("}",    "",     "",    "the polygon ends",                                     _plain("end polygon")),
+    Row("~",    "",     "",    "a surface: the next symbol, as long as the step or x", _plain("expect surface")),
+    Row("",     "",     "L",   "a leaf",                                               _LEAF),
+    Row("",     "",     "F",   "a flower",                                             _FLOWER),
+    Row("@o",   "",     "",    "a circle, as wide as a stroke or x",                   Command("draw circle")),
+    Row("@c",   "",     "",    "a disc, as wide as a stroke or x",                     Command("draw disc")),
+    Row("@O",   "",     "",    "a sphere, as wide as a stroke or x",                   Command("draw sphere")),
+
+    Row("", "", "", "a stroke by its second heading, as long as the step", _plain("draw by second heading"), fractint="D"),
+    Row("", "", "", "forward like `D`, without a stroke", _plain("move by second heading"), fractint="M"),
+    Row("", "", "", "turn to its left, by the angle", _plain("turn by mirrored angle"), fractint="+"),
+    Row("", "", "", "turn to its right, by the angle", _plain("turn by mirrored angle", -1.0), fractint="-"),
+    Row("", "", "", "turn round, or to its right by as many angles as fit into half a turn", _plain("turn back"), fractint="|"),
+    Row("", "", "", "turn its second heading to the left, by x degrees", Command("turn second heading"), fractint="\\"),
+    Row("", "", "", "turn its second heading to the right, by x degrees", Command("turn second heading", -1.0), fractint="/"),
+    Row("", "", "", "left and right change places in these turns", _plain("mirror turns"), fractint="!"),
+    Row("", "", "", "the step is x times as long", _times("set length", 0.0), fractint="@"),
+    Row("", "", "", "the step is 1/x times as long", Command("set length", 0.0, argument="inverse"), fractint="@I"),
+    Row("", "", "", "the step is √x times as long", Command("set length", 0.0, argument="root"), fractint="@Q"),
+    Row("", "", "", "the step is 1/√x times as long", Command("set length", 0.0, argument="inverse root"), fractint="@IQ @QI"),
+    Row("", "", "", "colour x", Command("set palette colour", 0.0), fractint="C"),
+    Row("", "", "", "the colour that is x places further", _more("set palette colour"), fractint="<"),
+    Row("", "", "", "the colour that is x places before", Command("set palette colour", argument="less"), fractint=">"),
+
+    Row("%",    "%",    "",    "the rest of the branch is cut off in the next step"),
+    Row("?P ?H ?U ?L ?E", "", "", "a question to the surroundings"),
+    Row("",     "/",    "",    "a finer scale"),
+    Row("",     "*",    "",    "the start word"),
+    Row("", "N N+ N* Nl Nl+ Nl*", "", "leaves: not seen"),
+    Row("", "C C+ C* Cl Cl+ Cl*", "", "carbon: not seen"),
+    Row("", "H H+ H* Hl Hl+ Hl*", "", "heartwood: not seen"),
+    Row("", "U U+ U* Ul Ul+ Ul*", "", "internodes: not seen"),
+)
+
+COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
+    name: {symbol: row.commands for row in COMMAND_TABLE for symbol in row.symbols[name]} for name in TURTLE_DIALECTS}
+"""For each dialect its commands, by symbol."""
+
+FIRST_COLOUR = 14
+"""The default colour of strokes in the numbering of GROGRA: yellow."""
+WIDTH = 0.1
+"""The width of a stroke for commands that depend on it, where none has been set."""
+
+
+def initial_step(system: LSystem) -> float:
+    """The initial length of a step."""
+    return TURTLE_DIALECTS[system.turtle].length if system.length is None else float(system.length)
+
+
+def commands_of(system: LSystem) -> Iterator[tuple[Command, Pattern]]:
+    """The commands that the axiom and the rules of a system give, each with the pattern that gives it.
+
+    >>> from lsys_kit.notation.read import read
+    >>> [command.action for command, _ in commands_of(read("axiom: F + A\\nA -> f A"))]
+    ['draw', 'turn', 'move']
+    """
+    table = COMMANDS[system.turtle]
+    return ((command, module) for module in system.modules for command in table.get(module.symbol, ()))
+
+
+@cache
+def symbols_with(effect: Effect, turtle: str) -> frozenset[str]:
+    """The symbols of a dialect whose commands have an effect.
+
+    >>> sorted(symbols_with(Effect.OPENS, "plant-string"))
+    ['(', '[']
+    """
+    return frozenset(symbol for symbol, commands in COMMANDS[turtle].items()
+                     if any(effect in command.effects for command in commands))

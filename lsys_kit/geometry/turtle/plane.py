@@ -1,0 +1,187 @@
+"""The turtle in the plane (ABOP, sections 1.3 and 1.6.1).
+
+Drawing takes two passes. `trace` interprets a word once and records for each step forward how often the turtle has turned by
+the angle, how many degrees it has turned besides, how far it goes, and at the end of which earlier step it starts. None of this
+depends on the angle. `place_path` then computes the coordinates for a given angle, which a browser can do by itself, without
+the word and its rules.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
+from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
+from lsys_kit.geometry.turtle.instructions import Instruction
+from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
+from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, collected_shapes
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+
+
+@dataclass(frozen=True)
+class Path:
+    """The steps forward of a turtle, before the angle is known.
+
+    Attributes
+    ----------
+    turns, offsets
+        Shape (n,): the heading is turns * angle + offset, in degrees from the turtle's first heading, to the left.
+    lengths
+        Shape (n,): how far it goes.
+    parents
+        Shape (n,): the number of the earlier step at whose end it starts; -1 for the origin.
+    drawn
+        Shape (n,): whether it leaves a stroke; a step may also lead to the corner of a leaf.
+    orders
+        Shape (n,): in how many brackets it stands.
+    states
+        Shape (n,): the state of its module.
+    widths, colours
+        Shape (n,), as of `Segments`.
+    outlines, rounds
+        Polygons, circles and discs; their places are numbers of steps, at whose ends they are.
+    unknown
+        As of `Scene`.
+    """
+
+    turns: Floats
+    offsets: Floats
+    lengths: Floats
+    parents: Integers
+    drawn: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    orders: Integers
+    states: Integers
+    widths: Floats
+    colours: Integers
+    outlines: tuple[Outline, ...] = ()
+    rounds: tuple[RoundShape, ...] = ()
+    unknown: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.turns)
+
+
+class PlaneTurtle(Turtle):
+    """A turtle in the plane.
+
+    Its position is the number of a path step, at whose end it is. Its orientation is the number of turns by the angle, further
+    degrees, both to the left, and the side on which its left lies: 1, or -1 after a roll by half a turn.
+    """
+
+    __slots__ = ("steps",)
+
+    def __init__(self, side: int, step: float) -> None:
+        super().__init__(-1, (0.0, 0.0, side), step)
+        self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
+
+    def forward(self, length: float, drawn: bool) -> None:
+        turns, offset, _ = self.orientation
+        self.position = self.step(turns, offset, length, self.position, drawn)
+        if drawn:
+            self.last = self.position
+
+    def initial_orientation(self, degrees: float) -> tuple[float, float, float]:
+        return 0.0, degrees, 1
+
+    def local_point(self, ahead: float, left: float, up: float) -> int:
+        turns, offset, side = self.orientation
+        return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.position)
+
+    def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
+        """Record a step; return its number."""
+        self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.width, self.colour))
+        return len(self.steps) - 1
+
+
+def _turn(turtle: PlaneTurtle, instruction: Instruction) -> None:
+    turns, offset, side = turtle.orientation
+    turtle.orientation = turns + side * instruction.factor, offset + side * instruction.addend, side
+
+
+def _turn_by_mirrored_angle(turtle: PlaneTurtle, instruction: Instruction) -> None:
+    turns, offset, side = turtle.orientation
+    turtle.orientation = turns + turtle.mirror * instruction.factor, offset, side
+
+
+def _roll(turtle: PlaneTurtle, instruction: Instruction) -> None:
+    if instruction.factor == 0 and instruction.addend % 360 == 180:
+        turns, offset, side = turtle.orientation
+        turtle.orientation = turns, offset, -side
+
+
+def _return_to_stroke(turtle: PlaneTurtle, instruction: Instruction) -> None:
+    if turtle.last is not None:
+        turns, offset, length, parent, *_ = turtle.steps[turtle.last]
+        turtle.position = turtle.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
+
+
+_COLUMN_TYPES = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
+                 "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
+PLANE_HANDLERS: Mapping[str, Handler] = {
+    **COMMON_HANDLERS, **FRACTINT_HANDLERS, "turn": _turn, "turn by mirrored angle": _turn_by_mirrored_angle,
+    "turn back": _turn, "roll": _roll, "return to stroke": _return_to_stroke}
+"""The handlers of the turtle in the plane, by action."""
+
+
+def trace(word: Word) -> Path:
+    """The path of a turtle that interprets a word; commands that lead out of the plane are skipped.
+
+    Raises
+    ------
+    ModelLimitError
+        More brackets are open at once than the limit allows.
+    ModelValueError
+        A value is too large to draw, or symbolic.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.notation.read import read
+    >>> path = trace(derive(read("axiom: F[+F]-(30)F(2)"), 0)[0])
+    >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
+    ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
+    """
+    system = word.states.system
+    turtle = PlaneTurtle(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
+    run_turtle(turtle, word, PLANE_HANDLERS)
+    columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
+    steps: dict[str, Any] = {name: np.array(column, kind)
+                             for (name, kind), column in zip(_COLUMN_TYPES.items(), columns, strict=True)}
+    return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds), unknown=tuple(turtle.unknown))
+
+
+def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
+    """The scene of a path for a turning angle and an initial heading, in degrees.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.notation.read import read
+    >>> koch = derive(read("axiom: F--F--F\\nF -> F+F--F+F"), 3)[-1]
+    >>> print(place_path(trace(koch), 60, 0))
+    192 segments, width 27, height 31.18
+    """
+    radians = np.radians(path.turns * angle + path.offsets + heading)
+    vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
+    ends = _summed_along_parents(vectors, path.parents)
+    drawn = path.drawn
+    strokes = Segments(np.concatenate([ends - vectors, ends], axis=1)[drawn], path.orders[drawn], path.states[drawn],
+                       path.widths[drawn], path.colours[drawn])
+    places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
+    polygons, discs = collected_shapes(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
+    return Scene(strokes, polygons=polygons, discs=discs, unknown=path.unknown)
+
+
+def _summed_along_parents(vectors: Floats, parents: Integers) -> Floats:
+    """The sum of each vector and those of all its ancestors, by pointer jumping."""
+    sums = np.vstack([vectors, np.zeros(2)])
+    above = np.append(parents, -1)
+    while np.any(above >= 0):
+        sums = sums + sums[above]
+        above = above[above]
+    return sums[:-1]
