@@ -34,7 +34,7 @@ def phrases(turtle: str, symbol: str) -> st.SearchStrategy[list[Pattern]]:
     if symbol in "[](){.}":
         found = {"(": "()", ")": "()"}.get(symbol, "[]")
         return st.just(POLYGON if symbol in "{.}" else [Pattern(found[0]), stroke, Pattern(found[1])])
-    scales = COMMANDS[turtle][symbol][0].argument in ("times", "root", "inverse", "inverse root")  # and must not scale beyond what can be drawn
+    scales = COMMANDS[turtle][symbol][0].argument not in ("", "all", "more", "less")  # but not beyond what can be drawn
     few = st.sampled_from((0, Fraction(1, 2), 1) if scales else (0, 2, 3, 20, 90, 180)).map(Number)
     values = st.lists(few, min_size=3 * (symbol == "@M"),
                       max_size=3 if symbol == "@M" else 1)
@@ -46,8 +46,8 @@ def phrases(turtle: str, symbol: str) -> st.SearchStrategy[list[Pattern]]:
 def successors(draw: st.DrawFn, turtle: str, symbol: str) -> tuple[Pattern, ...]:
     """A word with a command in it, between strokes, turns, branches and apices."""
     stroke = Pattern(STROKE[turtle])
-    others = st.lists(st.sampled_from(([stroke], [Pattern("+")], [APEX], [BUD], [Pattern("["), Pattern("+"), APEX, Pattern("]")])),
-                      max_size=2)
+    branch = [Pattern("["), Pattern("+"), APEX, Pattern("]")]
+    others = st.lists(st.sampled_from(([stroke], [Pattern("+")], [APEX], [BUD], branch)), max_size=2)
     phrase = [stroke, Pattern("+"), *draw(phrases(turtle, symbol)), stroke]
     return tuple(module for part in (*draw(others), phrase, *draw(others)) for module in part)
 

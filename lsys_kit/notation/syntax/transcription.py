@@ -47,6 +47,7 @@ _ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
 _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 _SPACE = re.compile(
     r"\\(?:q?quad\b|[,;!])|\\\\[ \t]*+$|\\(?:begin|end)[ \t]*+\{(?:array|align\*?|eqnarray\*?|tabular)\}(?:\{[lcr| ]*\})?")
+_LATEX = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|begin[ \t]*+\{)")
 _ACCENT = re.compile(r"\\(bar|overline|hat|tilde|dot)[ \t]*+(?:\{[ \t]*+([A-Za-z]\w*)[ \t]*+\}|([A-Za-z]))")
 
 
@@ -159,8 +160,8 @@ class _Listing:
         self.notes: list[str] = []
 
     def macros(self) -> Iterator[Edit]:
-        """Macros of LaTeX that say nothing, or put something over a letter."""
-        for line in self.lines:
+        """Macros of LaTeX that say nothing, or put something over a letter; elsewhere a backslash is a roll."""
+        for line in self.lines if _LATEX.search(self.plain) else ():
             for match in _SPACE.finditer(line.text):
                 yield Edit(line.start + match.start(), line.start + match.end(), " ")
             for match in _ACCENT.finditer(line.text):
