@@ -30,10 +30,10 @@ MOST_NEIGHBOURS = 1_000
 
 
 def list_systems(_: argparse.Namespace) -> None:
-    """Print the ids and titles of the catalogue."""
+    """Print the catalogue: ids, names and titles, under the works from which the systems come."""
     from lsys_kit import map_systems, systems
 
-    print(f"{systems()!r}\n{map_systems()!r}")
+    print(f"{systems()!r}\n\nMap systems\n{map_systems()!r}")
 
 
 def print_words(options: argparse.Namespace) -> None:
@@ -84,11 +84,11 @@ def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
 
 def draw_word(options: argparse.Namespace) -> None:
     """Write a picture of a step's word, or of maps, or a film of the steps up to a word, and say what it shows."""
-    from lsys_kit.classroom.catalogue import map_system, map_systems
+    from lsys_kit.classroom.catalogue import is_map_system, map_system
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
-    if options.system.upper() in map_systems():
+    if is_map_system(options.system):
         maps = draw(map_system(options.system), options.steps)
         maps.save(options.output)
         print(maps)
@@ -179,7 +179,7 @@ def _file(name: str) -> str:
         with Path(name).open("rb") as file:
             return _text(file, f'"{quotable(name)}"')
     except FileNotFoundError:
-        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of the catalogue is called so',
+        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of that name in the catalogue',
                              hint=_likely(name)) from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
@@ -208,9 +208,8 @@ def _text(file: BinaryIO, name: str) -> str:
 
 def _likely(name: str) -> str:
     """What was probably meant: a file beside it, a system of the catalogue."""
-    from lsys_kit.classroom.catalogue import systems
-    from lsys_kit.notation.analysis.checks import suggestion
+    from lsys_kit.classroom.catalogue import likely_system, systems
 
     folder = Path(name).parent
     beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []
-    return suggestion(name, [*beside, *systems()]) or f"Catalogue ids are {', '.join(systems())}."
+    return likely_system(name, beside) or f"Catalogue ids are {', '.join(systems())}."

@@ -15,7 +15,7 @@ os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`--screenshots FOLDER` keeps what the browser tests see; `--renew-pictures` writes the golden pictures anew."""
     parser.addoption("--screenshots", metavar="FOLDER", help="put pictures of what the browser tests see into this folder")
-    parser.addoption("--renew-pictures", action="store_true", help="write the golden pictures of the seeds' figures anew")
+    parser.addoption("--renew-pictures", action="store_true", help="renew the golden pictures of the printed figures")
 
 
 @pytest.hookimpl(tryfirst=True)
