@@ -45,7 +45,7 @@ def test_an_installed_wheel_copies_its_own_course(wheel, tmp_path):
     code = ("import lsys_kit.classroom.course as c; found = c.course_files(); c.copy_course('mine')\n"
             "print(c.__file__, *found.values(), sep='\\n')")
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path / "site")},
-                          capture_output=True, text=True, check=True, timeout=60)
+                          capture_output=True, text=True, check=True, timeout=300)
     assert all(line.startswith(str(tmp_path / "site")) for line in done.stdout.splitlines())
     copied = {str(path.relative_to(tmp_path / "mine")) for path in (tmp_path / "mine").rglob("*.*") if path.name[0] != "."}
     assert copied == set(course_files())

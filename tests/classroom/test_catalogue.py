@@ -306,6 +306,7 @@ def test_a_meta_rule_keeps_the_word_of_a_moving_organism_short():
 TIMED_ANABAENA = "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dt", ["1/2", "1/3", "0.7", "1", "3/2", "2", "0.1"])
 def test_the_timed_anabaena_in_steps_is_the_word_at_any_time(dt):
     at_time = timed(read(TIMED_ANABAENA))

@@ -59,9 +59,9 @@ def test_what_is_too_long_is_refused(text: str, message: str) -> None:
     "axiom: A(" + "*".join(["9^600"] * 50) + ")", "axiom: A(" + "1" + "." * 40_000 + "<2<3)",
 ], ids=range(22))
 def test_no_text_takes_long(text: str) -> None:
-    started = time.monotonic()
+    started = time.process_time()
     assert isinstance(slip(text), LSystemError)
-    assert time.monotonic() - started < 2 * 3  # two seconds on a machine of one's own
+    assert time.process_time() - started < 2 * 3  # of the processor's time; two on a quick machine
 
 
 PIECES = [

@@ -239,4 +239,4 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
 def test_no_text_takes_long(text: str) -> None:
     started = time.process_time()
     error_of(lambda: read(text, "cpfg"))
-    assert time.process_time() - started < 2 * 3  # two seconds on a machine of one's own
+    assert time.process_time() - started < 2 * 3  # of the processor's time; two on a quick machine

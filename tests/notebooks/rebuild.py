@@ -21,7 +21,7 @@ from nbclient import NotebookClient
 from nbformat import NotebookNode
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-SECONDS = 60
+SECONDS = 300
 """For each cell."""
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PICTURE = "image/png"

@@ -102,6 +102,7 @@ def test_there_are_lessons_and_exercises():
     assert {path.parent.name for path in notebooks()} == {"notebooks", "exercises"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_rebuilding_changes_no_byte(path: Path):
     before, after = path.read_bytes().decode(), rebuilt(path)

@@ -287,7 +287,7 @@ def test_somebody_looks_at_the_clock_while_the_turtle_goes_on() -> None:
 
 
 def test_looking_is_given_up_in_time() -> None:
-    with limits(seconds=0.2), pytest.raises(ModelLimitError, match=r"was not reached in 0\.2 seconds") as caught:
+    with limits(seconds=1), pytest.raises(ModelLimitError, match=r"was not reached in 1 seconds") as caught:
         derive(read("axiom: A ?P(0,0)\nA -> [+F A][-F A]"), 30)
     assert isinstance(caught.value.partial, Derivation)
     assert caught.value.partial.steps > 5
