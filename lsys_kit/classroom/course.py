@@ -18,12 +18,12 @@ import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import count
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from lsys_kit.errors import ModelFileError
 
-COURSE_PARTS = ("notebooks", "exercises")
-"""The folders of the course."""
+COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
+"""The folders of the course: lessons, exercises, and the live references of notations and turtle commands."""
 FOLDER = "lsys_kit_course"
 """Where the course is copied to by default."""
 MANIFEST = ".lsys_kit_course.json"
@@ -53,7 +53,7 @@ class Copied:
 def course_files(source: Path | None = None) -> dict[str, Path]:
     """The files of the course that came with the kit, by their names in the course.
 
-    >>> all(name.split("/")[0] in COURSE_PARTS for name in course_files())
+    >>> {name.rpartition("/")[0] for name in course_files()} == set(COURSE_PARTS)
     True
     """
     source = source or _home()
@@ -92,7 +92,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     """
     folder, files = Path(folder), course_files(source)
     try:
-        for part in COURSE_PARTS:
+        for part in dict.fromkeys(str(parent) for name in files for parent in reversed(PurePosixPath(name).parents)):
             _made_folder(folder / part)
         manifest = _manifest(folder)
         copied = tuple(_copied(folder, name, path.read_bytes(), manifest) for name, path in files.items())

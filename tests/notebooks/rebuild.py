@@ -20,6 +20,8 @@ import nbformat
 from nbclient import NotebookClient
 from nbformat import NotebookNode
 
+from lsys_kit.classroom.course import COURSE_PARTS
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 SECONDS = 300
 """For each cell."""
@@ -33,7 +35,7 @@ CELL_METADATA = ("deletable", "editable", "nbgrader", "tags")
 
 def notebooks() -> list[Path]:
     """All notebooks of the course."""
-    return sorted(path for folder in ("notebooks", "exercises") for path in (ROOT / folder).glob("*.ipynb"))
+    return sorted(path for folder in COURSE_PARTS for path in (ROOT / folder).glob("*.ipynb"))
 
 
 def rebuilt(path: Path) -> str:
