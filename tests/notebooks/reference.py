@@ -24,7 +24,7 @@ from tests.notebooks.rebuild import METADATA, ROOT, rebuilt
 
 FOLDER = ROOT / "notebooks" / "reference"
 EXAMPLES = tomllib.loads((Path(__file__).parent / "examples.toml").read_text("utf-8"))
-"""For each notation whose it is and a listing; for each dialect of turtle commands the examples by symbol; the kit's own notation."""
+"""For each notation whose it is, and a listing; for each dialect of turtle commands the examples by symbol."""
 IMPORT = "from lsys_kit import *"
 
 
@@ -66,6 +66,7 @@ def _command_cells() -> Iterator[NotebookNode]:
         if row.commands:
             yield new_markdown_cell(f"### {row.words[0].upper()}{row.words[1:]}")
             yield from _pictures(row)
+    yield new_markdown_cell(EXAMPLES["commands"]["closing"].strip())
 
 
 def _command_table() -> Iterator[str]:
