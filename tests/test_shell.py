@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from lsys_kit.__main__ import BAD_INPUT, INTERRUPTED, NOBODY_READS, main
+from lsys_kit.__main__ import BAD_INPUT, BROKEN_PIPE, INTERRUPTED, main
 
 FIBONACCI = "axiom: a\na -> ab\nb -> a\n"
 
@@ -155,7 +155,7 @@ def test_counts_where_neighbours_or_chance_have_a_say_are_those_of_the_words(she
 
 def test_counts_of_words_that_must_be_built_keep_to_the_limit(shell):
     said = shell("derive", "K7", "-n", "300", "--counts")
-    refused(said, "modules; the limit is", "Take -n 1")
+    refused(said, "modules; the limit is", "Use -n 1")
     assert "--counts" not in said.err
 
 
@@ -228,11 +228,11 @@ def test_a_converted_model_goes_into_a_new_file(shell, tmp_path):
 
 def test_a_file_that_is_there_is_never_overwritten(shell, model, tmp_path):
     path = model("mine\n", "mine.txt")
-    refused(shell("convert", "K5", "--to", "abop", "--output", path), f'"{path}" is there already', "overwritten")
+    refused(shell("convert", "K5", "--to", "abop", "--output", path), f'"{path}" already exists', "overwritten")
     assert Path(path).read_text() == "mine\n"
     (tmp_path / "link").symlink_to(tmp_path / "nowhere")
-    refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path / "link")), "is there already")
-    refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path)), "is there already")
+    refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path / "link")), "already exists")
+    refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path)), "already exists")
     assert not (tmp_path / "nowhere").exists()
 
 
@@ -408,7 +408,7 @@ def test_a_reader_that_goes_away_is_no_fault():
     derive.stdout.close()
     assert derive.stderr.read() == b""
     derive.stderr.close()
-    assert derive.wait(60) == NOBODY_READS
+    assert derive.wait(60) == BROKEN_PIPE
 
 
 def test_an_interruption_is_quiet(shell, monkeypatch):

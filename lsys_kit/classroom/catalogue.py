@@ -35,7 +35,7 @@ WORKS = MappingProxyType({
     "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
 })
 """The works from which the systems come, in the order in which the catalogue lists them."""
-_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_NAME_PATTERN = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def system(id: str) -> LSystem:
     >>> system("anabaena-life-spans") == system("J4")
     True
     """
-    return _system(_known(id, SYSTEMS))
+    return _parsed_system(_known(id, SYSTEMS))
 
 
 def map_system(id: str) -> MapSystem:
@@ -139,7 +139,7 @@ def map_system(id: str) -> MapSystem:
     >>> print(map_system("k28").productions[0])
     A -> B[-A][+A]B
     """
-    return _map_system(_known(id, MAPS))
+    return _parsed_map(_known(id, MAPS))
 
 
 def systems() -> Catalogue:
@@ -193,7 +193,7 @@ def is_map_system(id: str) -> bool:
     >>> is_map_system("K28"), is_map_system("map-offset-walls"), is_map_system("P4")
     (True, True, False)
     """
-    return _found(id, MAPS) is not None
+    return _id_of(id, MAPS) is not None
 
 
 def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
@@ -202,33 +202,33 @@ def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
     >>> likely_system("anabaena-lifespans")
     'Did you mean "anabaena-life-spans"?'
     """
-    return _likely(id, SYSTEMS, others)
+    return _suggestion(id, SYSTEMS, others)
 
 
 def _known(id: str, folder: str) -> str:
     """The id as the catalogue writes it, of a system that is asked for by its id or its name."""
     if not isinstance(id, str):
-        raise ModelValueError(f'A system is asked for by its id or name, a text such as "P4", not by {type(id).__name__}')
-    known = _found(id, folder)
+        raise ModelValueError(f'The id or name of a system must be a text such as "P4", not {type(id).__name__}')
+    known = _id_of(id, folder)
     if known is not None:
         return known
     for other, kind, function in ((MAPS, "a map system, not an L-system", "map_system"),
                                   (SYSTEMS, "an L-system, not a map system", "system")):
-        elsewhere = _found(id, other)
+        elsewhere = _id_of(id, other)
         if elsewhere is not None:
             raise ModelValueError(f"{elsewhere} is {kind}", hint=f'It is returned by {function}("{elsewhere}").')
     shown = id if len(id) <= 30 else f"{id[:30]}..."
-    hint = _likely(id, folder) or f"Systems are: {', '.join(sorted(_ids(folder).values(), key=_natural))}."
+    hint = _suggestion(id, folder) or f"Systems are: {', '.join(sorted(_ids(folder).values(), key=_natural))}."
     raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
 
 
-def _found(id: str, folder: str) -> str | None:
+def _id_of(id: str, folder: str) -> str | None:
     """The id of the system that has this id or name, if there is one in the folder."""
     spelt = id.strip().lower() if isinstance(id, str) else ""
-    return _ids(folder).get(spelt) or (_names(folder).get(spelt) if _NAME.fullmatch(spelt) else None)
+    return _ids(folder).get(spelt) or (_names(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
 
 
-def _likely(id: str, folder: str, others: Iterable[str] = ()) -> str | None:
+def _suggestion(id: str, folder: str, others: Iterable[str] = ()) -> str | None:
     """A hint that names an id or else a name that is spelt alike; ids are in capitals and names are not."""
     return (suggestion(id[:40], [*others, *_ids(folder).values()]) or suggestion(id[:40].upper(), _ids(folder).values())
             or suggestion(id[:40].lower(), _names(folder)))
@@ -262,13 +262,13 @@ def _entry(id: str) -> Entry:
 
 
 @cache
-def _system(id: str) -> LSystem:
+def _parsed_system(id: str) -> LSystem:
     found = _entry(id)
     return read(found.rules, found.notation)
 
 
 @cache
-def _map_system(id: str) -> MapSystem:
+def _parsed_map(id: str) -> MapSystem:
     return read_map(_entry(id).rules)
 
 

@@ -75,5 +75,5 @@ def test_an_unknown_id_is_answered_with_a_suggestion(id, hint):
 
 
 def test_an_id_is_a_text():
-    with pytest.raises(ModelValueError, match="by its id or name"):
+    with pytest.raises(ModelValueError, match="The id or name of a system must be a text"):
         system(4)

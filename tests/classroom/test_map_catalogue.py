@@ -79,7 +79,7 @@ def test_each_kind_of_system_is_asked_for_by_its_own_name() -> None:
         map_system("K300")
     with pytest.raises(ModelNameError, match=r'no system "\?". Systems are: K28, K29, K30, K32'):
         map_system("?")
-    with pytest.raises(ModelValueError, match="by its id or name"):
+    with pytest.raises(ModelValueError, match="The id or name of a system must be a text"):
         map_system(4)  # type: ignore[arg-type]
 
 
