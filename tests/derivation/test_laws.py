@@ -254,6 +254,7 @@ def test_the_engine_follows_the_definition_of_every_kind(kinds: tuple[str, ...],
     assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", MIXED)
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], max_examples=40)
 @given(data=st.data(), seed=seeds)

@@ -49,6 +49,7 @@ def test_what_is_too_long_is_refused(text: str, message: str) -> None:
     assert slip(text).message == message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "axiom: " + "[" * 10**6, "axiom: A" + "(" * 10**6, "axiom: " + "A(" * 499_990, "axiom: A(" + "-" * 999_980 + "1)",
     "axiom: " + "A " * 499_990, "axiom: A(" + "9" * 999_980 + ")", "/* " * 333_333, "axiom: A\n" * 111_111,

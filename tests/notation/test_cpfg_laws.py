@@ -228,6 +228,7 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
     assert error is None or isinstance(error, ModelLimitError) or error.line is not None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "Axiom: " + "/" * 49_000, "Axiom: " + "[" * 49_000, "Axiom: A(" + "sqrt(" * 9_000, "Axiom: A(" + "!" * 49_000,
     "Axiom: A\nA : {" + "if(1){" * 8_000, "Axiom: A\nA : 1 {" + "if(1){" * 4_000 + "}" * 4_000 + "} --> B",

@@ -170,6 +170,7 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
     assert error is None or isinstance(error, ModelLimitError) or error.line is not None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "axiom = AXIOM[" + "a," * 490_000, "[" * 10**6, "(* " * 333_333, "(* *)" * 200_000, '"' * 10**6, ";" * 10**6,
     "x = " + "\n" * 999_990, "a[1] " * 9_900, "a_ " * 300_000, "x =\n\n" * 180_000, "k = 1; (* 1 .. " * 60_000,

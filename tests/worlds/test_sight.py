@@ -7,7 +7,7 @@ from itertools import chain
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read
@@ -57,7 +57,6 @@ plants = st.recursive(
 
 
 @given(systems_with({CONTEXT}) | systems_with({CHANCE, REPETITION}) | systems_with({CUT, CONTEXT}) | systems())
-@settings(max_examples=60, deadline=None)
 def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem) -> None:
     alone = derive(system, 3, seed=5)
     looked_at = Derivation(SteppingEngine(States(system), 5, observe)).to(3)
@@ -67,7 +66,6 @@ def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem)
 
 
 @given(plants)
-@settings(max_examples=80, deadline=None)
 def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[Module]) -> None:
     query = Module("?P", tuple(map(Number, (0, 0, 0))))
     word = word_of([query if module.symbol == "x" else module for module in modules])
@@ -80,7 +78,6 @@ def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[
 
 
 @given(plants, st.tuples(degrees, degrees, degrees))
-@settings(max_examples=80, deadline=None)
 def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns: tuple[Number, ...]) -> None:
     queries = [Module(symbol, tuple(map(Number, (0, 0, 0)))) for symbol in ("?H", "?L", "?U")]
     prefix = [Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True)]
@@ -91,7 +88,6 @@ def test_the_turtles_axes_are_told_at_right_angles(modules: list[Module], turns:
 
 
 @given(plants, lengths, st.tuples(degrees, degrees, degrees))
-@settings(max_examples=80, deadline=None)
 def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Module], far: Number,
                                                               turns: tuple[Number, ...]) -> None:
     prefix = [Module("f", (far,)), *(Module(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
@@ -101,7 +97,6 @@ def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Modu
 
 
 @given(plants, lengths, degrees)
-@settings(max_examples=80, deadline=None)
 def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Module], far: Number, turn: Number) -> None:
     back = Number(-float(turn.value))
     prefix = [Module("+", (turn,)), Module("f", (far,)), Module("+", (back,))]
@@ -110,7 +105,6 @@ def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Module], 
 
 
 @given(plants)
-@settings(max_examples=80, deadline=None)
 def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Module]) -> None:
     larger = [Module(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
     assert asked(observe(word_of(larger)), 2, 2) == pytest.approx(
@@ -138,7 +132,6 @@ def by_definition(word: Word, at: int, least: float) -> float:
 
 
 @given(plants, st.sampled_from((0.5, 1, 2)))
-@settings(max_examples=120, deadline=None)
 def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Module], least: float) -> None:
     word = word_of([Module("F", (Number(1),)), *modules])
     sight = observe(word)
@@ -159,7 +152,6 @@ def test_the_nearest_of_many_shoots_is_found_wherever_they_stand() -> None:
 
 
 @given(plants, st.integers(0, 18))
-@settings(max_examples=80, deadline=None)
 def test_a_wider_cone_shows_nothing_farther(modules: list[Module], tens: int) -> None:
     sight = observe(word_of(modules))
     narrow, wide, all_around = (asked(sight, 9, angle, 1) for angle in (10 * tens, 10 * tens + 10, 180))
@@ -174,7 +166,6 @@ def test_the_nearest_point_may_lie_straight_behind() -> None:
 
 
 @given(plants)
-@settings(max_examples=60, deadline=None)
 def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Module]) -> None:
     answers = [answer for row in all_answers(word_of(modules)) for answer in row]
     assert all(answer >= 0 for answer in answers)
