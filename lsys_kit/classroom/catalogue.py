@@ -225,13 +225,13 @@ def _known(id: str, folder: str) -> str:
 def _id_of(id: str, folder: str) -> str | None:
     """The id of the system that has this id or name, if there is one in the folder."""
     spelt = id.strip().lower() if isinstance(id, str) else ""
-    return _ids(folder).get(spelt) or (_names(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
+    return _ids(folder).get(spelt) or (_ids_by_name(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
 
 
 def _suggestion(id: str, folder: str, others: Iterable[str] = ()) -> str | None:
     """A hint that names an id or else a name that is spelt alike; ids are in capitals and names are not."""
     return (suggestion(id[:40], [*others, *_ids(folder).values()]) or suggestion(id[:40].upper(), _ids(folder).values())
-            or suggestion(id[:40].lower(), _names(folder)))
+            or suggestion(id[:40].lower(), _ids_by_name(folder)))
 
 
 @cache
@@ -242,7 +242,7 @@ def _ids(folder: str) -> Mapping[str, str]:
 
 
 @cache
-def _names(folder: str) -> Mapping[str, str]:
+def _ids_by_name(folder: str) -> Mapping[str, str]:
     """The ids by the names of the systems."""
     return {_entry(id).name: id for id in _ids(folder).values()}
 
