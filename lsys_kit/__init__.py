@@ -9,7 +9,7 @@ Type rules, and see them as a word, as a stage diagram and as a drawing:
 2 bl ar ar
 3 al al br al br
 
-Every public name is listed in `__all__`. A name is loaded when it is first used, so that `import lsys_kit` costs nothing.
+Every public name is listed in `__all__`. Each is loaded when it is first used, so that `import lsys_kit` is fast.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ def __dir__() -> list[str]:
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """What `%load_ext lsys_kit` does in a notebook: cells may begin with `%%lsystem NAME` and hold a model."""
+    """Called by `%load_ext lsys_kit` in a notebook, whose cells may then begin with `%%lsystem NAME` and hold a model."""
     from lsys_kit.classroom.magic import load
 
     load(shell)

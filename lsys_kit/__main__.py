@@ -1,6 +1,6 @@
-"""The kit from a shell: what may be typed after `lsys-kit`, and what comes of it.
+"""The command line: what may be typed after `lsys-kit`.
 
-Whatever is wrong with a command or a model is one message on the standard error stream, and the exit status 2.
+A mistake in a command or a model is one message on the standard error stream, and the exit status 2.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from typing import NoReturn
 from lsys_kit import commands
 from lsys_kit.errors import LSystemError, printable
 
-BAD_INPUT, INTERRUPTED, NOBODY_READS = 2, 130, 141
-"""Exit statuses: a mistake in the input; as shells say of a program that was interrupted, or whose reader has gone."""
+BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
+"""Exit statuses: a mistake in the input; interrupted; the reader of the output has gone (the last two as in shells)."""
 MOST_STEPS = 10**9
-"""The greatest number of steps that is understood."""
+"""The greatest number of steps."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0
     """
     try:
-        options = _parser().parse_args(list(_spread(sys.argv[1:] if arguments is None else arguments)))
+        options = _argument_parser().parse_args(list(_spread(sys.argv[1:] if arguments is None else arguments)))
         options.action(options)
         sys.stdout.flush()
     except LSystemError as mistake:
@@ -48,18 +48,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return NOBODY_READS
+        return BROKEN_PIPE
     return 0
 
 
 class _Parser(argparse.ArgumentParser):
-    """argparse with one line to say what is wrong, and a pointer to the help."""
+    """argparse with an error message of one line that points to the help."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(BAD_INPUT, f"lsys-kit: {''.join(map(printable, message))}. See {self.prog} --help.\n")
 
 
-def _parser() -> argparse.ArgumentParser:
+def _argument_parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="lsys-kit", description="A teaching kit on Lindenmayer systems.", allow_abbrev=False)
     all_commands = parser.add_subparsers(required=True, metavar="COMMAND", dest="command")
 
@@ -70,56 +70,58 @@ def _parser() -> argparse.ArgumentParser:
         return added
 
     command("list", commands.list_systems, "List the systems of the catalogue.")
-    derive = command("derive", commands.print_words, "Print the words of steps 0 to N, one a line.")
+    derive = command("derive", commands.print_words, "Print the words of steps 0 to N, one per line.")
     _add_system(derive, steps_needed=True)
-    derive.add_argument("--counts", action="store_true", help="print the number of modules instead, however large")
+    derive.add_argument("--counts", action="store_true", help="print the number of modules of each step instead")
     derive.add_argument("--json", action="store_true", help="print one JSON document")
-    draw = command("draw", commands.draw_word, "Draw the word of step N; a filament with the steps before it.",
+    draw = command("draw", commands.draw_word, "Draw the word of step N, or a filament with the steps before it.",
                    "Example: lsys-kit draw K5 -n 4 -o plant.gif")
     _add_system(draw, steps_needed=False)
-    draw.add_argument("--angle", metavar="DEGREES", help="by how much + and - turn")
+    draw.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
     draw.add_argument("-o", "--output", required=True, metavar="FILE",
-                      help="ends in .svg, .png or .pdf; in .glb or .obj for programs that show things in space; in .gif or "
-                           ".apng for a film of the steps")
-    draw.add_argument("--seconds", default="0.6", help="how long a film shows each step")
+                      help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng)")
+    draw.add_argument("--seconds", default="0.6", help="how long a film shows each step (default: 0.6)")
     stages = command("stages", commands.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
-    stages.add_argument("-o", "--output", required=True, metavar="FILE", help="ends in .svg, or in .pnml for Petri-net tools")
-    stages.add_argument("--durations", action="store_true", help="transitions take a module's life span, not a step")
+    stages.add_argument("-o", "--output", required=True, metavar="FILE",
+                        help="a picture (.svg), or a net for Petri-net tools (.pnml)")
+    stages.add_argument("--durations", action="store_true",
+                        help="let a transition take a module's life span instead of one step")
     convert = command("convert", commands.convert, "Print a model in another notation.",
                       "Example: lsys-kit convert K5 --to plant-string -o plant.txt")
     _add_conversion(convert)
-    lab = command("lab", commands.open_lab, "Copy the course into a folder of yours, and open it in JupyterLab.")
-    lab.add_argument("folder", nargs="?", metavar="FOLDER", help="by default lsys_kit_course, here")
+    lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
+    lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
     return parser
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
     """The options that say which system, and up to which step."""
-    parser.add_argument("system", metavar="SYSTEM", help="an id such as P4, a file, or - for standard input")
-    parser.add_argument("-n", "--steps", type=_whole, required=steps_needed, metavar="N", help="how many steps")
-    parser.add_argument("--set", type=_setting, action="append", default=[], metavar="NAME=VALUE", dest="settings",
-                        help="give a constant another value, as in dt=14/10")
+    parser.add_argument("system", metavar="SYSTEM",
+                        help="an id or name in the catalogue, such as P4 or koch-curve; a file; or - for standard input")
+    parser.add_argument("-n", "--steps", type=_step_count, required=steps_needed, metavar="N", help="the number of steps")
+    parser.add_argument("--set", type=_constant_setting, action="append", default=[], metavar="NAME=VALUE", dest="settings",
+                        help="set a constant, as in dt=14/10")
     parser.add_argument("--notation", metavar="NAME",
-                        help="the notation of the file, or in which the words of a system of the catalogue are printed")
-    parser.add_argument("--name", metavar="NAME", help="which system, where the file holds several with names")
+                        help="the notation of the file; for a system of the catalogue, the notation of the printed words")
+    parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
     parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
-                        help="float computes in doubles, as other programs do")
+                        help="float uses doubles, as other programs do")
     parser.add_argument("--seed", type=_seed, metavar="S",
-                        help="where chance begins: a whole number, by default the model's own, else 0")
+                        help="the seed of the random numbers, a whole number (default: the model's own, else 0)")
 
 
 def _add_conversion(parser: argparse.ArgumentParser) -> None:
     """The options that say what is converted, and to what."""
-    parser.add_argument("system", metavar="FILE", help="a model, - for standard input, or an id such as P4")
-    parser.add_argument("--to", required=True, metavar="NOTATION", help="the notation in which it is printed")
-    parser.add_argument("--from", dest="notation", metavar="NOTATION", help="its own notation, if that is not to be found out")
-    parser.add_argument("--name", metavar="NAME", help="which system, where the file holds several with names")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write into this file; one that is there is never overwritten")
+    parser.add_argument("system", metavar="FILE", help="a model, - for standard input, or an id or name in the catalogue")
+    parser.add_argument("--to", required=True, metavar="NOTATION", help="the notation to be printed")
+    parser.add_argument("--from", dest="notation", metavar="NOTATION", help="the notation of FILE (default: it is recognised)")
+    parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write into this file, which must not exist yet")
 
 
 def _spread(arguments: Sequence[str]) -> Iterator[str]:
-    """`--set a=1 b=2` as `--set a=1 --set b=2`, so that what has no = in it may follow.
+    """`--set a=1 b=2` as `--set a=1 --set b=2`, so that other arguments may follow.
 
     >>> list(_spread(["derive", "--set", "a=1", "b=2", "P4"]))
     ['derive', '--set', 'a=1', '--set', 'b=2', 'P4']
@@ -130,14 +132,14 @@ def _spread(arguments: Sequence[str]) -> Iterator[str]:
         yield from ["--set", argument] if setting and before != "--set" else [argument]
 
 
-def _whole(text: str) -> int:
-    """A whole number from 0 on."""
+def _step_count(text: str) -> int:
+    """A whole number, 0 or greater."""
     if not (text.isascii() and text.isdigit() and len(text) < 20 and int(text) <= MOST_STEPS):
-        raise argparse.ArgumentTypeError(f'the number of steps is a whole number from 0 on, not "{text[:40]}"')
+        raise argparse.ArgumentTypeError(f'the number of steps must be a whole number, 0 or greater, not "{text[:40]}"')
     return int(text)
 
 
-def _setting(text: str) -> tuple[str, str]:
+def _constant_setting(text: str) -> tuple[str, str]:
     """The name and the value of a constant."""
     name, equals, value = text.partition("=")
     if not (equals and name.strip() and value.strip()):
@@ -149,7 +151,7 @@ def _seed(text: str) -> int:
     """A whole number."""
     if re.fullmatch(r"-?[0-9]{1,19}", text):
         return int(text)
-    raise argparse.ArgumentTypeError(f'the seed is a whole number, not "{text[:40]}"')
+    raise argparse.ArgumentTypeError(f'the seed must be a whole number, not "{text[:40]}"')
 
 
 if __name__ == "__main__":

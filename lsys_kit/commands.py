@@ -1,4 +1,4 @@
-"""What each command of the shell does, given the options that were typed, and where it finds the system that they name."""
+"""The commands of the shell: what each does with its options, and how it finds the system that they name."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ if TYPE_CHECKING:
     from lsys_kit.pictures.picture import Picture
 
 STEPS = 5
-"""How many steps are drawn where neither the command nor the system says."""
+"""The number of steps drawn by default, if the system has none of its own."""
 FILMS = (".gif", ".apng")
-"""How the names of files end that have several pictures."""
+"""The suffixes of files with several pictures."""
 MOST_NEIGHBOURS = 1_000
-"""How many files beside a missing one are looked at for a likely name."""
+"""How many files beside a missing one are searched for a similar name."""
 
 
 def list_systems(_: argparse.Namespace) -> None:
-    """Print the ids and titles of the catalogue."""
+    """Print the catalogue: ids, names and titles, under the works from which the systems come."""
     from lsys_kit import map_systems, systems
 
-    print(f"{systems()!r}\n{map_systems()!r}")
+    print(f"{systems()!r}\n\nMap systems\n{map_systems()!r}")
 
 
 def print_words(options: argparse.Namespace) -> None:
-    """Print the words of the steps, or how many modules they have."""
+    """Print the words of the steps, or their numbers of modules."""
     steps = _counted(options) if options.counts else _derived(options)
     if options.json:
         rows = [json.dumps(step, ensure_ascii=False) for step in steps]
@@ -49,26 +49,26 @@ def print_words(options: argparse.Namespace) -> None:
 
 
 def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
-    """Each step with its number of modules; a word is built only where neighbours or chance have a say."""
+    """Each step with its number of modules; words are built only where contexts or chance matter."""
     from lsys_kit.derivation.core.states import States
     from lsys_kit.derivation.derive import lengths
 
     sys.set_int_max_str_digits(0)
-    system = _system(options)
+    system = _system_with_constants(options)
     counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).traits.d0l else \
-        _words(system, options).lengths
+        _derivation(system, options).lengths
     for step, modules in enumerate(counts):
         yield {"step": step, "modules": modules}
 
 
 def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     """Each step with its number of modules, and its word."""
-    for step, word in enumerate(_words(_system(options), options)):
+    for step, word in enumerate(_derivation(_system_with_constants(options), options)):
         yield {"step": step, "modules": len(word), "word": str(word)}
 
 
-def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
-    """The derivation; where a step would be too large, the error says what can be typed instead."""
+def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
+    """The derivation; if a step is too large, the error says what can be typed instead."""
     from lsys_kit.derivation.derive import Derivation
     from lsys_kit.worlds.derive import derive
 
@@ -79,22 +79,22 @@ def _words(system: LSystem, options: argparse.Namespace) -> Derivation:
         if not isinstance(mistake.partial, Derivation):
             raise
         counting = "; derive --counts counts the modules of any step" if mistake.partial.states.traits.d0l else ""
-        hint = f"Take -n {mistake.partial.steps} or less{counting}."
+        hint = f"Use -n {mistake.partial.steps} or less{counting}."
         raise ModelLimitError(mistake.message, limit=mistake.limit, needed=mistake.needed, hint=hint) from None
 
 
 def draw_word(options: argparse.Namespace) -> None:
-    """Write a picture of a step's word, or of maps, or a film of the steps up to a word, and say what it shows."""
-    from lsys_kit.classroom.catalogue import map_system, map_systems
+    """Write a picture of a word or of maps, or a film of the steps, and print what it shows."""
+    from lsys_kit.classroom.catalogue import is_map_system, map_system
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
-    if options.system.upper() in map_systems():
+    if is_map_system(options.system):
         maps = draw(map_system(options.system), options.steps)
         maps.save(options.output)
         print(maps)
         return
-    words = _words(_system(options), options)
+    words = _derivation(_system_with_constants(options), options)
     if Path(options.output).suffix.lower() in FILMS:
         shown: Picture | Film = animate(words, angle=options.angle, seconds=options.seconds)
     else:
@@ -104,28 +104,28 @@ def draw_word(options: argparse.Namespace) -> None:
 
 
 def draw_stages(options: argparse.Namespace) -> None:
-    """Write a picture of the stage diagram, and say what it shows."""
+    """Write a picture of the stage diagram, and print what it shows."""
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.pictures.draw import draw
 
-    system = _system(options)
-    word = None if options.steps is None else _words(system, options)[-1]
+    system = _system_with_constants(options)
+    word = None if options.steps is None else _derivation(system, options)[-1]
     picture = draw(stages(system, durations=options.durations), tokens=word)
     picture.save(options.output)
     print(picture)
 
 
 def convert(options: argparse.Namespace) -> None:
-    """Print a system in another notation, or write it into a new file; what its reader had to tell goes to the error stream."""
+    """Print a system in another notation, or write it into a new file; the notes of its reader go to the error stream."""
     from lsys_kit.notation.write import write
 
-    system = _found(options.system, options.notation, options.name)
+    system = _named_system(options.system, options.notation, options.name)
     text = write(system, options.to)
     if options.output is not None:
         _keep(f"{text}\n", options.output)
     for note in system.notes:
         print(f"lsys-kit: note: {note}", file=sys.stderr)
-    print(text if options.output is None else f"{quotable(options.output)} has it in the notation {options.to}.")
+    print(text if options.output is None else f"Written to {quotable(options.output)} in the notation {options.to}.")
 
 
 def open_lab(options: argparse.Namespace) -> None:
@@ -144,34 +144,34 @@ def open_lab(options: argparse.Namespace) -> None:
                             f"--LabApp.default_url=/lab/tree/{copied[0].name}"])
 
 
-def _system(options: argparse.Namespace) -> LSystem:
+def _system_with_constants(options: argparse.Namespace) -> LSystem:
     """The system that the command line names, with its constants set."""
     from lsys_kit.derivation.core.rules import constants_of, number_from
     from lsys_kit.notation.model.expressions import Number
 
-    system, values = _found(options.system, options.notation, options.name), dict(options.settings)
+    system, values = _named_system(options.system, options.notation, options.name), dict(options.settings)
     constants_of(system, values)
     return replace(system, constants=tuple(
         replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
         for constant in system.constants))
 
 
-def _found(name: str, notation: str | None, of: str | None) -> LSystem:
-    """The system of the catalogue that has this id, else the one in the file, if it holds several the one `of` that name."""
+def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
+    """The system of the catalogue with this id or name, otherwise that in the file of this name, or one of its entries."""
     from lsys_kit.classroom.catalogue import system
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
 
     if name == "-":
-        return read(_text(sys.stdin.buffer, "the standard input"), notation, of)
+        return read(_decoded(sys.stdin.buffer, "the standard input"), notation, entry)
     try:
         found = system(name)
     except ModelNameError:
-        return read(_file(name), notation, of)
-    if of is not None:
+        return read(_file(name), notation, entry)
+    if entry is not None:
         raise ModelValueError(f"{name} is one system of the catalogue", hint="Leave out --name.")
     if notation is not None:
-        write(found, notation)  # says what the notation lacks
+        write(found, notation)  # raises an error that says what the notation lacks
         return replace(found, notation=notation)
     return found
 
@@ -180,10 +180,10 @@ def _file(name: str) -> str:
     """The text of a model file."""
     try:
         with Path(name).open("rb") as file:
-            return _text(file, f'"{quotable(name)}"')
+            return _decoded(file, f'"{quotable(name)}"')
     except FileNotFoundError:
-        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of the catalogue is called so',
-                             hint=_likely(name)) from None
+        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of that name in the catalogue',
+                             hint=_likely_name(name)) from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
 
@@ -193,26 +193,25 @@ def _keep(text: str, name: str) -> None:
     try:
         create_file(Path(name), text.encode())
     except FileExistsError:
-        raise ModelFileError(f'"{quotable(str(Path(name)))}" is there already',
-                             hint="Nothing is ever overwritten: take another name.") from None
+        raise ModelFileError(f'"{quotable(str(Path(name)))}" already exists',
+                             hint="Files are never overwritten: choose another name.") from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
 
 
-def _text(file: BinaryIO, name: str) -> str:
-    """What a file says, at most a little more than a model may have."""
+def _decoded(file: BinaryIO, name: str) -> str:
+    """The text of a file, up to a little more than a model may have."""
     content = file.read(4 * current().text + 1)
     try:
         return content.decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError as fault:
-        raise ModelFileError(f"{name[0].upper()}{name[1:]} is not text in UTF-8: its byte {fault.start + 1} is none") from None
+        raise ModelFileError(f"{name[0].upper()}{name[1:]} is not valid UTF-8 text: byte {fault.start + 1} is wrong") from None
 
 
-def _likely(name: str) -> str:
-    """What was probably meant: a file beside it, a system of the catalogue."""
-    from lsys_kit.classroom.catalogue import systems
-    from lsys_kit.notation.analysis.checks import suggestion
+def _likely_name(name: str) -> str:
+    """A hint at what was probably meant: a file in the same folder, or a system of the catalogue."""
+    from lsys_kit.classroom.catalogue import likely_system, systems
 
     folder = Path(name).parent
     beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []
-    return suggestion(name, [*beside, *systems()]) or f"Catalogue ids are {', '.join(systems())}."
+    return likely_system(name, beside) or f"Catalogue ids are {', '.join(systems())}."

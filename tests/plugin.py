@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 
 import pytest
 
+from lsys_kit.budget import limits
+
 pytest_plugins = ["tests.browser.fixtures"]
 """The browser is for the tests of the lessons and for the benchmarks."""
+
+FEW_EXAMPLES = 10
+"""How many examples of a law a quick run tries, unless the law sets a number of its own."""
+AN_HOUR = 3600
+"""Seconds: as long as a law may take."""
 
 os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's plot cells show nothing
 
@@ -15,14 +23,36 @@ os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`--screenshots FOLDER` keeps what the browser tests see; `--renew-pictures` writes the golden pictures anew."""
     parser.addoption("--screenshots", metavar="FOLDER", help="put pictures of what the browser tests see into this folder")
-    parser.addoption("--renew-pictures", action="store_true", help="write the golden pictures of the seeds' figures anew")
+    parser.addoption("--renew-pictures", action="store_true", help="renew the golden pictures of the printed figures")
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no stopwatch."""
+    """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no deadline, and tries fewer
+    examples where slow tests are left out."""
     from hypothesis import settings
 
     settings.register_profile("kit", settings.default, deadline=None)
-    settings.load_profile("kit")
+    settings.register_profile("quick", settings.get_profile("kit"), max_examples=FEW_EXAMPLES)
+    settings.load_profile("quick" if "not slow" in config.option.markexpr else "kit")
     config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark `browser` whatever needs a browser, and `slow` the benchmarks."""
+    for item in items:
+        fixtures = getattr(item, "fixturenames", ())
+        if "browser" in fixtures or "lab" in fixtures:
+            item.add_marker("browser")
+        if "benchmark" in fixtures or "benchmarks" in item.path.parts:
+            item.add_marker("slow")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Iterator[object]:
+    """A law has all the time it needs: on a busy machine the kit's own limit of seconds must not make it fail."""
+    if pyfuncitem.get_closest_marker("hypothesis") is None:
+        return (yield)
+    with limits(seconds=AN_HOUR):
+        return (yield)

@@ -241,7 +241,7 @@ def test_a_cell_of_a_notebook_shows_its_text_as_text(text):
     shell = SimpleNamespace(user_ns={}, user_ns_hidden={}, push=lambda names: None)
     for line, cell in ((text, "axiom: A"), ("plant", text), (f"plant {text}", "axiom: A"), ("", f"axiom: {text}\nA -> {text}"),
                        ("", f"axiom: A\n{text}\nA -> B")):
-        check_html(magic._answered(shell, line, cell)["text/html"])
+        check_html(magic._cell_output(shell, line, cell)["text/html"])
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)

@@ -45,10 +45,31 @@ def test_an_installed_wheel_copies_its_own_course(wheel, tmp_path):
     code = ("import lsys_kit.classroom.course as c; found = c.course_files(); c.copy_course('mine')\n"
             "print(c.__file__, *found.values(), sep='\\n')")
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path / "site")},
-                          capture_output=True, text=True, check=True, timeout=60)
+                          capture_output=True, text=True, check=True, timeout=300)
     assert all(line.startswith(str(tmp_path / "site")) for line in done.stdout.splitlines())
     copied = {str(path.relative_to(tmp_path / "mine")) for path in (tmp_path / "mine").rglob("*.*") if path.name[0] != "."}
     assert copied == set(course_files())
+
+
+def test_the_wheel_brings_its_licence_along(wheel):
+    names = zipfile.ZipFile(wheel).namelist()
+    assert "lsys_kit/LICENSE" in names
+    assert any(name.endswith(".dist-info/licenses/lsys_kit/LICENSE") for name in names)
+
+
+def test_every_link_of_the_readme_and_of_the_guides_leads_to_a_file():
+    for page in ("README.md", ".github/CONTRIBUTING.md", "tests/benchmarks/README.md"):
+        for link in re.findall(r"\]\(([^)#:]+)\)", (ROOT / page).read_text("utf-8")):
+            assert ((ROOT / page).parent / link).exists(), f"{page}: {link}"
+
+
+def test_the_lines_of_the_readme_do_something():
+    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.DOTALL)
+    *lines, last = code.strip().splitlines()
+    lines.append(f"print({last.partition('#')[0]})")
+    done = subprocess.run([sys.executable, "-c", "\n".join(lines)], cwd=ROOT, capture_output=True, text=True, check=True,
+                          timeout=300)
+    assert done.stdout.startswith("0 M(")
 
 
 def test_the_readme_has_two_commands_of_one_line():

@@ -1,19 +1,20 @@
-"""The catalogue: the systems of the seeds by their ids, each a TOML file that explains itself; those of L-systems stand in the
-folder `systems`, those of map systems in `maps`.
+"""The catalogue: L-systems in the folder `systems` and map systems in the folder `maps`, each a TOML file that explains itself.
 
-A file holds the rules in their own notation, where they were printed, what is wrong with the print, and the words that
-must come out. A file is read when its system is first asked for.
+A file holds the rules in their own notation, where they were printed, what is wrong in print, and the words that must come
+out. A system is asked for by its id, which is the name of its file, or by its telling name. A file is read when its system is
+first asked for; all files are read when a name, not an id, is first looked up.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from itertools import groupby
 from types import MappingProxyType
 from typing import Any
 
@@ -26,6 +27,15 @@ from lsys_kit.notation.read import read
 
 SYSTEMS, MAPS = "systems", "maps"
 """The folders."""
+WORKS = MappingProxyType({
+    "Jacob": "C. Jacob, Modeling Growth with L-Systems & Mathematica",
+    "textbook": "Lindenmayer Systems (textbook)",
+    "Prusinkiewicz": "P. Prusinkiewicz, Introduction to Modeling with L-systems",
+    "Kurth": "W. Kurth, L-Systeme (lecture slides)",
+    "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
+})
+"""The works from which the systems come, in the order in which the catalogue lists them."""
+_NAME_PATTERN = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
 @dataclass(frozen=True)
@@ -34,31 +44,32 @@ class Entry:
 
     Attributes
     ----------
-    id, title
-        What it is called.
-    seed, source
-        The seed document, and where in it the system stands.
+    id, name, title
+        What it is called: "J4", "anabaena-life-spans", and a line of text.
+    work, source
+        A key of `WORKS`, and where in that work the system stands.
     status
-        "seed" where the rules stand in the seed, "seed, corrected" where the print had to be corrected; "found" where the seed
+        "as printed" where the rules stand in the work, "corrected" where the print had to be corrected; "found" where the work
         has only a picture and the source names where the rules were found, "memory" where they are known from the literature
         and were not read again, "reconstruction" where they were made for this kit.
     notation, rules
         The rules, as text in a notation.
     errata
-        What is wrong in the print, a sentence each.
+        What is wrong in print, a sentence each.
     notes
         What else a reader should know, a sentence each.
     words
-        Some steps and their words, or maps, as far as chance has no part in them.
+        The words, or maps, of some steps, where chance has no part in them.
     lengths
-        The number of modules, or walls, at steps 0, 1, 2, ..., as far as they were checked and chance has no part in them.
+        The number of modules, or walls, at steps 0, 1, 2, ..., as far as they were checked, where chance has no part in them.
     same_as
         The id of the system that this one repeats, or None.
     """
 
     id: str
+    name: str
     title: str
-    seed: str
+    work: str
     source: str
     status: str
     notation: str
@@ -71,125 +82,169 @@ class Entry:
 
 
 class Catalogue(tuple[str, ...]):
-    """The ids of the systems, shown as a list with titles."""
+    """The ids of the systems, shown with names and titles under the works from which they come."""
 
     __slots__ = ()
 
     def __repr__(self) -> str:
-        width = max(map(len, self), default=0)
-        return "\n".join(f"{e.id:<{width}}  seed {e.seed}  {e.title}" for e in map(entry, self))
+        entries = [entry(id) for id in self]
+        width, wide = (max((len(text) for text in texts), default=0) for texts in
+                       ((e.id for e in entries), (e.name for e in entries)))
+        return "\n".join(line for work, group in groupby(entries, lambda e: e.work) for line in
+                         (WORKS[work], *(f"  {e.id:<{width}}  {e.name:<{wide}}  {e.title}" for e in group)))
 
 
 def system(id: str) -> LSystem:
-    """The system with an id, whatever its case.
+    """The L-system with an id or a name, in capitals or not.
 
     Parameters
     ----------
     id
-        One of `systems()`.
+        One of `systems()`, or the name listed beside it.
 
     Raises
     ------
     ModelNameError
-        No system has that id.
+        No system is called that.
     ModelValueError
-        It is that of a map system.
+        A map system is.
 
     Examples
     --------
     >>> print(system("j1").productions[0])
     ar -> al br
+    >>> system("anabaena-life-spans") == system("J4")
+    True
     """
-    return _system(_known(id, SYSTEMS))
+    return _parsed_system(_known(id, SYSTEMS))
 
 
 def map_system(id: str) -> MapSystem:
-    """The map system with an id, whatever its case.
+    """The map system with an id or a name, in capitals or not.
 
     Parameters
     ----------
     id
-        One of `map_systems()`.
+        One of `map_systems()`, or the name listed beside it.
 
     Raises
     ------
     ModelNameError
-        No map system has that id.
+        No map system is called that.
     ModelValueError
-        It is that of an L-system.
+        An L-system is.
 
     Examples
     --------
     >>> print(map_system("k28").productions[0])
     A -> B[-A][+A]B
     """
-    return _map_system(_known(id, MAPS))
+    return _parsed_map(_known(id, MAPS))
 
 
 def systems() -> Catalogue:
-    """All systems of the catalogue, in the order of the seeds.
+    """All L-systems of the catalogue, grouped by the works from which they come.
 
     >>> "P4" in systems()
     True
-    >>> print(repr(systems()).splitlines()[0])
-    J1    seed 000  Anabaena catenula: long and short cells with a polarity
+    >>> print("\\n".join(repr(systems()).splitlines()[:2]))
+    C. Jacob, Modeling Growth with L-Systems & Mathematica
+      J1   anabaena-polarity                Anabaena catenula: long and short cells with a polarity
     """
     return _catalogue(SYSTEMS)
 
 
 def map_systems() -> Catalogue:
-    """All map systems of the catalogue, in the order of the seeds.
+    """All map systems of the catalogue, grouped by the works from which they come.
 
-    >>> print(repr(map_systems()).splitlines()[0])
-    K28  seed 003  A map whose cells divide crosswise
+    >>> print("\\n".join(repr(map_systems()).splitlines()[:2]))
+    W. Kurth, L-Systeme (lecture slides)
+      K28  map-crosswise-divisions   A map whose cells divide crosswise
     """
     return _catalogue(MAPS)
 
 
 def _catalogue(folder: str) -> Catalogue:
-    return Catalogue(sorted(_ids(folder).values(), key=lambda id: (entry(id).seed, _natural(id))))
+    works = list(WORKS)
+    return Catalogue(sorted(_ids(folder).values(), key=lambda id: (works.index(_entry(id).work), _natural(id))))
 
 
 def entry(id: str) -> Entry:
-    """What the catalogue knows about a system, be it an L-system or a map system.
+    """What the catalogue knows about an L-system or a map system, given its id or its name.
 
     Raises
     ------
     ModelNameError
-        No system has that id.
+        No system is called that.
 
     Examples
     --------
     >>> entry("P4").words[1]
     'M(2,-1)M(1,1)'
+    >>> entry("anabaena-life-spans").id
+    'J4'
     """
-    return _entry(_known(id, MAPS if _is_in(id, MAPS) else SYSTEMS))
+    return _entry(_known(id, MAPS if is_map_system(id) else SYSTEMS))
 
 
-def _is_in(id: str, folder: str) -> bool:
-    return isinstance(id, str) and id.strip().upper() in _ids(folder)
+def is_map_system(id: str) -> bool:
+    """Whether this is the id or the name of a map system.
+
+    >>> is_map_system("K28"), is_map_system("map-offset-walls"), is_map_system("P4")
+    (True, True, False)
+    """
+    return _id_of(id, MAPS) is not None
+
+
+def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
+    """A hint that names the L-system of the catalogue that was probably meant, or another likely spelling.
+
+    >>> likely_system("anabaena-lifespans")
+    'Did you mean "anabaena-life-spans"?'
+    """
+    return _suggestion(id, SYSTEMS, others)
 
 
 def _known(id: str, folder: str) -> str:
-    """The id as the catalogue writes it."""
+    """The id as the catalogue writes it, of a system that is asked for by its id or its name."""
     if not isinstance(id, str):
-        raise ModelValueError(f"A system is asked for by its id, a text such as \"P4\", not by {type(id).__name__}")
-    if _is_in(id, folder):
-        return _ids(folder)[id.strip().upper()]
-    for other, kind, function in ((MAPS, "a map system, and no L-system", "map_system"),
-                                  (SYSTEMS, "an L-system, and no map system", "system")):
-        if _is_in(id, other):
-            raise ModelValueError(f"{id.strip().upper()} is {kind}", hint=f'{function}("{id.strip().upper()}") gives it.')
-    ids, shown = _ids(folder).values(), id if len(id) <= 20 else f"{id[:20]}..."
-    hint = suggestion(id[:20].upper(), ids) or f"Systems are: {', '.join(sorted(ids, key=_natural))}."
+        raise ModelValueError(f'The id or name of a system must be a text such as "P4", not {type(id).__name__}')
+    known = _id_of(id, folder)
+    if known is not None:
+        return known
+    for other, kind, function in ((MAPS, "a map system, not an L-system", "map_system"),
+                                  (SYSTEMS, "an L-system, not a map system", "system")):
+        elsewhere = _id_of(id, other)
+        if elsewhere is not None:
+            raise ModelValueError(f"{elsewhere} is {kind}", hint=f'It is returned by {function}("{elsewhere}").')
+    shown = id if len(id) <= 30 else f"{id[:30]}..."
+    hint = _suggestion(id, folder) or f"Systems are: {', '.join(sorted(_ids(folder).values(), key=_natural))}."
     raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
+
+
+def _id_of(id: str, folder: str) -> str | None:
+    """The id of the system that has this id or name, if there is one in the folder."""
+    spelt = id.strip().lower() if isinstance(id, str) else ""
+    return _ids(folder).get(spelt) or (_ids_by_name(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
+
+
+def _suggestion(id: str, folder: str, others: Iterable[str] = ()) -> str | None:
+    """A hint that names an id or else a name that is spelt alike; ids are in capitals and names are not."""
+    return (suggestion(id[:40], [*others, *_ids(folder).values()]) or suggestion(id[:40].upper(), _ids(folder).values())
+            or suggestion(id[:40].lower(), _ids_by_name(folder)))
 
 
 @cache
 def _ids(folder: str) -> Mapping[str, str]:
-    """The ids, by their capital letters; known from the names of the files alone."""
+    """The ids, by their small letters; known from the names of the files alone."""
     names = (file.name.removesuffix(".toml") for file in _folder(folder).iterdir() if file.name.endswith(".toml"))
-    return {name.upper(): name for name in names}
+    return {name.lower(): name for name in names}
+
+
+@cache
+def _ids_by_name(folder: str) -> Mapping[str, str]:
+    """The ids by the names of the systems."""
+    return {_entry(id).name: id for id in _ids(folder).values()}
 
 
 def _folder(folder: str) -> Traversable:
@@ -198,7 +253,7 @@ def _folder(folder: str) -> Traversable:
 
 @cache
 def _entry(id: str) -> Entry:
-    folder = MAPS if _is_in(id, MAPS) else SYSTEMS
+    folder = MAPS if id.lower() in _ids(MAPS) else SYSTEMS
     fields: dict[str, Any] = tomllib.loads((_folder(folder) / f"{id}.toml").read_text(encoding="utf-8"))
     for name in ("errata", "notes", "lengths"):
         fields[name] = tuple(fields.get(name, ()))
@@ -207,13 +262,13 @@ def _entry(id: str) -> Entry:
 
 
 @cache
-def _system(id: str) -> LSystem:
+def _parsed_system(id: str) -> LSystem:
     found = _entry(id)
     return read(found.rules, found.notation)
 
 
 @cache
-def _map_system(id: str) -> MapSystem:
+def _parsed_map(id: str) -> MapSystem:
     return read_map(_entry(id).rules)
 
 

@@ -1,8 +1,8 @@
-"""The course: lessons and exercises, copied into a folder of the user's, where they are his own.
+"""The course: lessons, exercises and references, copied into a folder that belongs to the user.
 
-What a student has written is never overwritten. A manifest in the folder holds the SHA-256 of each file that was copied:
-a file that still has it is untouched, so that a newer version of the kit may renew it. A file that has not is the
-student's; where the kit has a newer version, that is put beside it.
+What a student has written is never overwritten. A manifest in the folder holds the SHA-256 of each file that was copied: a
+file that still matches is untouched, and a newer version of the kit may update it. Any other file is the student's own; a newer
+version is put beside it.
 
 Nothing outside the folder is written: names come from the kit alone, and links in the folder are not followed.
 """
@@ -16,19 +16,19 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import count
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from lsys_kit.errors import ModelFileError
 from lsys_kit.files import replace_file
 
-COURSE_PARTS = ("notebooks", "exercises")
-"""The folders of the course."""
+COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
+"""The folders of the course: lessons, exercises, and the live references of notations and turtle commands."""
 FOLDER = "lsys_kit_course"
-"""Where the course is copied to by default."""
+"""The default folder of the user."""
 MANIFEST = ".lsys_kit_course.json"
 MOST_MANIFEST = 1_000_000
-"""Characters of a manifest that is read: none that this file writes is nearly as long."""
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
+"""The greatest size of a manifest that is read; those written here are far smaller."""
+_FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
 
 
 @dataclass(frozen=True)
@@ -38,10 +38,10 @@ class Copied:
     Attributes
     ----------
     name
-        The file, from the folder of the course.
+        The file, relative to the folder of the course.
     what
-        "new" (it was not there), "renewed" (an untouched older version was), "same" (this version was), "kept" (the user's
-        own, to which there is no news) or "beside" (the user's own; the kit's new version is the file `beside`).
+        "new" (it was not there), "renewed" (an untouched older version was there), "same" (this version was there), "kept" (the
+        user's own, and nothing new in the kit) or "beside" (the user's own; the kit's new version is the file `beside`).
     """
 
     name: str
@@ -52,14 +52,15 @@ class Copied:
 def course_files(source: Path | None = None) -> dict[str, Path]:
     """The files of the course that came with the kit, by their names in the course.
 
-    >>> all(name.split("/")[0] in COURSE_PARTS for name in course_files())
+    >>> {name.rpartition("/")[0] for name in course_files()} == set(COURSE_PARTS)
     True
     """
     source = source or _home()
     found = {f"{part}/{path.name}": path for part in COURSE_PARTS for path in sorted((source / part).glob("*"))
-             if _NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()}
+             if _FILE_NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()}
     if not found:
-        raise ModelFileError(f"The course is not where the kit was installed, {source}", hint="Install lsys-kit again.")
+        raise ModelFileError(f"The course is missing from the installation of the kit, {source}",
+                             hint="Install lsys-kit again.")
     return found
 
 
@@ -75,7 +76,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     Parameters
     ----------
     folder
-        The user's folder; it is made where it is not there.
+        The user's folder; it is made if necessary.
     source
         Where the course comes from; by default what came with the kit.
 
@@ -91,7 +92,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     """
     folder, files = Path(folder), course_files(source)
     try:
-        for part in COURSE_PARTS:
+        for part in dict.fromkeys(str(parent) for name in files for parent in reversed(PurePosixPath(name).parents)):
             _made_folder(folder / part)
         manifest = _manifest(folder)
         copied = tuple(_copied(folder, name, path.read_bytes(), manifest) for name, path in files.items())
@@ -106,12 +107,12 @@ def copy_report(folder: str | Path, copied: tuple[Copied, ...]) -> str:
     """What became of the course, in words.
 
     >>> print(copy_report("course", (Copied("notebooks/01.ipynb", "new"), Copied("notebooks/02.ipynb", "kept"))))
-    The course is in course: 1 file new, 1 file your own and kept.
+    The course is in course: 1 file new, 1 file kept as you changed it.
     """
-    words = {"new": "new", "renewed": "renewed", "same": "as before", "kept": "your own and kept"}
+    words = {"new": "new", "renewed": "updated", "same": "unchanged", "kept": "kept as you changed it"}
     numbers = {word: sum(file.what == what for file in copied) for what, word in words.items()}
     parts = [f"{number} file{'s' * (number > 1)} {word}" for word, number in numbers.items() if number]
-    news = [f"{file.name} is your own and kept; its new version is {file.beside}." for file in copied if file.beside]
+    news = [f"You have changed {file.name}; its new version is {file.beside}." for file in copied if file.beside]
     return "\n".join([f"The course is in {folder}{': ' * bool(parts)}{', '.join(parts)}.", *news])
 
 
@@ -124,7 +125,7 @@ def _made_folder(path: Path) -> None:
 def _manifest(folder: Path) -> dict[str, str]:
     """The hash of each file as it was copied; none where there is no manifest that can be read.
 
-    Without a manifest every file that differs counts as the user's own, which is the safe side.
+    Without a manifest every file that differs counts as the user's own, to be on the safe side.
     """
     path = folder / MANIFEST
     if path.is_symlink() or not path.is_file() or path.stat().st_size > MOST_MANIFEST:
@@ -137,15 +138,15 @@ def _manifest(folder: Path) -> dict[str, str]:
 
 
 def _copied(folder: Path, name: str, content: bytes, manifest: dict[str, str]) -> Copied:
-    """Bring one file up to date and write down the version that the user has now seen."""
+    """Bring one file up to date, and record the version that the user now has."""
     path, version, seen = folder / name, _hash(content), manifest.get(name)
     manifest[name] = version
     if not os.path.lexists(path):
         replace_file(path, content)
         return Copied(name, "new")
-    if _same(path, version):
+    if _has_content(path, version):
         return Copied(name, "same")
-    if seen and _same(path, seen):
+    if seen and _has_content(path, seen):
         replace_file(path, content)
         return Copied(name, "renewed")
     if seen == version:
@@ -155,15 +156,16 @@ def _copied(folder: Path, name: str, content: bytes, manifest: dict[str, str]) -
 
 
 def _put_beside(folder: Path, name: str, content: bytes, manifest: dict[str, str]) -> str:
-    """The new version under the first name beside the user's file that is free, or holds what the user never changed."""
+    """Write the new version under the first name beside the user's file that is free, or whose file the user never changed."""
     for beside in _names_beside(name):
         path = folder / beside
-        if os.path.lexists(path) and not any(_same(path, known) for known in (_hash(content), manifest.get(beside)) if known):
+        unchanged = (known for known in (_hash(content), manifest.get(beside)) if known)
+        if os.path.lexists(path) and not any(_has_content(path, known) for known in unchanged):
             continue
         manifest[beside] = _hash(content)
         replace_file(path, content)
         return beside
-    raise AssertionError("the names beside a file never end")
+    raise AssertionError("there are infinitely many names")
 
 
 def _names_beside(name: str) -> Iterator[str]:
@@ -177,6 +179,6 @@ def _hash(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _same(path: Path, version: str) -> bool:
-    """Whether a file, not a link, has just that content."""
+def _has_content(path: Path, version: str) -> bool:
+    """Whether a file, not a link, has exactly that content."""
     return path.is_file() and not path.is_symlink() and _hash(path.read_bytes()) == version

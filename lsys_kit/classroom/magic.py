@@ -1,7 +1,7 @@
-"""`%%lsystem NAME`: a cell whose text is a model, which is read and shown; or its mistake, underlined where it stands.
+"""`%%lsystem NAME`: a cell whose text is a model, which is read and shown; a mistake is underlined where it stands.
 
-Nothing in such a cell is run as code: its text is for the kit's grammars alone, and its first line is no place for `{...}` or
-`$...`, which other magics fill in by running them.
+Nothing in such a cell is run as code: its text goes to the kit's grammars only, and `{...}` and `$...` in its first line are
+not expanded, as they are by other magics.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import INK, MARK, PAPER, QUIET, VERMILION
 
 AROUND, WIDTH = 8, 100
-"""How many lines before and behind a mistake are shown, and how many characters of them."""
+"""How many lines before and after a mistake are shown, and how many characters of each."""
 
 
 def load(shell: Any) -> None:
-    """Make `%%lsystem` known to a notebook, and have it show every system as that does.
+    """Make `%%lsystem` known to a notebook, and let it show every system in that way.
 
     Parameters
     ----------
@@ -40,25 +40,25 @@ def load(shell: Any) -> None:
     def lsystem(line: str, cell: str) -> None:
         """Define an L-system from the text in the cell, and show it.
 
-        `%%lsystem NAME` gives it a name, `%%lsystem NAME NOTATION` says in which notation it is written, `%%lsystem` alone
-        shows it only:
+        `%%lsystem NAME` gives it a name, `%%lsystem NAME NOTATION` also gives its notation, and `%%lsystem` alone
+        only shows it:
 
             %%lsystem koch
             angle: 60
             axiom: F--F--F
             F -> F+F--F+F
         """
-        shell.display_pub.publish(_answered(shell, line, cell))
+        shell.display_pub.publish(_cell_output(shell, line, cell))
 
     shell.register_magic_function(no_var_expand(lsystem), "cell")
     shell.display_formatter.mimebundle_formatter.for_type(LSystem, shown)
 
 
-def _answered(shell: Any, line: str, cell: str) -> dict[str, str]:
-    """What a cell shows: its system, which has its name from then on; or its mistake."""
+def _cell_output(shell: Any, line: str, cell: str) -> dict[str, str]:
+    """What a cell shows: the system, which is bound to the name, or the mistake in it."""
     head, name = f"%%lsystem {line}", ""
     try:
-        name, notation = _asked(head, shell)
+        name, notation = _name_and_notation(head, shell)
         system = read(f"\n{cell.rstrip()}", notation or None)  # the first line of the cell counts, as in its editor
     except LSystemError as mistake:
         return underlined(mistake, f"{head}\n{cell.rstrip()}", _standing(name, shell))
@@ -68,11 +68,11 @@ def _answered(shell: Any, line: str, cell: str) -> dict[str, str]:
     return shown(system, name, notes)
 
 
-def _asked(head: str, shell: Any) -> tuple[str, str]:
-    """The name and the notation that the first line of a cell asks for; empty where it asks for none."""
+def _name_and_notation(head: str, shell: Any) -> tuple[str, str]:
+    """The name and the notation in the first line of a cell; empty where they are not given."""
     words = [(match.group(), match.span()) for match in re.finditer(r"\S+", head)][1:]
     if len(words) > 2:
-        raise ModelSyntaxError("Only a name and a notation can stand here", head, words[2][1][0], words[-1][1][1],
+        raise ModelSyntaxError("Only a name and a notation may follow %%lsystem", head, words[2][1][0], words[-1][1][1],
                                'Write "%%lsystem NAME" or "%%lsystem NAME NOTATION".')
     for word, at in words[:1]:
         wrong = _unfit(word, shell)
@@ -88,28 +88,28 @@ def _asked(head: str, shell: Any) -> tuple[str, str]:
 
 
 def _unfit(name: str, shell: Any) -> tuple[str, str] | None:
-    """Why something cannot be the name of a system, and what to do; or None."""
-    quoted, another = f'"{excerpt(name)}"', "Take another name."
+    """Why a word cannot be the name of a system, and what to do; or None."""
+    quoted, another = f'"{excerpt(name)}"', "Choose another name."
     plain = unicodedata.normalize("NFKC", name)
     if name in DIALECTS:
-        return f"{quoted} is a notation, and no name", f'Put a name before it, as in "%%lsystem plant {name}".'
+        return f"{quoted} is a notation, not a name", f'Put a name before it, as in "%%lsystem plant {name}".'
     if not plain.isidentifier() or len(plain) > 64:
         return f"{quoted} cannot be a name", "A name is made of letters, digits and _, and begins with a letter."
     if iskeyword(plain):
-        return f"{quoted} is a word of Python's own", another
+        return f"{quoted} is a keyword of Python", another
     if plain in lsys_kit.__all__:
-        return f"{quoted} is a name of the kit's own", another
+        return f"{quoted} is a name that the kit uses", another
     if plain.startswith("_") or (plain in shell.user_ns_hidden and shell.user_ns_hidden[plain] is shell.user_ns.get(plain)):
-        return f"{quoted} is a name of the notebook's own", another
+        return f"{quoted} is a name that the notebook uses", another
     return None
 
 
 def _shadowed(name: str, shell: Any) -> list[str]:
-    """What to tell where a name meant something else before."""
+    """A note where the name meant something else before."""
     if name in shell.user_ns:
         return [] if isinstance(shell.user_ns[name], LSystem) else [
-            f'"{name}" meant something else in this notebook. From now on it is this system.']
-    return [f'"{name}" is a name of Python\'s too. In this notebook it is this system from now on.'] \
+            f'"{name}" meant something else in this notebook. From now on it means this system.']
+    return [f'"{name}" is also a name of Python\'s. From now on it means this system in this notebook.'] \
         if hasattr(builtins, name) else []
 
 
@@ -130,14 +130,14 @@ def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, s
     mistake
         The mistake.
     text
-        The whole text, with the lines that the mistake counts.
+        The whole text, to whose lines the mistake refers.
     after
-        What else to tell, whole sentences.
+        What else to say, in whole sentences.
 
     Returns
     -------
     dict
-        Its HTML and its plain text, by their kinds.
+        HTML and plain text, by MIME type.
 
     Examples
     --------
@@ -149,12 +149,12 @@ def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, s
     """
     said = str(mistake).partition("\n")[0]
     html = (f'<span aria-hidden="true">&#9888;</span> <b>Not readable yet.</b> {escaped(said)}'
-            f"{_quotation(mistake, text)}{escaped(after)}")
+            f"{_quoted_lines(mistake, text)}{escaped(after)}")
     return {"text/html": boxed("lsys-mistake", "alert", VERMILION, html),
             "text/plain": f"Not readable yet. {mistake}" + (f"\n{after}" if after else "")}
 
 
-def _quotation(mistake: LSystemError, text: str) -> str:
+def _quoted_lines(mistake: LSystemError, text: str) -> str:
     """The lines around a mistake, with their numbers."""
     if mistake.line is None:
         return "<br>"
@@ -162,13 +162,13 @@ def _quotation(mistake: LSystemError, text: str) -> str:
     first, last = max(0, mistake.line - 1 - AROUND), min(len(lines), mistake.line + AROUND)
     digits = len(str(last))
     quoted = (f'<span style="color:{QUIET};user-select:none">{number + 1:>{digits}}  </span>'
-              + (_marked(lines[number], mistake) if number + 1 == mistake.line else escaped(lines[number][:WIDTH]))
+              + (_underlined_line(lines[number], mistake) if number + 1 == mistake.line else escaped(lines[number][:WIDTH]))
               for number in range(first, last))
     return f'<pre style="margin:6px 0;color:{INK};background:{PAPER};overflow-x:auto">' + "\n".join(quoted) + "</pre>"
 
 
-def _marked(line: str, mistake: LSystemError) -> str:
-    """The line of a mistake, with the wrong stretch underlined; of a long line what stands around it."""
+def _underlined_line(line: str, mistake: LSystemError) -> str:
+    """The line of a mistake, with the wrong stretch underlined; of a long line only what is around it."""
     assert mistake.column is not None
     assert mistake.end is not None
     start, end = mistake.column - 1, min(mistake.end - 1, mistake.column - 1 + WIDTH)

@@ -1,6 +1,6 @@
-"""A system as the page of a book shows it: its notation and notes in words, its rules as mathematics, its first words.
+"""A system typeset as in a book: its notation and notes in words, its rules as mathematics, its first words.
 
-Rules of every notation look alike here, as in The Algorithmic Beauty of Plants: contexts before and behind the strict
+Rules of every notation look alike here, as in The Algorithmic Beauty of Plants: contexts before and after the strict
 predecessor, the probability over the arrow. All text is escaped: nothing that a model says can become markup.
 """
 
@@ -28,16 +28,16 @@ from lsys_kit.worlds.derive import derive
 FIRST_STEPS, FIRST_MODULES = 4, 80
 """How many words are shown after the axiom, and how many modules they may have."""
 MOST_DERIVED = 10_000
-"""Words larger than this are not even derived, so that a system is shown at once."""
+"""Larger words are not derived, so that a system is shown at once."""
 MOST_RULES, MOST_MODULES = 60, 200
 """How many rules of a section, and how many modules of a word, are typeset."""
-_SIGNS: Mapping[str, str] = {
+_MATHEMATICAL_SIGNS: Mapping[str, str] = {
     "<=": "≤", ">=": "≥", "!=": "≠", "==": "=", "&&": "∧", "||": "∨", "!": "¬", "*": "·", "-": "−", "-x": "−"}
-"""How mathematics writes what programs write otherwise."""
-_SECTIONS = (("productions", "p", "productions"), ("meta", "m", "what shortens a word (meta-rules)"),
+"""Operators as mathematics writes them."""
+_RULE_SECTIONS = (("productions", "p", "productions"), ("meta", "m", "what shortens a word (meta-rules)"),
              ("decomposition", "d", "what a module consists of (decomposition)"),
              ("interpretation", "i", "what a module is drawn as (interpretation)"))
-"""For each row of rules its letter, and its heading in words."""
+"""For each section of rules its field, its letter and its heading."""
 _QUIET = f'style="color:{QUIET}"'
 _ASIDE = f"color:{QUIET};font:14px sans-serif"
 _CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:none;max-width:none"
@@ -51,14 +51,14 @@ def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[st
     system
         Any L-system.
     name
-        What it is called, if it has a name.
+        Its name, if it has one.
     notes
-        What is told besides the notes of the system's reader, a sentence each.
+        Notes besides those of the system's reader, a sentence each.
 
     Returns
     -------
     dict
-        Its HTML and its plain text, by their kinds.
+        HTML and plain text, by MIME type.
 
     Examples
     --------
@@ -77,11 +77,11 @@ def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[st
     words, stop = first_words(system)
     if stop:
         said.append(stop)
-    return {"text/html": _box(system, name, said, words), "text/plain": _plain(system, name, said, words)}
+    return {"text/html": _box(system, name, said, words), "text/plain": _plain_text(system, name, said, words)}
 
 
 def first_words(system: LSystem) -> tuple[list[Word], str]:
-    """The words of the first steps, as long as they are short; and why there are no more, where a step is not possible.
+    """The words of the first steps while they are short; and the reason where a step cannot be derived.
 
     >>> from lsys_kit.notation.read import read
     >>> first_words(read("axiom: A(0)\\nA(t) -> A(1/t)"))[1]
@@ -104,7 +104,7 @@ def first_words(system: LSystem) -> tuple[list[Word], str]:
     return words, ""
 
 
-def _plain(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
+def _plain_text(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
     rules = (f"  {line}" for line in str(system).splitlines())
     steps = (f"step {step}: {abridged(word, 400)}" for step, word in enumerate(words))
     return "\n".join([f"{name or 'This'} is an L-system in the notation {system.notation}.", *notes, *rules, *steps])
@@ -113,17 +113,17 @@ def _plain(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Wor
 def _box(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]) -> str:
     called = f"<b>{escaped(name)}</b>" if name else "This"
     set_so = " &nbsp;·&nbsp; ".join(map(escaped, settings(system, dialect_named(system.notation).turtle)))
-    steps = "".join(_row((f"<span {_QUIET}>{step}</span>", word_html(word))) for step, word in enumerate(words))
+    steps = "".join(_table_row((f"<span {_QUIET}>{step}</span>", word_html(word))) for step, word in enumerate(words))
     return boxed("lsys-system", "group", BLUE,
                  f"<div>{called} is an L-system in the notation {escaped(system.notation)}.</div>"
                  + "".join(f"<div>{escaped(note)}</div>" for note in notes)
-                 + _table(_rows(system), "font-family:Georgia,serif;font-size:16px;line-height:1.5")
+                 + _table(_rule_rows(system), "font-family:Georgia,serif;font-size:16px;line-height:1.5")
                  + (f"<div {_QUIET}>{set_so}</div>" if set_so else "")
                  + f"<div {_QUIET}>first words</div>{_table([steps])}")
 
 
 def boxed(name: str, role: str, colour: str, content: str) -> str:
-    """A box with a coloured edge; dollar signs in it are commands of the turtle, and no formulas.
+    """A box with a coloured edge; dollar signs in it are turtle commands, not formulas.
 
     >>> "mathjax_ignore" in boxed("lsys-system", "group", BLUE, "$A$")
     True
@@ -133,36 +133,36 @@ def boxed(name: str, role: str, colour: str, content: str) -> str:
 
 
 def _table(rows: Iterable[str], look: str = "") -> str:
-    """A table without the looks that notebooks give to tables."""
+    """A table without a notebook's own table style."""
     style = f"border-collapse:collapse;table-layout:auto;margin:4px 0;color:{INK};{look}"
     return f'<table style="{style}"><tbody>{"".join(rows)}</tbody></table>'
 
 
-def _row(cells: Iterable[str], wide: int = 0) -> str:
-    """A row of a table; its last cell goes over several columns, if so asked."""
+def _table_row(cells: Iterable[str], wide: int = 0) -> str:
+    """A row of a table; its last cell may span several columns."""
     *most, last = cells
     span = f' colspan="{wide}"' if wide else ""
     inner = "".join(f'<td style="{_CELL};white-space:nowrap">{cell}</td>' for cell in most)
     return f'<tr style="background:{PAPER}">{inner}<td{span} style="{_CELL};white-space:normal">{last}</td></tr>'
 
 
-def _rows(system: LSystem) -> Iterator[str]:
-    """Constants, axiom and rules, a row each."""
+def _rule_rows(system: LSystem) -> Iterator[str]:
+    """Constants, axiom and rules, one row each."""
     for constant in system.constants[:MOST_RULES]:
-        yield _row(("", _constant(constant, system)), wide=3)
-    yield _row(("<i>ω</i>", _word(system.axiom, system)), wide=3)
-    for field, letter, heading in _SECTIONS:
+        yield _table_row(("", _constant_html(constant, system)), wide=3)
+    yield _table_row(("<i>ω</i>", _word(system.axiom, system)), wide=3)
+    for field, letter, heading in _RULE_SECTIONS:
         rules = getattr(system, field)
         if rules and field != "productions":
-            yield _row((f'<span style="{_ASIDE}">{heading}</span>',), wide=4)
+            yield _table_row((f'<span style="{_ASIDE}">{heading}</span>',), wide=4)
         for number, rule in enumerate(rules[:MOST_RULES], 1):
             label = f'<i>{letter}</i><sub style="line-height:0">{number}</sub>'
-            yield _row((label, _before(rule, system), _arrow(rule, system), _word(rule.successor, system)))
+            yield _table_row((label, _before_arrow(rule, system), _arrow_html(rule, system), _word(rule.successor, system)))
         if len(rules) > MOST_RULES:
-            yield _row(("", f"… {len(rules) - MOST_RULES:,} more"), wide=3)
+            yield _table_row(("", f"… {len(rules) - MOST_RULES:,} more"), wide=3)
 
 
-def _constant(constant: Constant, system: LSystem) -> str:
+def _constant_html(constant: Constant, system: LSystem) -> str:
     text = f"{formula(Name(constant.name), system)} = {formula(constant.value, system)}"
     if constant.range is None:
         return text
@@ -170,7 +170,7 @@ def _constant(constant: Constant, system: LSystem) -> str:
     return f'{text} <span style="{_ASIDE}">from {first} to {last} by {by}</span>'
 
 
-def _before(rule: Production | MetaRule, system: LSystem) -> str:
+def _before_arrow(rule: Production | MetaRule, system: LSystem) -> str:
     """What stands before the arrow."""
     if isinstance(rule, MetaRule):
         text = _word(rule.predecessors, system)
@@ -181,7 +181,7 @@ def _before(rule: Production | MetaRule, system: LSystem) -> str:
     return f"{text} : {formula(rule.condition, system)}" if rule.condition is not None else text
 
 
-def _arrow(rule: Production | MetaRule, system: LSystem) -> str:
+def _arrow_html(rule: Production | MetaRule, system: LSystem) -> str:
     """The arrow, with the probability over it."""
     if isinstance(rule, MetaRule) or rule.probability is None:
         return "⟶"
@@ -196,7 +196,7 @@ def _word(items: tuple[Item, ...], system: LSystem) -> str:
 
 
 def _item(item: Item, system: LSystem) -> str:
-    """A module, or a repeated part in parentheses with how often it is written."""
+    """A module, or a repeated part in parentheses with its count."""
     if isinstance(item, Pattern):
         values = ", ".join(formula(a, system) for a in item.arguments)
         return html_label(Module(item.symbol), system) + (f"({values})" if values else "")
@@ -226,13 +226,13 @@ def formula(expression: Expression, system: LSystem) -> str:
         return number_text(expression.value).replace("-", "−")
     if isinstance(expression, Name):
         return html_label(Module(expression.name), system)
-    return _applied(expression, part)
+    return _operation_html(expression, part)
 
 
-def _applied(expression: Apply, part: Callable[[Expression, int], str]) -> str:
-    """An operator with its operands, each in parentheses where it binds less tightly than is asked."""
+def _operation_html(expression: Apply, part: Callable[[Expression, int], str]) -> str:
+    """An operator with its operands, each in parentheses where it binds less tightly."""
     operator, operands = OPERATORS[expression.operator], expression.operands
-    sign = escaped(_SIGNS.get(expression.operator, expression.operator))
+    sign = escaped(_MATHEMATICAL_SIGNS.get(expression.operator, expression.operator))
     if operator.precedence is None:
         return f"{sign}({', '.join(part(operand, 0) for operand in operands)})"
     if len(operands) == 1:

@@ -35,7 +35,7 @@ D -> ε
 
 
 def test_all_words_of_p4(benchmark):
-    """The filament of seed 002, L-system 4, up to 31 cells."""
+    """The filament of Prusinkiewicz, L-system 4, up to 31 cells."""
     found = system("P4")
     assert len(benchmark(lambda: list(derive(found, 20)))[-1]) == 31
 

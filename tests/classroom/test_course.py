@@ -40,7 +40,11 @@ def contents(folder: Path) -> dict[str, str]:
 
 
 def test_the_course_of_the_kit_has_lessons_and_exercises():
-    assert {name.split("/")[0] for name in course_files()} == {"notebooks", "exercises"}
+    assert {name.rpartition("/")[0] for name in course_files()} == {"notebooks", "exercises", "notebooks/reference"}
+
+
+def test_the_course_opens_with_the_first_lesson():
+    assert next(iter(course_files())).startswith("notebooks/01_")
 
 
 def test_a_new_folder_gets_every_file(kit, tmp_path):
@@ -72,7 +76,7 @@ def test_news_of_a_changed_lesson_stand_beside_it_once(kit, mine):
     copied = copy_course(mine, kit)
     beside = LESSON.replace(".ipynb", ".new.ipynb")
     assert contents(mine) == {LESSON: "my work", beside: "version 2", EXERCISE: "version 1"}
-    assert f"{LESSON} is your own and kept; its new version is {beside}." in copy_report(mine, copied)
+    assert f"You have changed {LESSON}; its new version is {beside}." in copy_report(mine, copied)
     (mine / beside).unlink()
     assert what(copy_course(mine, kit))[LESSON] == "kept"
     assert beside not in contents(mine)
@@ -141,6 +145,18 @@ def test_a_link_in_place_of_a_folder_is_refused(kit, tmp_path):
     (tmp_path / "mine" / "notebooks").symlink_to(tmp_path / "outside")
     with pytest.raises(ModelFileError, match="links are not followed"):
         copy_course(tmp_path / "mine", kit)
+    assert list((tmp_path / "outside").iterdir()) == []
+
+
+def test_a_reference_is_copied_beside_the_lessons(kit, tmp_path):
+    (kit / "notebooks" / "reference").mkdir()
+    (kit / "notebooks" / "reference" / "commands.ipynb").write_text("version 1")
+    assert what(copy_course(tmp_path / "mine", kit))["notebooks/reference/commands.ipynb"] == "new"
+    (tmp_path / "other" / "notebooks").mkdir(parents=True)
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "other" / "notebooks" / "reference").symlink_to(tmp_path / "outside")
+    with pytest.raises(ModelFileError, match="links are not followed"):
+        copy_course(tmp_path / "other", kit)
     assert list((tmp_path / "outside").iterdir()) == []
 
 

@@ -73,7 +73,7 @@ def test_the_side_that_is_seen_never_comes_back(monkeypatch):
     panel = explore("K19", 5)
     monkeypatch.setattr(panel, "_show_step", lambda _: pytest.fail("the kernel was asked"))
     panel.around.value, panel.above.value = 40, -20
-    assert panel._study.mode is DrawingMode.SPACE
+    assert panel._view_model.mode is DrawingMode.SPACE
 
 
 def test_the_angle_of_a_plant_in_space_is_the_kernels():

@@ -1,4 +1,4 @@
-"""The map systems of the catalogue are those of the seed, and of the table of systems."""
+"""The map systems of the catalogue are those of Kurth's slides, with the numbers of cells and walls that come out."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COUNTS = {
 def test_the_rows_of_the_table_are_all_there() -> None:
     assert " ".join(map_systems()) == " ".join(COUNTS)
     assert not set(map_systems()) & set(systems())
-    assert repr(map_systems()).splitlines()[1] == "K29  seed 003  A map whose new walls are offset by a wall x"
+    assert repr(map_systems()).splitlines()[2] == "  K29  map-offset-walls         A map whose new walls are offset by a wall x"
 
 
 @pytest.mark.parametrize("id", COUNTS)
@@ -35,8 +35,8 @@ def test_the_maps_of_the_table_come_out(id: str) -> None:
 @pytest.mark.parametrize("id", COUNTS)
 def test_an_entry_explains_itself(id: str) -> None:
     found = entry(id)
-    assert (found.id, found.seed, found.notation) == (id, "003", "map")
-    assert found.status == ("reconstruction" if id == "K32" else "seed")
+    assert (found.id, found.work, found.notation) == (id, "Kurth", "map")
+    assert found.status == ("reconstruction" if id == "K32" else "as printed")
     assert all(sentence.endswith(".") for sentence in found.errata + found.notes)
     assert map_system(id).notes == ()
     assert read_map(str(map_system(id))) == map_system(id)
@@ -71,21 +71,21 @@ def test_the_directed_map_divides_nothing_when_listed_the_other_way_around() -> 
 
 def test_each_kind_of_system_is_asked_for_by_its_own_name() -> None:
     assert map_system(" k28 ") is map_system("K28")
-    with pytest.raises(ModelValueError, match=r'K28 is a map system, and no L-system. map_system\("K28"\) gives it'):
+    with pytest.raises(ModelValueError, match=r'K28 is a map system, not an L-system. It is returned by map_system\("K28"\)'):
         system("k28")
-    with pytest.raises(ModelValueError, match=r'P4 is an L-system, and no map system. system\("P4"\) gives it'):
+    with pytest.raises(ModelValueError, match=r'P4 is an L-system, not a map system. It is returned by system\("P4"\)'):
         map_system("P4")
     with pytest.raises(ModelNameError, match=r'no system "K300". Did you mean "K30"'):
         map_system("K300")
     with pytest.raises(ModelNameError, match=r'no system "\?". Systems are: K28, K29, K30, K32'):
         map_system("?")
-    with pytest.raises(ModelValueError, match="by its id"):
+    with pytest.raises(ModelValueError, match="The id or name of a system must be a text"):
         map_system(4)  # type: ignore[arg-type]
 
 
 def test_where_a_map_cannot_be_shown_it_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "cells.txt").write_text(str(map_system("K28")))
-    for name, said in (("K28", 'K28 is a map system, and no L-system. map_system("K28") gives it.'),
+    for name, said in (("K28", 'K28 is a map system, not an L-system. It is returned by map_system("K28").'),
                        (str(tmp_path / "cells.txt"), "This is a map system, not an L-system (line 1, column 1). "
                                                      "Maps are read by read_map(text).")):
         assert main(["derive", name, "-n", "2"]) == 2

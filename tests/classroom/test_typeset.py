@@ -146,12 +146,13 @@ def test_long_words_are_not_among_the_first():
     assert ([len(word) for word in words], stop) == ([1, 40], "")
 
 
+@pytest.mark.slow
 def test_what_is_large_is_shown_in_part_and_soon():
     text = "axiom: " + "A " * 20_000 + "\nA -> A A\n" + "".join(f"B{n} -> " + "C " * 300 + "\n" for n in range(100))
     large = read(text)
-    started = time.monotonic()
+    started = time.process_time()
     bundle = shown(large)
-    assert time.monotonic() - started < 6
+    assert time.process_time() - started < 6
     assert len(bundle["text/html"]) < 2_000_000
     assert len([row for row in rows(bundle["text/html"]) if re.fullmatch(r"p\d+", row[0])]) == MOST_RULES
     assert f"… {101 - MOST_RULES:,} more" in bundle["text/html"]
@@ -161,9 +162,9 @@ def test_what_is_large_is_shown_in_part_and_soon():
 @pytest.mark.parametrize("rules", ["A(x) -> repeat(99999) <F(uniform(0, 1))>",
                                    "A(x) -> repeat(50000) <F(uniform(0, 1))>\nF(x) < F(y) -> A(x)"])
 def test_a_large_step_is_not_waited_for(rules):
-    started = time.monotonic()
+    started = time.process_time()
     words, stop = first_words(read("axiom: " + "A(0) " * 40 + f"\n{rules}"))
-    assert time.monotonic() - started < 5
+    assert time.process_time() - started < 5
     assert (len(words), stop) == (1, "")
 
 

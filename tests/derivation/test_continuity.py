@@ -126,6 +126,7 @@ def test_the_length_is_the_same_just_before_and_just_after_a_division(division: 
         assert (lengths[2] - lengths[1] > jump) if jump else lengths[2] - lengths[1] == pytest.approx(0, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [1, 2, 5, 9])
 def test_exponential_growth_is_continuous_of_every_order(order: int) -> None:
     """g' = B g: what holds for the length holds for all its derivatives."""

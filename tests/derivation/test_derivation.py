@@ -98,13 +98,13 @@ def test_an_unknown_arithmetic_is_named() -> None:
 
 
 def test_a_step_past_the_limit_is_refused_before_it_is_built() -> None:
-    started = time.perf_counter()
+    started = time.process_time()
     error = refused(TENFOLD, 20)
-    spent = time.perf_counter() - started
+    spent = time.process_time() - started
     assert error.message == "Step 7 would have 10,000,000 modules; the limit is 5,000,000"
     assert error.hint == "Steps 0-6 are kept. Take fewer steps, or set limits(modules=...)."
     assert (error.limit, error.needed) == (5_000_000, 10_000_000)
-    assert spent < 0.01 * 3  # ten milliseconds on a machine of one's own
+    assert spent < 0.01 * 5  # some milliseconds of the processor's time, where building the word would take seconds
 
 
 def test_the_steps_that_fit_are_kept() -> None:
@@ -165,10 +165,10 @@ def test_many_different_modules_are_counted_by_what_the_table_takes() -> None:
 
 
 def test_deriving_takes_no_longer_than_it_may() -> None:
-    started = time.monotonic()
+    started = time.process_time()
     with limits(seconds=0.2):
-        error = refused(read("axiom: A(1)\nA(x) -> A(max(2*x, 0)) A(2*x+1)"), 40)
-    assert time.monotonic() - started < 0.2 * 5
+        error = refused(EVERY_MODULE_NEW, 40)
+    assert time.process_time() - started < 0.2 * 5
     assert error.message.endswith(" was not reached in 0.2 seconds")
     assert error.hint is not None
     assert error.hint.endswith("set limits(seconds=...).")
@@ -182,10 +182,12 @@ def test_counting_takes_no_longer_than_it_may() -> None:
         list(lengths(EVERY_MODULE_NEW, 100))
 
 
-def test_time_that_the_asker_spends_is_not_counted() -> None:
-    with limits(seconds=0.05):
+def test_time_that_the_asker_spends_is_not_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    with limits(seconds=10):
         for _ in lengths(FIBONACCI, 4):
-            time.sleep(0.03)
+            now[0] += 9
 
 
 def test_lengths_have_no_limit() -> None:
@@ -276,6 +278,7 @@ except Exception as error:
 """
 
 
+@pytest.mark.slow
 def test_the_order_of_hashes_changes_nothing() -> None:
     said = {subprocess.run([sys.executable, "-c", PRINT], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True,
                            text=True, check=True).stdout for seed in ("0", "1", "2")}
@@ -283,6 +286,7 @@ def test_the_order_of_hashes_changes_nothing() -> None:
     assert 'Did you mean "k"?' in said.pop()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [EVERY_MODULE_NEW, EVERY_MODULE_NEW_IN_CONTEXT], ids=["alone", "in context"])
 def test_an_interrupt_leaves_the_table_whole(system: LSystem) -> None:
     """Ctrl-C at any moment: what was known stays known, and deriving can go on."""
@@ -310,7 +314,7 @@ def test_an_interrupt_leaves_the_table_whole(system: LSystem) -> None:
 def test_a_step_of_few_modules_that_make_many_has_its_time() -> None:
     """Each of forty modules makes fifty thousand: somebody looks at the clock behind each."""
     system = read("axiom: B" + " A(0)" * 40 + "\nA(x) -> repeat(50000) <F(uniform(0, 1))>\nB < F(x) -> F(x)")
-    started = time.perf_counter()
+    started = time.process_time()
     with limits(seconds=0.2), pytest.raises(ModelLimitError, match=r"Step 1 was not reached in 0\.2 seconds"):
         derive(system, 1)
-    assert time.perf_counter() - started < 10  # one module's share, on a slow machine
+    assert time.process_time() - started < 10  # one module's share, on a slow machine

@@ -419,6 +419,7 @@ a3 -> z : 0.8"""
 
 
 
+@pytest.mark.slow
 def test_a_tree_with_crown_roots_and_reiteration() -> None:
     """K12, where the first rule wins: 59 segments after 5 steps, some 950 to 1,450 after 15, with 9 to 15 new trees."""
     tree = read(TREE)
@@ -437,6 +438,7 @@ def plain_last(system: LSystem, steps: int, seed: int = 0) -> list[reference.Pla
     return [(module.symbol, module.arguments) for module in derive(system, steps, seed=seed)[-1]]
 
 
+@pytest.mark.slow
 def test_the_tree_is_the_tree_of_the_definition() -> None:
     tree = read(TREE)
     for seed in (0, 1, 99):

@@ -82,6 +82,7 @@ def with_ends(word: tuple[Pattern, ...], ends: Iterator[bool], end: str) -> tupl
     return tuple(found)
 
 
+@pytest.mark.slow
 @given(systems_with("context"), st.integers(0, 2**16))
 def test_branches_with_and_without_their_ends_match_as_defined(system: LSystem, chosen: int) -> None:
     ends = (bool(chosen >> place & 1) for place in itertools.cycle(range(16)))

@@ -72,6 +72,7 @@ def test_the_engine_follows_the_definition(system: LSystem) -> None:
     assert [plain(word) for word in exact(derive(system, STEPS))] == reference.words(system, STEPS)[0]
 
 
+@pytest.mark.slow
 def test_the_random_systems_are_not_idle() -> None:
     seen: Counter[str] = Counter()
 
@@ -254,6 +255,7 @@ def test_the_engine_follows_the_definition_of_every_kind(kinds: tuple[str, ...],
     assert [plain(word) for word in exact(derive(system, STEPS, seed=seed))] == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", MIXED)
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], max_examples=40)
 @given(data=st.data(), seed=seeds)
@@ -271,6 +273,7 @@ def test_words_by_arrays_are_those_of_one_by_one(kinds: tuple[str, ...], data: s
             one_by_one.origins(step) for step in range(1, STEPS + 1)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", MIXED)
 def test_the_random_systems_of_every_kind_are_not_idle(kinds: tuple[str, ...]) -> None:
     seen: Counter[str] = Counter()
@@ -381,6 +384,7 @@ def test_seeds_make_a_difference() -> None:
     assert len({str(derive(read(CHANCY), 6, seed=seed)[-1]) for seed in range(10)}) == 10
 
 
+@pytest.mark.slow
 def test_words_do_not_depend_on_the_hashes_of_a_process() -> None:
     program = f"from lsys_kit import derive, read; print([str(w) for w in derive(read({CHANCY!r}), 8, seed=3)])"
     printed = {subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": number}, check=True,

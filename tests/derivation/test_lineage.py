@@ -87,6 +87,7 @@ def test_the_divisions_of_l_system_6_are_the_same_for_any_step(dt: Fraction) -> 
     assert not any(cell.due for cell in tree.cells)
 
 
+@pytest.mark.slow
 @given(st.fractions("1/10", "3/4", max_denominator=20))
 def test_l_system_5_divides_in_time_where_steps_are_short(dt: Fraction) -> None:
     tree = lineage(system("P5"), int(Fraction(4) / dt), dt=dt)
@@ -185,6 +186,7 @@ def test_what_has_no_lineage_is_explained(what: object, n: object, choices: dict
         lineage(what, n, **choices)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_a_lineage_does_not_run_away() -> None:
     with pytest.raises(ModelLimitError, match="100,000 modules together"):
         lineage(system("P1"), 30)

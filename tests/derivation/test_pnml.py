@@ -53,6 +53,7 @@ def counts(net: Stages, marking: Counter[Any]) -> tuple[int, ...]:
     return tuple(by_name.get(f"p{number}", 0) for number in range(len(net.places)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["P2", "J1", "J4", "J5", "K5", "T2", "L1", "P9w", "K20"])
 def test_a_petri_net_tool_fires_the_steps_that_the_kit_derives(name: str) -> None:
     net = stages(system(name))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from pathlib import Path
 
 import pytest
 import sympy
@@ -15,8 +14,6 @@ from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-
-README = Path(__file__).parents[2] / "README.md"
 
 
 def test_a_symbol_means_one_thing_in_a_dialect():
@@ -99,13 +96,3 @@ def test_commands_of_another_tradition_are_listed_but_not_single_letters():
 
 def test_a_symbol_that_productions_rewrite_is_not_listed():
     assert trace_in_space(derive(read("axiom: # RH @\n@ -> RH\nRH -> @"), 1)[-1]).unknown == ()
-
-
-def cell(symbols):
-    return " ".join(f"`{symbol}`" for symbol in symbols.replace("|", "\\|").split())
-
-
-def test_the_readme_says_what_the_commands_mean():
-    columns = [dialect.column for dialect in TURTLE_DIALECTS.values()]
-    lines = [f"| {' | '.join(cell(getattr(row, column)) for column in columns)} | {row.words} |" for row in COMMAND_TABLE]
-    assert "\n".join(lines) in README.read_text(encoding="utf-8")

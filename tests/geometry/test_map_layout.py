@@ -119,6 +119,7 @@ def test_the_first_wall_lies_on_top_and_leads_to_the_right(corners: int) -> None
     assert areas(points, net)[0] > 0
 
 
+@pytest.mark.slow
 @given(map_systems())
 @settings(max_examples=10)
 def test_any_map_lies_somewhere(system: MapSystem) -> None:

@@ -139,6 +139,6 @@ def test_a_mesh_has_its_limit():
 
 def test_a_hundred_thousand_strokes_are_made_at_once():
     drawn = scene("angle: 22.5\naxiom: F(1)\nF(x) -> !(0.1*x) F(x/2)[&F(x/2)][/(140)&F(x/2)]F(x/2)", 8)
-    before = time.perf_counter()
+    before = time.process_time()
     assert len(mesh_of(drawn).triangles) == 28 * 65536
-    assert time.perf_counter() - before < 5
+    assert time.process_time() - before < 5

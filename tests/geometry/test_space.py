@@ -172,6 +172,7 @@ def test_the_commands_of_abop_come_in_opposite_pairs(modules, pair, angle):
     assert same(*(trace_in_space(word_of(word)) for word in (modules, there_and_back)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tradition", "symbols"), [("abop", "+-&^\\/|$[]F"), ("grogra", ("+", "-", "RU", "RL", "RH", "RV", "$",
                                                                                           "[", "]", "F"))])
 def test_a_frame_stays_orthonormal_in_a_million_commands(tradition, symbols):

@@ -49,6 +49,7 @@ def test_what_is_too_long_is_refused(text: str, message: str) -> None:
     assert slip(text).message == message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "axiom: " + "[" * 10**6, "axiom: A" + "(" * 10**6, "axiom: " + "A(" * 499_990, "axiom: A(" + "-" * 999_980 + "1)",
     "axiom: " + "A " * 499_990, "axiom: A(" + "9" * 999_980 + ")", "/* " * 333_333, "axiom: A\n" * 111_111,
@@ -59,9 +60,9 @@ def test_what_is_too_long_is_refused(text: str, message: str) -> None:
     "axiom: A(" + "*".join(["9^600"] * 50) + ")", "axiom: A(" + "1" + "." * 40_000 + "<2<3)",
 ], ids=range(22))
 def test_no_text_takes_long(text: str) -> None:
-    started = time.monotonic()
+    started = time.process_time()
     assert isinstance(slip(text), LSystemError)
-    assert time.monotonic() - started < 2 * 3  # two seconds on a machine of one's own
+    assert time.process_time() - started < 2 * 3  # of the processor's time; two on a quick machine
 
 
 PIECES = [

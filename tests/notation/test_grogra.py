@@ -273,6 +273,7 @@ def _taken(rules: str, t: int) -> dict[str, Fraction]:
     return {name: share for name, share in {**taken, "a": left}.items() if share}
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(chances(), st.integers(0, 3))
 def test_of_the_rules_that_match_each_is_applied_as_often_as_grogra_says(rules: str, t: int) -> None:
@@ -310,6 +311,7 @@ def test_conditions_that_compare_with_numbers_are_told_apart(one: str, other: st
     assert exclusive(first, second) == exclusive(second, first) == are
 
 
+@pytest.mark.slow
 def test_a_meristem_dies_or_branches() -> None:
     system = grogra((LISTINGS / "003-dying.grogra.txt").read_text(encoding="utf-8"))
     stars = [sum(derive(system, 4, seed=seed)[step].counts().get("*", 0) for seed in range(600)) for step in range(5)]
@@ -325,6 +327,7 @@ def test_a_random_flight_has_a_segment_more_at_every_step() -> None:
     assert min(angles) < 60 < 300 < max(angles)
 
 
+@pytest.mark.slow
 def test_a_plant_of_many_meristems_renews_itself_from_its_roots() -> None:
     system = grogra((LISTINGS / "003-meristems.grogra.txt").read_text(encoding="utf-8"))
     assert [note.split(" comes")[0] for note in system.notes] == [
@@ -414,6 +417,7 @@ def test_whoever_else_deviates_is_no_variance() -> None:
 EXPRESSED: Counter[str | None] = Counter()
 
 
+@pytest.mark.slow
 @settings(max_examples=250)
 @given(st.one_of(systems(), systems_with(), *map(systems_with, ("context", "chance", "cut", "repetition"))))
 def test_what_is_written_reads_back_as_the_same_system(system: LSystem) -> None:
@@ -429,6 +433,7 @@ def test_many_systems_can_be_written() -> None:
     assert not EXPRESSED or EXPRESSED[None] > EXPRESSED.total() / 4
 
 
+@pytest.mark.slow
 @given(systems_with("chance", "repetition"), st.integers(0, 9))
 def test_the_same_words_come_out(system: LSystem, seed: int) -> None:
     if dialect_named("grogra").lacking(system) is None:

@@ -87,10 +87,10 @@ def test_decomposition_that_may_finish_is_read(rules: str) -> None:
 def test_many_rules_are_looked_through_quickly() -> None:
     with limits(rules=5_000):
         system = read("axiom: A0\ndecomposition:\n" + "\n".join(f"A{i} -> A{i + 1} A{i + 2}" for i in range(5_000)))
-    started = time.perf_counter()
+    started = time.process_time()
     check_decomposition(system)
     unused_productions(system)
-    assert time.perf_counter() - started < 2  # comparing each rule with each would take longer on any machine
+    assert time.process_time() - started < 2  # comparing each rule with each would take longer on any machine
 
 
 @pytest.mark.parametrize(("text", "value"), [

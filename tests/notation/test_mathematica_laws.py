@@ -99,6 +99,7 @@ def expressed(system: LSystem) -> LSystem:
 SEEN: Counter[str] = Counter()
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(systems() | systems_with(CONTEXT, CUT).map(expressed) | systems_with(CONTEXT, CHANCE).map(expressed))
 def test_what_is_written_is_read_again(system: LSystem) -> None:
@@ -170,6 +171,7 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
     assert error is None or isinstance(error, ModelLimitError) or error.line is not None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "axiom = AXIOM[" + "a," * 490_000, "[" * 10**6, "(* " * 333_333, "(* *)" * 200_000, '"' * 10**6, ";" * 10**6,
     "x = " + "\n" * 999_990, "a[1] " * 9_900, "a_ " * 300_000, "x =\n\n" * 180_000, "k = 1; (* 1 .. " * 60_000,
@@ -190,4 +192,4 @@ def test_an_expression_is_read_at_once() -> None:
     started = process_time()
     for _ in range(100):
         parse(MATHEMATICA, "expression", text, 0, len(text))
-    assert process_time() - started < 100 * 0.0003 * 3  # a third of that on a machine of one's own
+    assert process_time() - started < 100 * 0.003  # a tenth of that on a quick machine

@@ -131,6 +131,7 @@ def systems(draw: st.DrawFn) -> LSystem:
 SEEN: Counter[str] = Counter()
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(systems())
 def test_what_is_written_is_read_again(system: LSystem) -> None:

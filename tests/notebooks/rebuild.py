@@ -20,8 +20,10 @@ import nbformat
 from nbclient import NotebookClient
 from nbformat import NotebookNode
 
+from lsys_kit.classroom.course import COURSE_PARTS
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-SECONDS = 60
+SECONDS = 300
 """For each cell."""
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PICTURE = "image/png"
@@ -33,7 +35,7 @@ CELL_METADATA = ("deletable", "editable", "nbgrader", "tags")
 
 def notebooks() -> list[Path]:
     """All notebooks of the course."""
-    return sorted(path for folder in ("notebooks", "exercises") for path in (ROOT / folder).glob("*.ipynb"))
+    return sorted(path for folder in COURSE_PARTS for path in (ROOT / folder).glob("*.ipynb"))
 
 
 def rebuilt(path: Path) -> str:

@@ -98,10 +98,11 @@ def test_a_notebook_is_run_where_it_stands(tmp_path: Path):
     assert rebuilt(tmp_path / "small.ipynb") == text
 
 
-def test_there_are_lessons_and_exercises():
-    assert {path.parent.name for path in notebooks()} == {"notebooks", "exercises"}
+def test_there_are_lessons_exercises_and_references():
+    assert {path.parent.name for path in notebooks()} == {"notebooks", "exercises", "reference"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_rebuilding_changes_no_byte(path: Path):
     before, after = path.read_bytes().decode(), rebuilt(path)

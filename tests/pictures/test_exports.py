@@ -148,11 +148,12 @@ def test_a_strangers_file_beside_an_obj_is_not_replaced(tmp_path):
     assert "colour_" in (tmp_path / "bush.mtl").read_text()
 
 
+@pytest.mark.slow
 def test_a_hundred_thousand_strokes_are_kept_in_seconds(tmp_path):
     picture = draw(read("angle: 22.5\naxiom: F(1)\nF(x) -> !(0.1*x) F(x/2)[&F(x/2)][/(140)&F(x/2)]F(x/2)"), 8)
-    before = time.perf_counter()
+    before = time.process_time()
     picture.save(tmp_path / "large.glb")
-    assert time.perf_counter() - before < 10
+    assert time.process_time() - before < 10
     assert len(mesh_of(picture.solid).triangles) > 1_800_000
 
 

@@ -99,6 +99,7 @@ def test_no_line_crosses_a_circle_a_bar_or_a_label(name: str, constants: dict[st
     assert collisions(stages(system(name), **constants), positions=positions) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("polarity", [False, True])
 def test_no_line_crosses_a_circle_whatever_the_life_spans(polarity: bool) -> None:
     for a, b in product((1, 2, 5, 10), repeat=2):
@@ -127,6 +128,7 @@ def systems_of_symbols(draw: st.DrawFn) -> str:
     return "\n".join([f"axiom: {' '.join(symbols)}", *(f"{s} -> {draw(words)}" for s in symbols if draw(st.booleans()))])
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(systems_of_symbols())
 def test_no_line_of_any_net_crosses_a_circle_a_bar_or_a_label(text: str) -> None:

@@ -173,7 +173,8 @@ def test_a_question_without_an_answer_is_explained(rule: str, said: str, column:
 def test_a_derivation_that_takes_too_long_keeps_its_steps() -> None:
     with limits(seconds=0.5), pytest.raises(ModelLimitError, match=r"was not reached in 0\.5 seconds") as caught:
         derive(dichotomy(), 1000)
-    assert shoots(dichotomy(), 5) == [word.counts().get("F", 0) for word in list(caught.value.partial)[:6]]
+    kept = [word.counts().get("F", 0) for word in list(caught.value.partial)[:6]]
+    assert kept == shoots(dichotomy(), 5)[:len(kept)] != []
 
 
 def test_a_notebook_shows_the_first_words() -> None:

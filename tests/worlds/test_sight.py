@@ -7,7 +7,7 @@ from itertools import chain
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read
@@ -59,7 +59,6 @@ plants = st.recursive(
 
 
 @given(systems_with({CONTEXT}) | systems_with({CHANCE, REPETITION}) | systems_with({CUT, CONTEXT}) | systems())
-@settings(max_examples=60, deadline=None)
 def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem) -> None:
     alone = derive(system, 3, seed=5)
     looked_at = Derivation(SteppingEngine(Stepper(States(system), 5), None, observe)).to(3)
@@ -69,7 +68,6 @@ def test_a_system_without_questions_derives_the_same_in_a_world(system: LSystem)
 
 
 @given(plants)
-@settings(max_examples=80, deadline=None)
 def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[Pattern]) -> None:
     query = Pattern("?P", tuple(map(Number, (0, 0, 0))))
     word = word_of([query if module.symbol == "x" else module for module in modules])
@@ -82,7 +80,6 @@ def test_a_query_module_behind_a_stroke_has_the_end_of_the_stroke(modules: list[
 
 
 @given(plants, st.tuples(degrees, degrees, degrees))
-@settings(max_examples=80, deadline=None)
 def test_the_turtles_axes_are_told_at_right_angles(modules: list[Pattern], turns: tuple[Number, ...]) -> None:
     queries = [Pattern(symbol, tuple(map(Number, (0, 0, 0)))) for symbol in ("?H", "?L", "?U")]
     prefix = [Pattern(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True)]
@@ -93,7 +90,6 @@ def test_the_turtles_axes_are_told_at_right_angles(modules: list[Pattern], turns
 
 
 @given(plants, lengths, st.tuples(degrees, degrees, degrees))
-@settings(max_examples=80, deadline=None)
 def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Pattern], far: Number,
                                                               turns: tuple[Number, ...]) -> None:
     prefix = [Pattern("f", (far,)), *(Pattern(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
@@ -103,7 +99,6 @@ def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Patt
 
 
 @given(plants, lengths, degrees)
-@settings(max_examples=80, deadline=None)
 def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Pattern], far: Number, turn: Number) -> None:
     back = Number(-float(turn.value))
     prefix = [Pattern("+", (turn,)), Pattern("f", (far,)), Pattern("+", (back,))]
@@ -112,7 +107,6 @@ def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Pattern],
 
 
 @given(plants)
-@settings(max_examples=80, deadline=None)
 def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Pattern]) -> None:
     larger = [Pattern(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
     assert asked(observe(word_of(larger)), 2, 2) == pytest.approx(
@@ -140,7 +134,6 @@ def by_definition(word: Word, at: int, least: float) -> float:
 
 
 @given(plants, st.sampled_from((0.5, 1, 2)))
-@settings(max_examples=120, deadline=None)
 def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Pattern], least: float) -> None:
     word = word_of([Pattern("F", (Number(1),)), *modules])
     sight = observe(word)
@@ -161,7 +154,6 @@ def test_the_nearest_of_many_shoots_is_found_wherever_they_stand() -> None:
 
 
 @given(plants, st.integers(0, 18))
-@settings(max_examples=80, deadline=None)
 def test_a_wider_cone_shows_nothing_farther(modules: list[Pattern], tens: int) -> None:
     sight = observe(word_of(modules))
     narrow, wide, all_around = (asked(sight, 9, angle, 1) for angle in (10 * tens, 10 * tens + 10, 180))
@@ -176,7 +168,6 @@ def test_the_nearest_point_may_lie_straight_behind() -> None:
 
 
 @given(plants)
-@settings(max_examples=60, deadline=None)
 def test_nobody_is_answered_with_something_that_is_no_number(modules: list[Pattern]) -> None:
     answers = [answer for row in all_answers(word_of(modules)) for answer in row]
     assert all(answer >= 0 for answer in answers)
@@ -289,7 +280,7 @@ def test_somebody_looks_at_the_clock_while_the_turtle_goes_on() -> None:
 
 
 def test_looking_is_given_up_in_time() -> None:
-    with limits(seconds=0.2), pytest.raises(ModelLimitError, match=r"was not reached in 0\.2 seconds") as caught:
+    with limits(seconds=1), pytest.raises(ModelLimitError, match=r"was not reached in 1 seconds") as caught:
         derive(read("axiom: A ?P(0,0)\nA -> [+F A][-F A]"), 30)
     assert isinstance(caught.value.partial, Derivation)
     assert caught.value.partial.steps > 5

@@ -1,7 +1,7 @@
-"""The kinds of answers: how each is read, when two of them say the same, and how a wrong one differs.
+"""The kinds of answers: how each is read, when two are equal, and how a wrong one differs.
 
-An answer is a word, a number, a system or an expression. It is read by the kit's own grammars and never run; it is
-compared as what it means: words module by module, systems by the words that they derive, expressions as functions.
+An answer is a word, a number, a system or an expression. It is read by the kit's own grammars and never run, and compared by
+its meaning: words module by module, systems by the words that they derive, expressions as functions.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from lsys_kit.worlds.derive import derive
 
 @dataclass(frozen=True)
 class KnownMistake:
-    """A wrong answer that is to be expected, and what is said to it."""
+    """A wrong answer that is to be expected, and the reply to it."""
 
     answer: str
     says: str
@@ -50,7 +50,7 @@ class Exercise:
     solution
         The right answer, as text; `explanation` says why.
     hints, slips
-        Help on request, from the first to the last, and the mistakes that are to be expected.
+        Help on request, in order, and the mistakes that are to be expected.
     system
         For a word: the system that it comes from, by its id in the catalogue or as text.
     given
@@ -77,16 +77,16 @@ class Exercise:
 
 @dataclass(frozen=True)
 class AnswerKind:
-    """One kind of answers.
+    """One kind of answer.
 
     Attributes
     ----------
     what
         What a student puts in the place of the `...`.
     read
-        From the exercise and what was answered to what it means.
+        From the exercise and the answer as given to its meaning.
     same
-        Whether two answers to an exercise say the same.
+        Whether two answers to an exercise are equal.
     reply
         From the exercise, a wrong answer and the solution to the verdict.
     """
@@ -97,14 +97,14 @@ class AnswerKind:
     reply: Callable[[Exercise, Any, Any], Verdict]
 
 
-def _text(answer: object, what: str, example: str) -> str:
+def _text_answer(answer: object, what: str, example: str) -> str:
     if not isinstance(answer, str):
-        raise ModelValueError(f"{what} is given as a text, such as {example}, not as {type(answer).__name__}")
+        raise ModelValueError(f"{what} must be a text such as {example}, not {type(answer).__name__}")
     return answer
 
 
-_AXIOM = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
-"""Where an answer has an axiom of its own, it is the whole system."""
+_AXIOM_LINE = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
+"""An answer with an axiom of its own is the whole system."""
 
 
 # Words
@@ -119,7 +119,7 @@ def _read_word(exercise: Exercise, answer: object) -> tuple[Module, ...]:
     if isinstance(answer, Word):
         return tuple(answer)
     system = _asked_system(exercise)
-    text = _text(answer, "A word", '"al br"')
+    text = _text_answer(answer, "A word", '"al br"')
     known = symbols(system)
     for module in (word := read_word(text, system.notation, system)):
         if module.symbol not in known:
@@ -129,11 +129,11 @@ def _read_word(exercise: Exercise, answer: object) -> tuple[Module, ...]:
 
 
 def _reply_to_word(exercise: Exercise, word: tuple[Module, ...], solution: tuple[Module, ...]) -> Verdict:
-    """What a wrong word shows: a step miscounted, a rewriting that is not parallel, else its first difference."""
+    """The reply to a wrong word: a miscounted step, rewriting that is not parallel, else the first difference."""
     derivation = derive(_asked_system(exercise), exercise.steps + 1)
     for step in (exercise.steps - 1, exercise.steps + 1):
         if word == tuple(derivation[step]):
-            return Verdict("Almost", f"This is the word of step {step}, and step {exercise.steps} is asked for. "
+            return Verdict("Almost", f"This is the word of step {step}, but the question asks for step {exercise.steps}. "
                                      "Step 0 is the axiom itself.")
     for rewritten, says in _NOT_PARALLEL if derivation.states.traits.d0l else ():
         modules = derivation.states.modules
@@ -192,13 +192,13 @@ def _reply_to_number(_: Exercise, number: Value, solution: Value) -> Verdict:
 
 
 def _read_system(exercise: Exercise, answer: object) -> Derivation:
-    """The words of the answer, put behind what the question gives.
+    """The words of the answer, appended to what the question gives.
 
-    It is read in front of it first, so that an error names the line that the student sees.
+    It is first read in front of it, so that an error names the line that the student sees.
     """
     if not isinstance(answer, LSystem):
-        text = _text(answer, "A system", '"axiom: a"')
-        given = "" if _AXIOM.search(text) else exercise.given
+        text = _text_answer(answer, "A system", '"axiom: a"')
+        given = "" if _AXIOM_LINE.search(text) else exercise.given
         read(f"{text}\n{given}")
         answer = read(f"{given}\n{text}")
     return derive(answer, exercise.steps)
@@ -213,7 +213,7 @@ def _reply_to_system(_: Exercise, derivation: Derivation, solution: Derivation) 
 
 
 def _read_expression(exercise: Exercise, answer: object) -> Expression:
-    text = _text(answer, "An expression", '"t + 1"')
+    text = _text_answer(answer, "An expression", '"t + 1"')
     return checked_expression(text, exercise.values, expression_type(read_expression(exercise.solution)))
 
 

@@ -1,8 +1,8 @@
 """Exercises that check themselves: `check("1.1", answer)` says whether an answer is right, or how it differs.
 
-An exercise is a declaration in the folder `questions`: what is asked, the solution, the mistakes to be expected, hints.
-The answers are in the package, and whoever looks for them finds them: this is a check of one's own, and no examination.
-What is typed is read by the kit's grammars and never run; how large it may grow is bounded.
+An exercise is a declaration in the folder `questions`: the question, the solution, the mistakes to be expected, hints.
+The answers are in the package, where anybody can find them: this is a self-check, not an examination. What is typed is read by
+the kit's grammars and never run, and its size is bounded.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from lsys_kit.notation.analysis.checks import suggestion
 
 _FOLDER = files(__package__) / "questions"
 BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 2, "rules": 50}
-"""How much an answer may ask for."""
-MOST_CHARACTERS = 5_000
-"""How long an answer may be."""
+"""The limits for an answer."""
+MOST_ANSWER_CHARACTERS = 5_000
+"""The greatest length of an answer."""
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,9 @@ class Lesson:
     Attributes
     ----------
     name
-        The name of its notebook, without ending: that of the lesson's own notebook, too.
+        The name of its notebook, without the suffix; the lesson's notebook has the same name.
     title, objectives, introduction, summary
-        What stands around the exercises; Markdown.
+        The text around the exercises, in Markdown.
     exercises
         In their order.
     """
@@ -59,9 +59,9 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     exercise
         Its id, such as "1.1".
     answer
-        The answer: a text, a number, a word or a system that the kit made. `...` is none yet.
+        The answer: a text, a number, a word or a system made by the kit; `...` means none yet.
     hint
-        Ask for this hint, counted from 1, instead.
+        Ask for this hint instead, counted from 1.
     solution
         Show the solution as well, after an answer that could be read.
 
@@ -80,7 +80,7 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     Examples
     --------
     >>> check("1.1", "al al br")
-    Almost. This is the word of step 3, and step 4 is asked for. Step 0 is the axiom itself.
+    Almost. This is the word of step 3, but the question asks for step 4. Step 0 is the axiom itself.
     >>> check("1.1", "al al bx")
     Not readable yet. The system has no symbol "bx" (line 1, column 7). Its symbols are: bl, ar, al, br.
       al al bx
@@ -92,7 +92,7 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     if hint:
         return _hint(asked, hint)
     if answer is None or answer is ... or (isinstance(answer, str) and answer.strip().strip("\"'") in ("", "...", "…")):
-        after = " The solution is there after a try." if solution else ""
+        after = " The solution is shown after an attempt." if solution else ""
         return Verdict("Not answered yet", f"Replace the ... with your {ANSWER_KINDS[asked.kind].what}.{after}")
     try:
         with limits(**BUDGET):
@@ -112,7 +112,7 @@ def exercise_of(id: str) -> Exercise:
     """
     known = {exercise.id: exercise for lesson in lessons() for exercise in lesson.exercises}
     if not isinstance(id, str):
-        raise ModelValueError('An exercise is asked for by its id, a text such as "1.1"')
+        raise ModelValueError('The id of an exercise must be a text such as "1.1"')
     if id.strip() not in known:
         hint = suggestion(id[:20], known) or f"Exercises are: {', '.join(known)}."
         raise ModelNameError(f'There is no exercise "{id[:20]}"', hint=hint)
@@ -146,11 +146,12 @@ def _hint(exercise: Exercise, number: object) -> Verdict:
 
 
 def _judged(exercise: Exercise, answer: object) -> Verdict:
-    """Right, a known slip, or how it differs: the first of these that applies."""
+    """Right, a known mistake, or how it differs: the first of these that applies."""
     kind = ANSWER_KINDS[exercise.kind]
     solution = kind.read(exercise, exercise.solution)
-    if isinstance(answer, str) and len(answer) > MOST_CHARACTERS:
-        raise ModelLimitError(f"It has {len(answer):,} characters; the limit is {MOST_CHARACTERS:,}", limit=MOST_CHARACTERS)
+    if isinstance(answer, str) and len(answer) > MOST_ANSWER_CHARACTERS:
+        raise ModelLimitError(f"It has {len(answer):,} characters; the limit is {MOST_ANSWER_CHARACTERS:,}",
+                              limit=MOST_ANSWER_CHARACTERS)
     own = kind.read(exercise, answer)
     if kind.same(exercise, own, solution):
         return Verdict("Correct", _praise(exercise, own, solution))
@@ -161,12 +162,12 @@ def _judged(exercise: Exercise, answer: object) -> Verdict:
 
 
 def _praise(exercise: Exercise, own: Any, solution: Any) -> str:
-    """What more there is to say about a right answer."""
+    """What to add to a right answer."""
     if exercise.kind == "system":
         return f"The words of all steps from 0 to {exercise.steps} agree."
     if exercise.kind == "expression":
         return (f"It equals {solution}, whatever the values." if proved_equal(own, solution)
-                else f"For all values that are asked for it equals {solution}.")
+                else f"It equals {solution} for all the values in question.")
     return ""
 
 

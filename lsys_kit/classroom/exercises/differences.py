@@ -1,4 +1,4 @@
-"""Differences in the field's words: where two words, two systems or two expressions part, and what to look at."""
+"""Differences in the terms of the field: where two words, systems or expressions differ, and what to look at."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ Valuations: TypeAlias = Mapping[str, Value]
 MOST_NODES = 40
 """Operators, names and numbers of an expression that sympy is asked about."""
 MOST_PROOF_DEGREE = 12
-"""Its degree, with the exponents of its numbers: what is larger is not multiplied out."""
+"""Its degree, with the exponents of its numbers: larger powers are not expanded."""
 
 
 def differing_word(derivation: Derivation, step: int, word: Sequence[Module]) -> str:
-    """Where a word parts from the word of a step, and which module made what should stand there.
+    """Where a word differs from the word of a step, and which module produced what should be there.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read, read_word
@@ -37,7 +37,7 @@ def differing_word(derivation: Derivation, step: int, word: Sequence[Module]) ->
 
 
 def differing_system(mine: Derivation, wanted: Derivation, step: int) -> str:
-    """Where the words of two systems part for the first time, and which production of the first is to blame.
+    """Where the words of two systems first differ, and which production of the first is to blame.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
@@ -52,7 +52,7 @@ def differing_system(mine: Derivation, wanted: Derivation, step: int) -> str:
 
 
 def _blamed(mine: Derivation, wanted: Derivation, step: int) -> str:
-    """The production of the first module that the two systems rewrite differently: up to here their words are equal."""
+    """The production of the first module that the two systems rewrite differently: until then their words are equal."""
     own, other = _replacements(mine, step), _replacements(wanted, step)
     at = next(i for i, (made, right) in enumerate(zip(own, other, strict=True)) if made != right)
     return _about_production(mine, step, at, own[at])
@@ -98,16 +98,16 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valua
     'With t = 1 your expression gives 1, and it should give 2.'
     """
     for case in cases:
-        own, right = _value(mine, case), _value(wanted, case)
-        if not _close(own, right):
+        own, right = _value_or_reason(mine, case), _value_or_reason(wanted, case)
+        if not _equal_values(own, right):
             where = " and ".join(f"{name} = {number_text(value)}" for name, value in case.items())
             gives = own if isinstance(own, str) else f"gives {_value_text(own)}"
             return f"With {where} your expression {gives}, and it should give {_value_text(right)}."
     return None
 
 
-def _value(expression: Expression, case: Valuations) -> Value | str:
-    """The value, or in words why there is none."""
+def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
+    """The value, or in words the reason why there is none."""
     try:
         run = function_of(expression, {name: i for i, name in enumerate(case)})
         return run(tuple(case.values()))  # type: ignore[no-any-return]
@@ -115,7 +115,7 @@ def _value(expression: Expression, case: Valuations) -> Value | str:
         return f"has no value ({reason_of(fault)})"
 
 
-def _close(own: Value | str, right: Value | str) -> bool:
+def _equal_values(own: Value | str, right: Value | str) -> bool:
     """Whether two values are equal: exactly where they are exact, up to rounding where one is a double."""
     if isinstance(own, str) or isinstance(right, str):
         return False
@@ -129,7 +129,7 @@ def _value_text(value: Value | str) -> str:
 def proved_equal(mine: Expression, wanted: Expression) -> bool:
     """Whether sympy shows that two expressions are equal whatever the values of their names.
 
-    False also where they are too large to be compared: sympy may take for ever over a power of a power.
+    Also False where they are too large to be compared: sympy may never finish with a power of a power.
 
     >>> from lsys_kit.notation.read import read_expression
     >>> proved_equal(read_expression("(x+1)^2"), read_expression("x^2 + 2*x + 1"))

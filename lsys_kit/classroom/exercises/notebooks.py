@@ -1,7 +1,7 @@
-"""Sheets: the notebooks in the folder `exercises`, made from the declarations and never edited by hand.
+"""The notebooks in the folder `exercises`, made from the declarations and never edited by hand.
 
-What a cell shows is what `check` answers here and now, so that a sheet is written without a kernel, the same on every
-machine. `python -m lsys_kit.classroom.exercises.notebooks exercises` writes them all.
+The output of a cell is what `check` returns when the notebook is written, so that no kernel is needed and the file is the same
+on every machine. `python -m lsys_kit.classroom.exercises.notebooks exercises` writes them all.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from lsys_kit.files import replace_file
 NotebookCell: TypeAlias = dict[str, Any]
 
 _HOW = """\
-Replace the `...` of an answer and run its cell: the reply says whether the answer is right, or how it differs. A cell for
-hints stands below each answer: take away its first `#` and run it. After a try, `check("{id}", answer, solution=True)`
-shows the solution.
+Replace the `...` of an answer and run its cell: the reply says whether the answer is right, or how it differs. Below each
+answer is a cell for hints: remove its first `#` and run it. After an attempt, `check("{id}", answer, solution=True)` shows
+the solution.
 
-The answers come with the kit, and whoever looks for them finds them. This is a check of your own, and no examination."""
+The answers come with the kit, where anybody can find them. This is a self-check, not an examination."""
 
 
 def exercise_notebook(lesson: Lesson) -> str:
@@ -35,7 +35,7 @@ def exercise_notebook(lesson: Lesson) -> str:
     ['from lsys_kit import check']
     """
     notebook = {
-        "cells": list(_numbered(_cells(lesson))),
+        "cells": list(_with_execution_counts(_cells(lesson))),
         "metadata": {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
                      "language_info": {"name": "python"}},
         "nbformat": 4,
@@ -54,14 +54,14 @@ def write_notebooks(folder: str | Path) -> list[Path]:
 
 
 def _cells(lesson: Lesson) -> Iterator[NotebookCell]:
-    yield _markdown("head", _head(lesson))
+    yield _markdown("head", _introduction(lesson))
     yield _code("import", "from lsys_kit import check")
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
     yield _markdown("summary", f"## Summary\n\n{lesson.summary}\n\n[Back to the lesson](../notebooks/{lesson.name}.ipynb)")
 
 
-def _head(lesson: Lesson) -> str:
+def _introduction(lesson: Lesson) -> str:
     objectives = "\n".join(f"- {objective}" for objective in lesson.objectives)
     return (f"# Exercises: {lesson.title}\n\n{lesson.introduction} They go with the lesson "
             f"[{lesson.title}](../notebooks/{lesson.name}.ipynb).\n\n**After these exercises you can**\n\n{objectives}\n\n"
@@ -76,19 +76,19 @@ def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
 
 
 def _markdown(name: str, text: str) -> NotebookCell:
-    return {"cell_type": "markdown", "id": name, "metadata": {}, "source": _lines(text)}
+    return {"cell_type": "markdown", "id": name, "metadata": {}, "source": _source_lines(text)}
 
 
 def _code(name: str, text: str, shown: Verdict | None = None) -> NotebookCell:
     outputs = [] if shown is None else [{
-        "data": {"text/html": _lines(shown._repr_html_()), "text/plain": _lines(repr(shown))},
+        "data": {"text/html": _source_lines(shown._repr_html_()), "text/plain": _source_lines(repr(shown))},
         "execution_count": None, "metadata": {}, "output_type": "execute_result"}]
     return {"cell_type": "code", "execution_count": None, "id": name, "metadata": {}, "outputs": outputs,
-            "source": _lines(text)}
+            "source": _source_lines(text)}
 
 
-def _numbered(cells: Iterable[NotebookCell]) -> Iterator[NotebookCell]:
-    """The cells with the numbers that a first run from top to bottom gives them."""
+def _with_execution_counts(cells: Iterable[NotebookCell]) -> Iterator[NotebookCell]:
+    """The cells with the execution counts of a first run from top to bottom."""
     number = 0
     for cell in cells:
         if cell["cell_type"] == "code":
@@ -99,7 +99,7 @@ def _numbered(cells: Iterable[NotebookCell]) -> Iterator[NotebookCell]:
         yield cell
 
 
-def _lines(text: str) -> list[str]:
+def _source_lines(text: str) -> list[str]:
     return text.splitlines(keepends=True)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
 
-_SIGNS: Mapping[str, tuple[str, str]] = {
+_SIGNS_AND_COLOURS: Mapping[str, tuple[str, str]] = {
     "Correct": ("✓", GREEN),
     "Almost": ("≈", ORANGE),
     "Not yet": ("✗", ORANGE),
@@ -15,7 +15,7 @@ _SIGNS: Mapping[str, tuple[str, str]] = {
     "Not answered yet": ("○", QUIET),
     "Hint": ("→", BLUE),
 }
-"""For each verdict its sign and its colour: what it says never hangs on the colour."""
+"""For each verdict its sign and its colour; the meaning never depends on the colour alone."""
 
 
 PLAIN_TEXT = "mathjax_ignore tex2jax_ignore"
@@ -24,14 +24,14 @@ which web pages made of notebooks use."""
 
 
 class Verdict(float):
-    """A score from 0 to 1 that shows itself as what it means.
+    """A score from 0 to 1 that is displayed as a sentence.
 
     Attributes
     ----------
     said
         "Correct", "Almost", "Not yet", "Not readable yet", "Not answered yet" or "Hint".
     message
-        What there is to say about the answer; lines that begin with two blanks quote it.
+        The reply to the answer; lines that begin with two blanks quote it.
 
     Examples
     --------
@@ -58,14 +58,14 @@ class Verdict(float):
 
     def _repr_html_(self) -> str:
         """The box: a sign, a word and the message, all text escaped."""
-        sign, colour = _SIGNS[self.said]
+        sign, colour = _SIGNS_AND_COLOURS[self.said]
         return (f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
                 'padding:6px 12px">'
                 f'<span aria-hidden="true">{sign}</span> <b>{escaped(self.said)}.</b> {_html(self.message)}</div>')
 
 
 def _html(message: str) -> str:
-    """A message as HTML: quoted lines keep their blanks, so that a caret stands under its place.
+    """A message as HTML: quoted lines keep their blanks, so that a caret stays under its place.
 
     >>> _html("This is wrong.\\n  a < b\\n    ^")
     'This is wrong.<pre style="margin:4px 0">  a &lt; b\\n    ^</pre>'

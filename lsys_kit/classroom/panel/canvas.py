@@ -1,12 +1,12 @@
-"""Drawings that the browser turns by itself: in the plane by the turtle's angle, in space to be seen from any side.
+"""Drawings that the browser turns by itself: in the plane by the turtle's angle, in space to any point of view.
 
-The canvases are the kit's own, some four hundred lines in all, and need no more than anywidget. k3d was tried (3.2, November
-2026) and left: it sends 2.6 MB of JavaScript through the kernel to every page and needs WebGL, which not every school has; the
+The canvases are the kit's own, some four hundred lines in all, and need only anywidget. k3d was tried (3.2, November 2026) and
+rejected: it sends 2.6 MB of JavaScript through the kernel to every page and needs WebGL, which not every school has; the
 mouse turns its pictures, the keyboard does not; and its strokes and colours are not those of the other pictures. pythreejs and
-ipyvolume are kept no more. Here a plant in space looks as in the picture that a stored notebook shows, which `seen` makes from
-the same scene; it is painted from far to near, the far paler.
+ipyvolume are no longer maintained. Here a plant in space looks as in the picture of a stored notebook, which `project` makes
+from the same scene; it is painted from far to near, the far parts paler.
 
-Where anywidget is missing, drawings and diagrams are plain SVG in an HTML widget, made anew in the kernel.
+Where anywidget is missing, drawings and diagrams are plain SVG in an HTML widget, redrawn in the kernel.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from lsys_kit.pictures.svg import numbered_colours
 
 HOW_TO_TURN = ("Turn it with the arrow keys or by dragging; plus and minus bring it nearer or farther, Shift and an arrow key "
                "move along it, Home puts it back.")
-"""What is said to somebody who cannot see that a drawing can be turned."""
+"""Instructions for those who cannot see that a drawing can be turned."""
 _HERE = File(__file__).parent
 
 
@@ -53,7 +53,7 @@ def packed(scene: Scene, path: Path | None, colour_of: Mapping[int, str], marked
     path
         The turtle's path, from which the canvas finds the points of a scene in the plane; None for a scene in space.
     colour_of, marked
-        As of `Picture`.
+        As for `Picture`.
 
     Examples
     --------
@@ -65,49 +65,49 @@ def packed(scene: Scene, path: Path | None, colour_of: Mapping[int, str], marked
     >>> np.frombuffer(traits["shapes"], "<i4")[:9].tolist()  # 2 strokes, 0 other shapes, 2 steps; from 0 and 1, to 1 and 2
     [2, 0, 0, 0, 2, 0, 1, 1, 2]
     """
-    points = _solid(scene) if path is None else _flat(path)
+    points = _points_in_space(scene) if path is None else _points_in_plane(path)
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     chosen = list(marked)
 
     def looks(shapes: Segments | Polygons | Discs, more: ArrayLike = 0) -> bytes:
         numbers = numbered_colours(shapes.states, shapes.colours, colour_of)[1]
-        return _whole(numbers * 16 + np.isin(shapes.states, chosen) * 2 + more)
+        return _int_bytes(numbers * 16 + np.isin(shapes.states, chosen) * 2 + more)
 
     counts = [len(segments), len(polygons), len(points.corners), len(discs), points.many]
-    data = [_whole(counts), _whole(points.ends.T), looks(segments, np.minimum(segments.orders, 3) * 4),
-            _real(np.broadcast_to(segments.widths, len(segments)))]
+    data = [_int_bytes(counts), _int_bytes(points.ends.T), looks(segments, np.minimum(segments.orders, 3) * 4),
+            _float_bytes(np.broadcast_to(segments.widths, len(segments)))]
     if len(polygons):
-        data += [_whole(polygons.starts), looks(polygons), _whole(points.corners)]
-    data += [_whole(points.centres), looks(discs, discs.kinds == CIRCLE), _real(discs.radii), points.where]
+        data += [_int_bytes(polygons.starts), looks(polygons), _int_bytes(points.corners)]
+    data += [_int_bytes(points.centres), looks(discs, discs.kinds == CIRCLE), _float_bytes(discs.radii), points.where]
     starts, stops = np.split(segments.ends, 2, axis=1)
     return {"shapes": b"".join(data), "colours": numbered_colours(segments.states, segments.colours, colour_of)[0],
             "typical": float(np.median(np.linalg.norm(stops - starts, axis=1))) if len(segments) else 1.0}
 
 
-def _flat(path: Path) -> _Points:
+def _points_in_plane(path: Path) -> _Points:
     ends = np.column_stack([path.parents + 1, np.arange(1, len(path) + 1)])[path.drawn]
     corners = [corner + 1 for outline in path.outlines for corner in outline.corners]
     centres = [found.place + 1 for found in path.rounds]
-    where = _real([path.turns, path.offsets, path.lengths]) + _whole(path.parents)
+    where = _float_bytes([path.turns, path.offsets, path.lengths]) + _int_bytes(path.parents)
     return _Points(ends, np.array(corners, np.int64), np.array(centres, np.int64), len(path), where)
 
 
-def _solid(scene: Scene) -> _Points:
+def _points_in_space(scene: Scene) -> _Points:
     places = np.concatenate([scene.segments.points, scene.polygons.points, scene.discs.centres])
     first, last = 2 * len(scene.segments), len(places) - len(scene.discs)
     numbers = np.arange(len(places))
-    return _Points(numbers[:first].reshape(-1, 2), numbers[first:last], numbers[last:], len(places), _real(places.T))
+    return _Points(numbers[:first].reshape(-1, 2), numbers[first:last], numbers[last:], len(places), _float_bytes(places.T))
 
 
-def _whole(numbers: ArrayLike) -> bytes:
+def _int_bytes(numbers: ArrayLike) -> bytes:
     return np.ascontiguousarray(numbers, "<i4").tobytes()
 
 
-def _real(numbers: ArrayLike) -> bytes:
+def _float_bytes(numbers: ArrayLike) -> bytes:
     return np.ascontiguousarray(numbers, "<f4").tobytes()
 
 
-class Kinds(NamedTuple):
+class WidgetClasses(NamedTuple):
     """The classes of the canvas in the plane, of that in space, and of the diagram."""
 
     flat: Any
@@ -116,7 +116,7 @@ class Kinds(NamedTuple):
 
 
 @lru_cache(maxsize=1)
-def widget_classes() -> Kinds | None:
+def widget_classes() -> WidgetClasses | None:
     """The classes of the widgets, or None where anywidget is missing."""
     try:
         import anywidget
@@ -143,8 +143,8 @@ def widget_classes() -> Kinds | None:
     class Space(Canvas):
         """A scene in space.
 
-        It is seen from a side, as `seen` counts, and so many times nearer than the whole of it; each of its returns shows the
-        whole of it from the front again.
+        `around` and `above` are the point of view, as for `project`, and `near` is the magnification; each increment of
+        `returns` shows the whole from the front again.
         """
 
         _esm = _script("pen.js", "space.js")
@@ -160,7 +160,7 @@ def widget_classes() -> Kinds | None:
         svg = traitlets.Unicode().tag(sync=True)
         chosen = traitlets.Int(-1).tag(sync=True)
 
-    return Kinds(Flat, Space, Diagram)
+    return WidgetClasses(Flat, Space, Diagram)
 
 
 def _script(*names: str) -> str:

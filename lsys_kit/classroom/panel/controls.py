@@ -1,7 +1,7 @@
-"""Sliders made from the model: one for each constant that it calculates with, over the range that it declares.
+"""Sliders made from the model: one for each constant used in calculations, over the range that the model declares.
 
 A slider's handle works in doubles; the value that a model gets is exact. Each slider is paired with a labelled number box,
-because a slider's handle has no accessible name and does not follow the arrow keys everywhere.
+because a slider's handle has no accessible name and does not obey the arrow keys everywhere.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, S
 
 
 def _guessed(value: Value) -> SliderRange:
-    """A range for a constant that declares none: from nothing, or one, to about twice its value."""
+    """A range for a constant without one: from 0 or 1 to about twice its value."""
     if isinstance(value, int) and value >= 1:
         return SliderRange(value, 1, max(2 * value, 6), 1)
     size = abs(Fraction(value)) or Fraction(1, 2)
@@ -80,7 +80,7 @@ def _guessed(value: Value) -> SliderRange:
 
 
 def _calculated_with(name: str, system: LSystem) -> bool:
-    """Whether a constant is ever added, compared by size, or the like; LEFT and RIGHT are only told apart."""
+    """Whether a constant is used in arithmetic or an inequality; LEFT and RIGHT, for example, are only tested for equality."""
     expressions: list[Any] = [constant.value for constant in system.constants]
     for rule in system.rules:
         expressions += [rule.condition, rule.probability, *(a for module in rule.modules for a in module.arguments)]
@@ -111,8 +111,8 @@ class Control:
     def linked(self, in_browser: bool) -> None:
         """Let slider and number box follow each other.
 
-        In the browser where no kernel is to be asked; else in the kernel, after whatever observes the slider already, so that
-        a movement is one message to the kernel and the picture comes before the box.
+        In the browser where the kernel is not needed; otherwise in the kernel, after the observers that the slider already has,
+        so that a movement is one message to the kernel and the picture is updated before the box.
         """
         import ipywidgets as widgets
 

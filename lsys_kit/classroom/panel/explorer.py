@@ -1,7 +1,7 @@
 """The explorer: a system's word, stage diagram and drawing side by side, with sliders made from the model.
 
 Nothing is computed twice: words, scenes and the texts of panels are kept for every step and every setting of the constants.
-In the plane the angle, in space the side from which a plant is seen never come back to the kernel: the browser turns the
+In the plane the angle, in space the side from which a plant is seen never need the kernel: the browser turns the
 drawing by itself.
 """
 
@@ -32,7 +32,7 @@ from lsys_kit.pictures.style.labels import escaped, place_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION
 
 MOST_MODULES = 100_000
-"""Words larger than this are refused by the panel: nobody sees more, and a slider must answer at once."""
+"""The panel refuses larger words: nobody could see more, and a slider must respond at once."""
 SECONDS_A_STEP = 0.6
 """How long the play button shows each step."""
 
@@ -44,13 +44,13 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     Parameters
     ----------
     what
-        A system, or the id of one in the catalogue.
+        A system, or the id or name of one in the catalogue.
     step
-        The step that is shown first; by default the one that the system asks for.
+        The step shown first; by default the system's own.
     angle
         Degrees by which the turtle turns at first.
     seed
-        Where chance begins.
+        The seed of the random numbers.
     **constants
         First values of declared constants.
 
@@ -69,7 +69,7 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     """
     system = catalogued(what) if isinstance(what, str) else what
     if not isinstance(system, LSystem):
-        raise ModelValueError(f"Only a system, or the id of one, can be explored, not {type(what).__name__}")
+        raise ModelValueError(f"Only a system, or the id or name of one, can be explored, not {type(what).__name__}")
     return Explorer(ViewModel(system, seed), step, angle, constants)
 
 
@@ -89,9 +89,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         What it shows: word, net, tokens, picture.
     """
 
-    def __init__(self, study: ViewModel, step: int | None, angle: object, changes: dict[str, object]) -> None:
-        self.system, self._study = study.system, study
-        system = study.system
+    def __init__(self, view_model: ViewModel, step: int | None, angle: object, changes: dict[str, object]) -> None:
+        self.system, self._view_model = view_model.system, view_model
+        system = view_model.system
         self._fixed = {name: value for name, value in changes.items() if name not in slider_ranges(system, changes)}
         self.constants = {name: control(name, span) for name, span in slider_ranges(system, changes).items()}
         self._make_controls(step, angle)
@@ -133,9 +133,9 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         kinds = widget_classes()
         self._diagram = kinds.diagram() if kinds else widgets.HTML()
         self._drawing, self._by_itself = widgets.HTML(), dict[str, Control]()
-        if kinds and self._study.mode is DrawingMode.SPACE:
+        if kinds and self._view_model.mode is DrawingMode.SPACE:
             self._drawing, self._by_itself = kinds.space(), {"around": self._around, "above": self._above}
-        elif kinds and self._study.mode is DrawingMode.PLANE:
+        elif kinds and self._view_model.mode is DrawingMode.PLANE:
             self._drawing = kinds.flat(heading=float(self.system.heading), angle=self.angle.value)
             self._by_itself = {"angle": self._angle}
 
@@ -172,8 +172,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._reset.on_click(self._back)
 
     def _controls(self) -> list[Control]:
-        turtle = [] if self._study.mode is DrawingMode.FILAMENT else [self._angle]
-        viewer = [self._around, self._above] if self._study.mode is DrawingMode.SPACE else []
+        turtle = [] if self._view_model.mode is DrawingMode.FILAMENT else [self._angle]
+        viewer = [self._around, self._above] if self._view_model.mode is DrawingMode.SPACE else []
         return [self._step, *turtle, *viewer, *self.constants.values()]
 
     def _readings(self) -> list[float]:
@@ -184,8 +184,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._mark.value = -1
         for each, reading in zip(self._controls(), self._start, strict=True):
             each.slider.value = reading
-        if self._study.mode is DrawingMode.SPACE and self._by_itself:
-            self._drawing.returns += 1  # the browser knows of turns that the kernel was not told yet
+        if self._view_model.mode is DrawingMode.SPACE and self._by_itself:
+            self._drawing.returns += 1  # the browser may have turned the drawing without telling the kernel
 
     def _toggle_play(self, _: object = None) -> None:
         if self._playing:
@@ -210,7 +210,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self._playing, self._play.description = None, "play"
 
     def _show(self, _: object = None) -> None:
-        """Show the step that the sliders ask for; where it cannot be had, say why and keep the pictures."""
+        """Show the step that the sliders ask for; where it cannot be shown, say why and keep the pictures."""
         try:
             with self._limited():
                 self._show_step(self.step.value)
@@ -225,7 +225,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
 
     def _show_step(self, step: int) -> None:
         constants = {**self._fixed, **{name: each.value for name, each in self.constants.items()}}
-        self._offer_stages(self._study.known(constants)[1])
+        self._offer_stages(self._view_model.known(constants)[1])
         sight = self._sight(step, constants)
         self._show_drawing(sight)
         self._word.value = word_html(sight.word, sight.marked)
@@ -242,7 +242,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         self.sight, self._chosen = sight, constants
 
     def _sight(self, step: int, constants: dict[str, Any]) -> StepView:
-        return self._study.sight(step, constants, self.angle.value, self._mark.value, self.around.value, self.above.value)
+        return self._view_model.sight(step, constants, self.angle.value, self._mark.value, self.around.value, self.above.value)
 
     def _offer_stages(self, net: Stages) -> None:
         """The stages that can be chosen are the net's, which change with the constants."""
@@ -258,7 +258,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         if not self._by_itself:
             self._drawing.value = sight.picture.svg
             return
-        in_space = self._study.mode is DrawingMode.SPACE
+        in_space = self._view_model.mode is DrawingMode.SPACE
         there = f"{sight.scene}. {HOW_TO_TURN}" if in_space else f"{len(sight.scene.segments):,} segments"
         with self._drawing.hold_sync():
             self._drawing.description = f"Drawing of step {sight.step}: {there}"

@@ -1,4 +1,4 @@
-// What the canvases have in common: the shapes that the kernel has sent, and how they are painted. There is no grammar here.
+// What the canvases have in common: the shapes that the kernel has sent, and how they are painted.
 //
 // A shape says which points it joins, by their numbers; where the points are, each canvas finds out by itself.
 

@@ -1,6 +1,6 @@
-"""What a system looks like at a step, for given constants: computed once and kept.
+"""What a system looks like at a step, for given constants; each is computed once.
 
-The part of the explorer that knows no widgets: it turns settings into a word, a net with its tokens, and a picture.
+The part of the explorer without widgets: it turns settings into a word, a net with its tokens, and a picture.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from lsys_kit.worlds.derive import derive
 
 @dataclass(frozen=True)
 class StepView:
-    """What there is to see at one step.
+    """What is shown for one step.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class StepView:
         return f"{len(self.word):,} module{'s' * (len(self.word) != 1)}"
 
     def __str__(self) -> str:
-        """The sight in words."""
+        """The view in words."""
         places = [f"{place_text(place, self.net.system)}: {count:,}"
                   for place, count in zip(self.net.places, self.tokens, strict=True) if place.symbol[0].isalpha()]
         return (f"Step {self.step}: {self.modules}. {abridged(self.word, 160)}. Stages {', '.join(places)}. "
@@ -77,7 +77,7 @@ class ViewModel:
     system
         Any L-system.
     seed
-        Where chance begins.
+        The seed of the random numbers.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What the explorer's panels show of a word: HTML."""
+"""Words as HTML, for the explorer's panels."""
 
 from __future__ import annotations
 

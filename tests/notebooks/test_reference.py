@@ -1,0 +1,49 @@
+"""The reference notebooks show every turtle command and every notation of the kit, as the tables have them now."""
+
+from __future__ import annotations
+
+import nbformat
+import pytest
+from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS
+
+from lsys_kit import derive, draw, read
+from lsys_kit.notation.registry import DIALECTS
+from tests.notebooks.reference import EXAMPLES, FOLDER, built, example_of, symbols_of
+
+SHOWN = [(turtle, symbol) for row in COMMAND_TABLE if row.commands
+         for turtle, symbols in symbols_of(row).items() for symbol in symbols]
+
+
+@pytest.mark.parametrize("name", sorted(built()))
+def test_the_notebook_is_the_one_that_the_tables_make(name: str) -> None:
+    """If not: python -m tests.notebooks.reference."""
+    stored = nbformat.read(FOLDER / name, as_version=4)
+    cells = [[(cell.id, cell.cell_type, cell.source) for cell in notebook.cells] for notebook in (stored, built()[name])]
+    assert cells[0] == cells[1]
+
+
+def test_every_command_has_one_example_and_no_example_is_left_over() -> None:
+    assert set(SHOWN) == {(turtle, symbol) for turtle, found in EXAMPLES["turtles"].items() for symbol in found["words"]}
+    assert len(SHOWN) == len(set(SHOWN)) == sum(bool(commands) for found in COMMANDS.values() for commands in found.values())
+
+
+@pytest.mark.parametrize(("turtle", "symbol"), SHOWN)
+def test_an_example_uses_its_command_and_draws_something(turtle: str, symbol: str) -> None:
+    notation, text = example_of(turtle, symbol)
+    system = read(text, notation)
+    assert system.turtle == turtle
+    assert symbol in {module.symbol for module in system.axiom}
+    assert "segment" in str(draw(system, 0)) or "polygon" in str(draw(system, 0))
+
+
+@pytest.mark.parametrize("name", DIALECTS)
+def test_every_notation_has_an_example_that_is_recognised(name: str) -> None:
+    example = EXAMPLES["notations"][name]
+    system = read(example["listing"].strip())
+    assert system.notation == name
+    assert len(derive(system, example["steps"])) == example["steps"] + 1
+
+
+def test_a_cell_of_a_reference_has_at_most_six_lines() -> None:
+    for notebook in built().values():
+        assert max(cell.source.count("\n") for cell in notebook.cells if cell.cell_type == "code") < 6
