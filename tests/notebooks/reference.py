@@ -15,10 +15,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import nbformat
-from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS, Row
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS, Row
 from lsys_kit.notation.registry import DIALECTS
 from tests.notebooks.rebuild import METADATA, ROOT, rebuilt
 
@@ -35,7 +35,7 @@ def built() -> dict[str, NotebookNode]:
 
 def symbols_of(row: Row) -> dict[str, list[str]]:
     """The symbols of a row for each dialect of turtle commands that has some."""
-    return {turtle: symbols.split() for turtle, symbols in zip(COMMANDS, row, strict=False) if symbols}
+    return {turtle: list(symbols) for turtle, symbols in row.symbols.items() if symbols}
 
 
 def example_of(turtle: str, symbol: str) -> tuple[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import nbformat
 import pytest
-from lsys_kit.geometry.commands import COMMAND_TABLE, COMMANDS
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS
 
 from lsys_kit import derive, draw, read
 from lsys_kit.notation.registry import DIALECTS
