@@ -18,7 +18,7 @@ from pathlib import Path
 
 from lsys_kit.errors import ModelFileError, quotable
 
-MARK = b"lsys-kit"
+KIT_MARK = b"lsys-kit"
 """What shows that a file was made by the kit; it is near the beginning or the end of each."""
 SEARCHED = 4_096
 """So many bytes at either end of a file may hold the mark."""
@@ -84,7 +84,7 @@ def made_by_the_kit(path: Path) -> bool:
     with path.open("rb") as file:
         beginning = file.read(SEARCHED)
         file.seek(max(0, path.stat().st_size - SEARCHED))
-        return MARK in beginning or MARK in file.read(SEARCHED)
+        return KIT_MARK in beginning or KIT_MARK in file.read(SEARCHED)
 
 
 def marked_xml(text: str) -> bytes:
@@ -93,12 +93,12 @@ def marked_xml(text: str) -> bytes:
     >>> marked_xml("<svg/>")
     b'<svg/>\\n<?lsys-kit?>\\n'
     """
-    return text.encode() + b"\n<?" + MARK + b"?>\n"
+    return text.encode() + b"\n<?" + KIT_MARK + b"?>\n"
 
 
 def marked_png(image: bytes) -> bytes:
     """A PNG picture, animated or not, as a file of the kit: with a text chunk behind its header (PNG specification, 11.3.4)."""
-    chunk = b"tEXtSoftware\0" + MARK
+    chunk = b"tEXtSoftware\0" + KIT_MARK
     text = struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
     return image[:33] + text + image[33:]
 
@@ -106,7 +106,7 @@ def marked_png(image: bytes) -> bytes:
 def marked_gif(image: bytes) -> bytes:
     """A GIF picture as a file of the kit: with a comment behind its colours (GIF 89a, section 24)."""
     colours = 3 * 2 ** ((image[10] & 7) + 1) if image[10] & 128 else 0
-    comment = b"!\xfe" + bytes([len(MARK)]) + MARK + b"\0"
+    comment = b"!\xfe" + bytes([len(KIT_MARK)]) + KIT_MARK + b"\0"
     return image[:13 + colours] + comment + image[13 + colours:]
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.budget import current
 from lsys_kit.derivation.petri.pnml import pnml
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.files import MARK, marked_png, marked_xml, save_file
+from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.arithmetic import Value
@@ -185,7 +185,7 @@ def _pdf(picture: Picture) -> bytes:
     buffer = io.BytesIO()
     sheet = plotted(picture, new_axes()).get_figure(root=True)
     assert sheet is not None
-    facts = {"CreationDate": None, "Title": picture.text, "Creator": MARK.decode()}
+    facts = {"CreationDate": None, "Title": picture.text, "Creator": KIT_MARK.decode()}
     with rc_context({"pdf.fonttype": 42}):  # embedded fonts, so that text can be searched and edited
         sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata=facts)
     return buffer.getvalue()

@@ -167,7 +167,7 @@ def test_many_different_modules_are_counted_by_what_the_table_takes() -> None:
 def test_deriving_takes_no_longer_than_it_may() -> None:
     started = time.process_time()
     with limits(seconds=0.2):
-        error = refused(EVERY_MODULE_NEW, 40)
+        error = refused(read("axiom: A(1)\nA(x) -> A(max(2*x, 0)) A(2*x+1)"), 40)
     assert time.process_time() - started < 0.2 * 5
     assert error.message.endswith(" was not reached in 0.2 seconds")
     assert error.hint is not None

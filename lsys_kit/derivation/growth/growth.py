@@ -71,9 +71,8 @@ class Growth:
         """
         import sympy
 
-        size = len(self.table)
-        rows = [Counter(self.table.successor(state)) for state in range(size)]
-        return sympy.Matrix(size, size, lambda i, j: rows[i][j])
+        rows = [Counter(self.table.successor(state)) for state in range(len(self.table))]
+        return sympy.Matrix(len(rows), len(rows), lambda i, j: rows[i][j])
 
     def counts(self, step: int) -> tuple[int, ...]:
         """How often each state occurs at a step, exactly, however late the step is.

@@ -97,20 +97,6 @@ def unclosed_bracket(text: str, pair: str = "()") -> int | None:
     return opened[-1] if opened else None
 
 
-def blank_parentheses(text: str) -> str:
-    """The text with parentheses, and what they contain, blanked.
-
-    >>> blank_parentheses("A(max(1, 2)) < B")
-    'A            < B'
-    """
-    depth, kept = 0, []
-    for character in text:
-        depth = max(0, depth - (character == ")"))
-        kept.append(" " if depth or character in "()" else character)
-        depth += character == "("
-    return "".join(kept)
-
-
 def quoted(found: str) -> str:
     """A piece of a text, as a message quotes it."""
     return named(found) if len(found) == 1 else f'"{found}"' if len(found) <= 40 else f'"{found[:40]}..."'

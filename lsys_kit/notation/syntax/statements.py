@@ -61,6 +61,20 @@ def without_comments(text: str) -> str:
     return "".join((*parts, text[at:]))
 
 
+def blank_parentheses(text: str) -> str:
+    """The text with parentheses, and what they contain, blanked.
+
+    >>> blank_parentheses("A(max(1, 2)) < B")
+    'A            < B'
+    """
+    depth, kept = 0, []
+    for character in text:
+        depth = max(0, depth - (character == ")"))
+        kept.append(" " if depth or character in "()" else character)
+        depth += character == "("
+    return "".join(kept)
+
+
 def check_text(text: str) -> None:
     """Refuse anything but text, and text that is too long."""
     if not isinstance(text, str):

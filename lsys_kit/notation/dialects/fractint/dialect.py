@@ -14,8 +14,8 @@ from itertools import chain, islice
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.fractint.actions import Records
 from lsys_kit.notation.dialects.fractint.diagnostics import DIAGNOSTICS
-from lsys_kit.notation.dialects.fractint.systems import braced, chosen, lines, meant, uncommented
-from lsys_kit.notation.dialects.fractint.writer import NAME, lacking, module_text, run_on, system_text
+from lsys_kit.notation.dialects.fractint.systems import entries_in, selected_entry, statement_lines, system_entries, uncommented
+from lsys_kit.notation.dialects.fractint.writer import NAME, lacking, merged_pair, module_text, system_text
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem, Production
@@ -26,7 +26,7 @@ _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORE
 """A line that gives an angle or an axiom, without a colon."""
 _OTHER = re.compile(r"(?![^\s=]\s*=|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM", re.IGNORECASE)
 """A line that no system of Fractint's has."""
-SAMPLE = 50
+SAMPLED_SYSTEMS = 50
 """So many systems of a file show in which notation it is."""
 
 
@@ -65,7 +65,7 @@ def _joined(draft: Draft) -> list[Production]:
 
 def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Production:
     successor = tuple(chain.from_iterable(rule.successor for rule, _ in parts))
-    if pair := run_on(flat(successor)):
+    if pair := merged_pair(flat(successor)):
         raise ModelSyntaxError(f'"{pair[1].symbol}" would be read as a part of "{module_text(pair[0])}" in the rule before',
                                draft.source, *(pair[1].at or parts[0][1]),
                                "Rules for the same symbol are read as one word: part it elsewhere.")
@@ -76,11 +76,13 @@ def _likely(text: str) -> int:
     """Ten for each line of the first systems that gives an angle or an axiom as only Fractint does; nothing where other lines
     cannot stand there."""
     plain = uncommented(text)
-    bodies = [plain[entry.opened + 1:entry.stop] for entry in meant(islice(braced(plain), SAMPLE))] or [plain]
+    sample = system_entries(islice(entries_in(plain), SAMPLED_SYSTEMS))
+    bodies = [plain[entry.opened + 1:entry.stop] for entry in sample] or [plain]
     said = [line.strip() for body in bodies for line in body.splitlines()]
     return 0 if any(map(_OTHER.match, said)) else 10 * sum(map(bool, map(_SAID.match, said)))
 
 
 FRACTINT = Dialect(
-    name=NAME, statements=lines, transformer=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined="".join, write=system_text, lacking=lacking, likely=_likely, turtle=NAME, entry=chosen, starts=("statement", "word"))
+    name=NAME, statements=statement_lines, transformer=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
+    joined="".join, write=system_text, lacking=lacking, likely=_likely, turtle=NAME,
+    entry=selected_entry, starts=("statement", "word"))

@@ -24,13 +24,13 @@ _COMMENT = re.compile(r";[^\r\n]*")
 _LINE = re.compile(r"[^\r\n\f\x1a]+")
 _NAME = re.compile(r"[^\s(\ufeff]+")
 _BLANKS = " \t\v\u00a0\ufeff"
-MOST = 10_000
+MOST_ENTRIES = 10_000
 """So many systems a file may have."""
-SHOWN = 60
+NAMES_LISTED = 60
 """So many names are listed where one is to be chosen."""
 
 
-class Entry(NamedTuple):
+class FileEntry(NamedTuple):
     """One system of a file: its name and where that stands, the offsets of its brace and the next, and if that closes it."""
 
     name: str
@@ -49,31 +49,32 @@ def uncommented(text: str) -> str:
     return _COMMENT.sub(lambda comment: " " * len(comment[0]), text)
 
 
-def entries(text: str) -> list[Entry]:
+def entries(text: str) -> list[FileEntry]:
     """The systems of a file, in their order.
 
     >>> [entry.name for entry in entries("Koch { Angle 6 } comment { ... } Dragon (old) {")]
     ['Koch', 'Dragon']
     """
-    found = [*islice(braced(uncommented(text)), MOST + 1)]
-    if len(found) > MOST:
-        raise ModelLimitError(f"This text has more than {MOST:,} systems", limit=MOST, source=text, start=found[-1].at)
-    return meant(found)
+    found = [*islice(entries_in(uncommented(text)), MOST_ENTRIES + 1)]
+    if len(found) > MOST_ENTRIES:
+        raise ModelLimitError(f"This text has more than {MOST_ENTRIES:,} systems", limit=MOST_ENTRIES,
+                              source=text, start=found[-1].at)
+    return system_entries(found)
 
 
-def meant(found: Iterable[Entry]) -> list[Entry]:
+def system_entries(found: Iterable[FileEntry]) -> list[FileEntry]:
     """Those entries that are systems."""
     systems = [entry for entry in found if entry.name.lower() != "comment"]
     return [entry for entry in systems if entry.name] or systems
 
 
-def braced(plain: str) -> Iterator[Entry]:
+def entries_in(plain: str) -> Iterator[FileEntry]:
     """What begins with a brace, in a text without comments; where a brace opens before one is closed, another entry begins."""
     braces = chain((match.start() for match in re.finditer(r"[{}]", plain)), (len(plain),))
     before, at = -1, next(braces)
     for after in braces:
         if plain[at] == "{":
-            yield Entry(*_name(plain, before + 1, at), at, after, plain[after:after + 1] == "}")
+            yield FileEntry(*_name(plain, before + 1, at), at, after, plain[after:after + 1] == "}")
         before, at = at, after
 
 
@@ -84,7 +85,7 @@ def _name(plain: str, start: int, end: int) -> tuple[str, int]:
     return (name[0], name.start()) if name else ("", end)
 
 
-def chosen(text: str, name: str | None) -> str:
+def selected_entry(text: str, name: str | None) -> str:
     """The text with one of its systems in it, and every other character but the ends of lines blanked.
 
     Raises
@@ -96,7 +97,7 @@ def chosen(text: str, name: str | None) -> str:
 
     Examples
     --------
-    >>> chosen("A { Angle 4 } B { Angle 5 }", "b")
+    >>> selected_entry("A { Angle 4 } B { Angle 5 }", "b")
     '              B { Angle 5 }'
     """
     found = entries(text)
@@ -116,7 +117,7 @@ def _blank(text: str) -> str:
     return re.sub(r"[^\r\n]", " ", text)
 
 
-def _named(found: Sequence[Entry], name: str) -> Entry:
+def _named(found: Sequence[FileEntry], name: str) -> FileEntry:
     """The first system with a name; where none is spelt so, case does not matter."""
     alike = [entry for entry in found if entry.name.lower() == name.lower()]
     if not alike:
@@ -126,7 +127,7 @@ def _named(found: Sequence[Entry], name: str) -> Entry:
     return next((entry for entry in alike if entry.name == name), alike[0])
 
 
-def _which(found: Sequence[Entry], text: str) -> LSystemError:
+def _which(found: Sequence[FileEntry], text: str) -> LSystemError:
     """Which of several systems is meant?"""
     if not found:
         return ModelSyntaxError("There is no system in this text", text, uncommented(text).index("{"), None,
@@ -138,20 +139,20 @@ def _which(found: Sequence[Entry], text: str) -> LSystemError:
                            second.at + max(1, len(second.name)), choose)
 
 
-def _names(found: Sequence[Entry]) -> list[str]:
+def _names(found: Sequence[FileEntry]) -> list[str]:
     return [*dict.fromkeys(entry.name for entry in found if entry.name)]
 
 
 def _listed(names: Sequence[str]) -> str:
-    more = f" and {len(names) - SHOWN:,} more" if len(names) > SHOWN else ""
-    return f"The systems are {', '.join(map(quotable, names[:SHOWN]))}{more}."
+    more = f" and {len(names) - NAMES_LISTED:,} more" if len(names) > NAMES_LISTED else ""
+    return f"The systems are {', '.join(map(quotable, names[:NAMES_LISTED]))}{more}."
 
 
-def lines(text: str) -> Iterator[tuple[int, int]]:
+def statement_lines(text: str) -> Iterator[tuple[int, int]]:
     """The offsets of the lines of the one system in a text, without braces, comments and blanks around.
 
     >>> text = "Koch { Angle 6 ; sixths\\n Axiom F }"
-    >>> [text[start:end] for start, end in lines(text)]
+    >>> [text[start:end] for start, end in statement_lines(text)]
     ['Angle 6', 'Axiom F']
     """
     found = entries(text)

@@ -16,7 +16,7 @@ from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
 NAME, NAMELESS = "fractint", "LSystem"
-WIDTH = 150
+LONGEST_LINE = 150
 """Longer rules are parted into several for the same symbol: Fractint reads lines of less than 160 characters."""
 _SYMBOL = re.compile(r"[!-$&-:<>-Z^-`|~\[\]\\]")
 _COMMAND = re.compile(r"[\\/<>@C][QI]{0,2}")
@@ -38,10 +38,10 @@ def _number_text(argument: object) -> str:
     return str(value) if isinstance(value, Expression) else literal_text(value)  # type: ignore[arg-type]
 
 
-def run_on(modules: Iterable[Pattern]) -> tuple[Pattern, Pattern] | None:
+def merged_pair(modules: Iterable[Pattern]) -> tuple[Pattern, Pattern] | None:
     """The first two neighbours that would be read as one: a command, and a digit that would be in its number.
 
-    >>> found = run_on((Pattern("<", (Number(1),)), Pattern("5")))
+    >>> found = merged_pair((Pattern("<", (Number(1),)), Pattern("5")))
     >>> found and "".join(map(module_text, found))
     '<15'
     """
@@ -75,7 +75,7 @@ def _rules(production: Production) -> Iterator[str]:
     line = f"{production.predecessor.symbol}="
     for module in flat(production.successor):
         text = module_text(module)
-        if len(line) + len(text) > WIDTH:
+        if len(line) + len(text) > LONGEST_LINE:
             yield line
             line = f"{production.predecessor.symbol}="
         line += text
@@ -118,7 +118,7 @@ def _strange_word(system: LSystem) -> str | None:
     strange = next((module for module in (*heads, *(module for word in words for module in word)) if not _fits(module)), None)
     if strange:
         return f'module "{strange}"'
-    pair = next(filter(None, map(run_on, words)), None)
+    pair = next(filter(None, map(merged_pair, words)), None)
     return f'word in which "{pair[1].symbol}" follows "{module_text(pair[0])}"' if pair else None
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import replace
 from graphlib import CycleError, TopologicalSorter
 
 from lsys_kit.errors import ModelNameError
@@ -35,7 +34,7 @@ def _about_symbol(unworded: Problem, draft: Draft) -> ProblemFound:
     """A problem with a name; where that is a symbol of the text, it is used as a value, probably in brackets of a branch."""
     symbols = {module.symbol for module in _modules(draft)}
     mistaken = unworded.code in ("unknown name", "name among none") and unworded.subject["name"] in symbols
-    return ProblemFound(replace(unworded, code="symbol as value", suggestion=None) if mistaken else unworded)
+    return ProblemFound(Problem("symbol as value", unworded.place, unworded.subject) if mistaken else unworded)
 
 
 def _system(draft: Draft, definitions: Definitions) -> LSystem:

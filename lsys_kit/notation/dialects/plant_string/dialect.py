@@ -12,9 +12,9 @@ from lsys_kit.notation.syntax.actions import Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
 from lsys_kit.notation.syntax.dialect import Dialect
-from lsys_kit.notation.syntax.failure import ParseFailure, blank_parentheses
+from lsys_kit.notation.syntax.failure import ParseFailure
 from lsys_kit.notation.syntax.formatting import first_missing, settings
-from lsys_kit.notation.syntax.statements import ARROW, statements, without_comments
+from lsys_kit.notation.syntax.statements import ARROW, blank_parentheses, statements, without_comments
 
 NAME = "plant-string"
 _WORD = r"[A-Za-z\[\]()+\-\s]*+"
