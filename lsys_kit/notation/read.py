@@ -24,7 +24,7 @@ from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_word
-from lsys_kit.notation.syntax.statements import ARROW, bounded, check_text
+from lsys_kit.notation.syntax.text.statements import ARROW, bounded, check_text
 from lsys_kit.notation.syntax.wording import notes, reporting
 
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)

@@ -17,7 +17,7 @@ from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
 from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
 
-BOUNDARY_TOLERANCE = 1e-9
+NEARNESS = 1e-9
 """A point as close to a boundary as this lies on it."""
 WINDOW = 32
 """The nearest point is first sought among this number of points on either side in the sorted order."""
@@ -83,7 +83,7 @@ class Shoots:
 
     def chosen(self, least: float, colour: float | None = None) -> Integers:
         """The numbers of the shoots with at least some length, and of a colour if one is given."""
-        return np.flatnonzero((self.lengths >= least - BOUNDARY_TOLERANCE) & (True if colour is None else self.colours == colour))
+        return np.flatnonzero((self.lengths >= least - NEARNESS) & (True if colour is None else self.colours == colour))
 
     def points(self, least: float, colour: float | None = None) -> EndPoints:
         """The start and end points of the same shoots, sorted once."""
@@ -126,7 +126,7 @@ def nearest_ahead(query: Query, angle: float, least: float, colour: float | None
     away = points.places - query.tip
     distances = np.linalg.norm(away, axis=1)
     edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
-    within = (away @ query.head >= edge * distances - BOUNDARY_TOLERANCE) & ~np.isin(points.owners, query.near)
+    within = (away @ query.head >= edge * distances - NEARNESS) & ~np.isin(points.owners, query.near)
     return float(distances[within].min(initial=math.inf))
 
 
@@ -138,12 +138,12 @@ def steepest_above(query: Query, least: float) -> float:
     """
     others = np.setdiff1d(query.shoots.chosen(least), query.near[:1])
     (x0, z0), (x1, z1) = (query.shoots.ends[others] - query.tip)[:, :, ::2].transpose(1, 2, 0)
-    along = np.divide(-x0, x1 - x0, out=np.ones_like(x0), where=np.abs(x1 - x0) > BOUNDARY_TOLERANCE)
-    height = np.where(np.abs(x1 - x0) > BOUNDARY_TOLERANCE, z0 + along * (z1 - z0), np.maximum(z0, z1))
-    if np.any((np.minimum(x0, x1) <= BOUNDARY_TOLERANCE) & (np.maximum(x0, x1) >= -BOUNDARY_TOLERANCE) & (height > BOUNDARY_TOLERANCE)):
+    along = np.divide(-x0, x1 - x0, out=np.ones_like(x0), where=np.abs(x1 - x0) > NEARNESS)
+    height = np.where(np.abs(x1 - x0) > NEARNESS, z0 + along * (z1 - z0), np.maximum(z0, z1))
+    if np.any((np.minimum(x0, x1) <= NEARNESS) & (np.maximum(x0, x1) >= -NEARNESS) & (height > NEARNESS)):
         return 0.0
     sideways, up = np.abs(np.concatenate((x0, x1))), np.concatenate((z0, z1))
-    return float(np.degrees(np.arctan2(sideways, up))[up > BOUNDARY_TOLERANCE].min(initial=math.inf))
+    return float(np.degrees(np.arctan2(sideways, up))[up > NEARNESS].min(initial=math.inf))
 
 
 def shoots_above(query: Query, angle: float, least: float) -> int:
@@ -155,7 +155,7 @@ def shoots_above(query: Query, angle: float, least: float) -> int:
     away = query.shoots.ends[others, 0] - query.tip
     edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
     distances = np.linalg.norm(away, axis=1)
-    return int(np.count_nonzero((distances > BOUNDARY_TOLERANCE) & (away[:, 2] >= edge * distances - BOUNDARY_TOLERANCE)))
+    return int(np.count_nonzero((distances > NEARNESS) & (away[:, 2] >= edge * distances - NEARNESS)))
 
 
 def inclination(query: Query) -> float:

@@ -14,7 +14,7 @@ from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import symbols
 from lsys_kit.notation.read import read, read_word
-from lsys_kit.notation.syntax.printed import printed_statements
+from lsys_kit.notation.syntax.text.printed import printed_statements
 from lsys_kit.notation.write import write
 from tests.notation.test_diagnostics import A_VALUE, NO_NAMES, PRODUCTION
 

@@ -14,7 +14,7 @@ from lsys_kit import draw, system, systems
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.syntax.transcription import transcribe
+from lsys_kit.notation.syntax.text.transcription import transcribe
 from lsys_kit.notation.write import write
 
 LISTINGS = {path.stem: path.read_text(encoding="utf-8")

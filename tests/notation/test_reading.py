@@ -13,7 +13,7 @@ from lsys_kit.notation.model.expressions import Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_expression, read_number, read_word
-from lsys_kit.notation.syntax.statements import statements, without_comments
+from lsys_kit.notation.syntax.text.statements import statements, without_comments
 from lsys_kit.notation.write import write
 
 A, B = Pattern("A"), Pattern("B")

@@ -6,7 +6,7 @@ import re
 
 from lsys_kit.errors import ModelSyntaxError, named
 from lsys_kit.notation.syntax.failure import ParseFailure, quoted, unclosed_bracket
-from lsys_kit.notation.syntax.statements import blank_parentheses
+from lsys_kit.notation.syntax.text.statements import blank_parentheses
 
 VALUE_TOKENS = frozenset(("NUMBER", "LPAR"))
 """Tokens with which a value can begin, but no module."""

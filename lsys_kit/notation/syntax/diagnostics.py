@@ -36,7 +36,7 @@ from lsys_kit.notation.syntax.failure import (
     unclosed_bracket,
 )
 from lsys_kit.notation.syntax.predecessor_diagnostics import diagnose_predecessor
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
             "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells")

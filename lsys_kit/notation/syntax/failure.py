@@ -9,7 +9,7 @@ from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedTok
 
 from lsys_kit.errors import ModelSyntaxError, named, printable
 from lsys_kit.notation.syntax.spelling import Spelling
-from lsys_kit.notation.syntax.statements import ARROW, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 
 _TOKEN_NAMES = {
     "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',

@@ -11,7 +11,7 @@ from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.syntax.common_diagnostics import after_first
 from lsys_kit.notation.syntax.failure import ParseFailure
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 from lsys_kit.notation.syntax.wording import worded
 
 _NOT_IN_STRINGS = {"(": "values", ":": "conditions", "<": "contexts", ">": "contexts"}

@@ -11,7 +11,7 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern, joined
 from lsys_kit.notation.model.system import Production
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 _BEFORE_ARROW, _NO_ARROW = rf"(?=.*(?:{ARROW.pattern}))", rf"(?!.*(?:{ARROW.pattern}))"
 CORRECTIONS: Sequence[tuple[str, str, str]] = (

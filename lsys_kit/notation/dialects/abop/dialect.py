@@ -18,10 +18,10 @@ from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_co
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
 from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
-from lsys_kit.notation.syntax.printed import IN_A_SET, printed_statements
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_system, segment_with_notes
-from lsys_kit.notation.syntax.statements import without_comments
-from lsys_kit.notation.syntax.transcription import likely, transcribe
+from lsys_kit.notation.syntax.text.printed import IN_A_SET, printed_statements
+from lsys_kit.notation.syntax.text.statements import without_comments
+from lsys_kit.notation.syntax.text.transcription import likely, transcribe
 
 _SYMBOL = re.compile(r"[A-Za-z_]\w*|\d|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
 """What a symbol may be."""

@@ -10,7 +10,7 @@ from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS as SHARED_DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted, unclosed_bracket
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 _CONSTANTS = 'Constants are declared with "#define", as in "#define n 3".'
 _OWN_BLOCK = "Compute what a rule needs in its own block, with assignments and if."

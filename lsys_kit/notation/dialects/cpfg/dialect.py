@@ -18,7 +18,7 @@ from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Na
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
-from lsys_kit.notation.syntax.statements import ARROW, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
 
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from heapq import merge
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.syntax.statements import ARROW, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 
 KEPT = re.compile(
     r"^[ \t]*/\*[ \t]*((?:angle|heading|length):[ \t]*-?\d[\d.]*(?:e[+-]?\d+)?(?:/\d+)?)[ \t]*\*/[ \t]*$", re.MULTILINE)

@@ -6,7 +6,7 @@ import re
 
 from lsys_kit.errors import ModelSyntaxError, named
 from lsys_kit.notation.syntax.failure import ParseFailure, quoted
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 _RULE = 'A rule reads "F=F+F", each on a line of its own.'
 _LINES = f'A line is "Angle 6", "Axiom F--F--F" or a rule. {_RULE}'

@@ -15,7 +15,7 @@ from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
-from lsys_kit.notation.syntax.statements import without_comments
+from lsys_kit.notation.syntax.text.statements import without_comments
 
 RELATIONS = {"=": "==", "\\leq": "<=", "\\le": "<=", "\\geq": ">=", "\\ge": ">=", "\\neq": "!=", "\\ne": "!="}
 """How GROGRA or Kurth's slides spell comparisons."""

@@ -23,7 +23,7 @@ from lsys_kit.notation.syntax.common_diagnostics import (
 )
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, expected_hint, quoted, unclosed_bracket
-from lsys_kit.notation.syntax.statements import blank_parentheses
+from lsys_kit.notation.syntax.text.statements import blank_parentheses
 
 _IN_FRONT = 'It is written in front, in parentheses: "(t < 6) k(t) # k(t+1)".'
 _NUMBER = 'Numbers are glued to a turtle command, as in "F100", or written in parentheses after a symbol, as in "a(2)".'

@@ -24,7 +24,7 @@ from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.statements import without_comments
+from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.wording import reporting
 
 _SLIDE_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",

@@ -10,7 +10,7 @@ from lsys_kit.notation.dialects.map.spelling import SPELLING
 from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_arrow, unreadable_character
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted, unclosed_bracket
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 _MARKER = 'A marker reads "[-A]" or "[+A]": the side of the wall, the letter of a wall to come.'
 _FIRST_HINT = 'Give the walls of the first cell, one after another, clockwise, as in "map: ABAB".'

@@ -22,8 +22,8 @@ from lsys_kit.notation.dialects.map.spelling import SPELLING
 from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.printed import printed_statements
-from lsys_kit.notation.syntax.statements import bounded, check_text
+from lsys_kit.notation.syntax.text.printed import printed_statements
+from lsys_kit.notation.syntax.text.statements import bounded, check_text
 from lsys_kit.notation.syntax.wording import notes, reporting
 
 _LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")

@@ -9,7 +9,7 @@ from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.syntax.common_diagnostics import second_arrow
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 _PRINTED_RULE = ('A printed rule reads "a < b > c -> d": left context, what is replaced, right context, an arrow, '
                  'what replaces it.')

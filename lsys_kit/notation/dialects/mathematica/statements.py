@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.syntax.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW
 
 DEEPEST = 3
 """How deep comments may be nested."""

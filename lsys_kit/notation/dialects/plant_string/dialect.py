@@ -14,7 +14,7 @@ from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_co
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import ParseFailure
 from lsys_kit.notation.syntax.formatting import first_missing, settings
-from lsys_kit.notation.syntax.statements import ARROW, blank_parentheses, statements, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, statements, without_comments
 
 NAME = "plant-string"
 _WORD = r"[A-Za-z\[\]()+\-\s]*+"

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError
-from lsys_kit.notation.syntax.statements import ARROW, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
 
 _ARROW = ARROW.pattern
 _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")

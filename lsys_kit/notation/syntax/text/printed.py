@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.syntax.statements import ARROW, blank_parentheses, statements, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, statements, without_comments
 
 # What labels and sets of productions look like, and what cannot follow a label.
 _LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
