@@ -143,8 +143,8 @@ def test_what_replaces_an_axiom_or_an_angle_is_told() -> None:
     found = read("Angle 4\nAxiom X\nAxiom F\nAngle 8")
     assert [str(module) for module in found.axiom] == ["F"]
     assert found.angle == 45
-    assert {"The axiom is given more than once: the last one counts.",
-            "The angle is given more than once: the last one counts."} <= set(found.notes)
+    assert {"The axiom is given more than once: the last one is used.",
+            "The angle is given more than once: the last one is used."} <= set(found.notes)
 
 
 @pytest.mark.parametrize(("text", "expected"), [
@@ -188,14 +188,14 @@ def test_which_of_several_systems_is_meant_must_be_said() -> None:
     with pytest.raises(ModelValueError, match="There are 4 systems in this text") as found:
         read(MANY)
     assert found.value.hint == \
-        'Choose one by its name, as in read(text, name="Koch1"). The systems are Koch1, koch2, Torn, Odd.'
+        'Choose one by its name: read(text, name="Koch1"), or --name in a shell. The systems are Koch1, koch2, Torn, Odd.'
     assert found.value.line == 7
 
 
 def test_a_name_that_no_system_has_is_explained() -> None:
     with pytest.raises(ModelNameError, match='There is no system called "Koch3" in this text'):
         read(MANY, name="Koch3")
-    with pytest.raises(ModelValueError, match="holds one system, without a name"):
+    with pytest.raises(ModelValueError, match="holds a single system, without a name"):
         read("axiom: A", name="Koch3")
 
 
@@ -217,28 +217,28 @@ def test_a_slip_in_one_system_is_none_in_another_and_is_found_where_it_stands() 
     ("A {\nAngle 6\nAxiom F", 'This "{" is never closed', 1, 3),
     ("Angle 6\nAxiom F\n}", 'This "}" closes nothing', 3, 1),
     ("comment { }", "There is no system in this text", 1, 9),
-    ("Angle 0\nAxiom F", "A full turn has no 0 parts here", 1, 7),
-    ("Angle 999999\nAxiom F", "A full turn has no 999999 parts here", 1, 7),
-    ("Angle\nAxiom F", "How many parts a full turn has is missing", 1, 6),
-    ("Angle six\nAxiom F", "How many parts a full turn has is missing", 1, 7),
-    ("Angle 6 7\nAxiom F", 'I did not expect "7" behind the angle', 1, 9),
-    ("Angle: 6\nAxiom F", 'No ":" stands here in Fractint', 1, 6),
-    ("Angle 6\nAxiom: F", 'No ":" stands here in Fractint', 2, 6),
+    ("Angle 0\nAxiom F", "A full turn cannot have 0 parts here", 1, 7),
+    ("Angle 999999\nAxiom F", "A full turn cannot have 999999 parts here", 1, 7),
+    ("Angle\nAxiom F", "The number of parts of a full turn is missing", 1, 6),
+    ("Angle six\nAxiom F", "The number of parts of a full turn is missing", 1, 7),
+    ("Angle 6 7\nAxiom F", 'I did not expect "7" after the angle', 1, 9),
+    ("Angle: 6\nAxiom F", 'Fractint needs no ":" here', 1, 6),
+    ("Angle 6\nAxiom: F", 'Fractint needs no ":" here', 2, 6),
     ("Angle 6\nAxiom", "The axiom is missing", 2, 6),
-    ("Angle 6\nAxiom F\nF", "This rule says nothing", 3, 1),
-    ("Angle 6\nAxiom F\nF -> F+F", "Fractint has no arrow", 3, 3),
+    ("Angle 6\nAxiom F\nF", "This rule has no successor", 3, 1),
+    ("Angle 6\nAxiom F\nF -> F+F", "Fractint has no arrows", 3, 3),
     ("Angle 6\nAxiom F\nFF=F", "A rule rewrites one character", 3, 1),
-    ("Angle 6\nAxiom F\nF=F G=G", 'A second "=" stands here', 3, 6),
-    ("Angle 6\nAxiom F\nFF+F", "I do not know what this line is to say", 3, 1),
-    ("Angle 6\nAxiom F\n+=F", '"+" is a command, which no rule can rewrite', 3, 1),
-    ("Angle 6\nAxiom F\nc=f+f", '"c" is a command, which no rule can rewrite', 3, 1),
+    ("Angle 6\nAxiom F\nF=F G=G", 'This is a second "="', 3, 6),
+    ("Angle 6\nAxiom F\nFF+F", "This line makes no sense in Fractint", 3, 1),
+    ("Angle 6\nAxiom F\n+=F", '"+" is a command, which a rule cannot rewrite', 3, 1),
+    ("Angle 6\nAxiom F\nc=f+f", '"c" is a command, which a rule cannot rewrite', 3, 1),
     ("Angle 6\nAxiom F\nF=[F", 'This "[" is never closed', 3, 3),
     ("Angle 6\nAxiom F]", 'This "]" closes nothing', 2, 8),
-    ("Angle 6\nAxiom F@1.2.3F", "This is no number that a command can take", 2, 8),
-    ("Angle 6\nAxiom F@.F", "This is no number that a command can take", 2, 8),
-    ("Angle 6\nAxiom Fλ", '"λ" (GREEK SMALL LETTER LAMDA) is no symbol', 2, 8),
-    ("Angle 6\nAxiom F%F", '"%" is no symbol here', 2, 8),
-    ("Angle 6\nAxiom F\nF=F<\nF=5", '"5" would be read as a part of "<" in the rule before', 4, 3),
+    ("Angle 6\nAxiom F@1.2.3F", "A command cannot take this number", 2, 8),
+    ("Angle 6\nAxiom F@.F", "A command cannot take this number", 2, 8),
+    ("Angle 6\nAxiom Fλ", '"λ" (GREEK SMALL LETTER LAMDA) cannot be a symbol', 2, 8),
+    ("Angle 6\nAxiom F%F", '"%" cannot be a symbol here', 2, 8),
+    ("Angle 6\nAxiom F\nF=F<\nF=5", '"5" would be read as part of "<" in the rule before', 4, 3),
 ])
 def test_every_slip_is_a_clear_error(text: str, message: str, line: int, column: int) -> None:
     with pytest.raises(LSystemError) as found:

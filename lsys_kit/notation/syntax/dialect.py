@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def whole(text: str, name: str | None) -> str:
     """A text that holds one system, which has no name."""
     if name is not None:
-        raise ModelValueError("A text in this notation holds one system, without a name", hint="Leave the name out.")
+        raise ModelValueError("A text in this notation holds a single system, without a name", hint="Leave the name out.")
     return text
 
 

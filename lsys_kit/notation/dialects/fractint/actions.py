@@ -42,7 +42,7 @@ class Records(Transformer[Any, Any]):
         """Fractint passes over what stands behind the point."""
         whole = count.split(".")[0]
         if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
-            raise ActionError(ModelSyntaxError, f"A full turn has no {whole[:10]} parts here", _at(count),
+            raise ActionError(ModelSyntaxError, f"A full turn cannot have {whole[:10]} parts here", _at(count),
                           f'"Angle n" makes + and - turn by 360/n degrees, with n from {LEAST} to {MOST}.')
         return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
@@ -53,15 +53,15 @@ class Records(Transformer[Any, Any]):
         symbol = predecessor[0].upper()
         at = predecessor.start_pos, (predecessor.start_pos or 0) + 1
         if "=" not in predecessor and re.match("--?>", "".join(module.symbol for module in word[:3])):
-            raise ActionError(ModelSyntaxError, "Fractint has no arrow", word[0].at, f'Type "{predecessor[0]}=...".')
+            raise ActionError(ModelSyntaxError, "Fractint has no arrows", word[0].at, f'Type "{predecessor[0]}=...".')
         if symbol in RESERVED:
-            raise ActionError(ModelSyntaxError, f'"{predecessor[0]}" is a command, which no rule can rewrite', at,  # type: ignore[arg-type]
-                          "Take another letter for what the rule is about.")
+            raise ActionError(ModelSyntaxError, f'"{predecessor[0]}" is a command, which a rule cannot rewrite', at,  # type: ignore[arg-type]
+                          "Choose another letter for the predecessor.")
         return "deferred", ("rule", Production(Pattern(symbol, at=at), word))  # type: ignore[arg-type]
 
     def erasing(self, predecessor: Token) -> tuple[str, Any]:
         if "=" not in predecessor:
-            raise ActionError(ModelSyntaxError, "This rule says nothing", _at(predecessor),
+            raise ActionError(ModelSyntaxError, "This rule has no successor", _at(predecessor),
                           f'To erase {predecessor[0]}, write "{predecessor[0]}=".')
         return self.production(predecessor, ())
 
@@ -72,6 +72,6 @@ def _at(token: Token) -> tuple[int, int]:
 
 def _number(token: Token, digits: str) -> Number:
     if not re.fullmatch(r"\d+\.?\d*|\.\d+", digits) or len(digits) > LONGEST:
-        raise ActionError(ModelSyntaxError, "This is no number that a command can take", _at(token),
+        raise ActionError(ModelSyntaxError, "A command cannot take this number", _at(token),
                       'A command takes digits with at most one point, as in "@.5" or "\\30".')
     return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))

@@ -35,7 +35,7 @@ def _finish(draft: Draft) -> LSystem:
     said = {kind: (record, at) for kind, record, at in draft.deferred if kind != "rule"}
     for kind in said:
         if sum(kind == other for other, *_ in draft.deferred) > 1:
-            draft.notes.append(f"The {kind} is given more than once: the last one counts.")
+            draft.notes.append(f"The {kind} is given more than once: the last one is used.")
     if "axiom" in said:
         draft.axiom = said["axiom"][0]
     _check(draft, {*said})
@@ -66,9 +66,9 @@ def _joined(draft: Draft) -> list[Production]:
 def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Production:
     successor = tuple(chain.from_iterable(rule.successor for rule, _ in parts))
     if pair := merged_pair(flat(successor)):
-        raise ModelSyntaxError(f'"{pair[1].symbol}" would be read as a part of "{module_text(pair[0])}" in the rule before',
+        raise ModelSyntaxError(f'"{pair[1].symbol}" would be read as part of "{module_text(pair[0])}" in the rule before',
                                draft.source, *(pair[1].at or parts[0][1]),
-                               "Rules for the same symbol are read as one word: part it elsewhere.")
+                               "Rules for the same symbol are joined: divide the word elsewhere.")
     return Production(parts[0][0].predecessor, successor, at=parts[0][1] if len(parts) == 1 else None)
 
 

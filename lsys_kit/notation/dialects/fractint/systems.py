@@ -133,8 +133,8 @@ def _which(found: Sequence[FileEntry], text: str) -> LSystemError:
         return ModelSyntaxError("There is no system in this text", text, uncommented(text).index("{"), None,
                                 'A system reads "Koch { ... }", with the angle, the axiom and the rules in the braces.')
     names, second = _names(found), found[1]
-    choose = f'Choose one by its name, as in read(text, name="{quotable(names[0])}"). {_listed(names)}' if names else \
-        'Give each a name before its "{", as in "Koch {".'
+    choose = f'Choose one by its name: read(text, name="{quotable(names[0])}"), or --name in a shell. {_listed(names)}' \
+        if names else 'Give each a name before its "{", as in "Koch {".'
     return ModelValueError(f"There are {len(found):,} systems in this text", text, second.at,
                            second.at + max(1, len(second.name)), choose)
 
