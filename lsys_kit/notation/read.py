@@ -13,7 +13,7 @@ from dataclasses import replace
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
-from lsys_kit.notation.analysis.lint import check_decomposition, unused_productions
+from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
@@ -109,7 +109,7 @@ def _read_in(notation: Dialect, text: str, name: str | None) -> LSystem:
         system = _built(notation, transcript.text)
     except LSystemError as error:
         raise transcript.relocated(error) from None
-    return replace(system, notes=(*transcript.notes, *system.notes, *notes(unused_productions(system), notation.spelling)))
+    return replace(system, notes=(*transcript.notes, *system.notes, *notes(warnings(system), notation.spelling)))
 
 
 def _built(notation: Dialect, text: str) -> LSystem:

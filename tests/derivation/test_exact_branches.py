@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit.derivation.derive import derive
-from lsys_kit.notation.analysis.lint import unused_productions
+from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read
@@ -69,7 +69,7 @@ def test_the_end_of_a_branch_is_no_module() -> None:
     rule = Production(Pattern("A"), (), right=tuple(map(Pattern, ("[", "B", END, "]"))))
     system = LSystem(read("axiom: A[B]").axiom, (rule,))
     assert END not in symbols(system)
-    assert unused_productions(system) == []
+    assert warnings(system) == []
 
 
 def with_ends(word: tuple[Pattern, ...], ends: Iterator[bool], end: str) -> tuple[Pattern, ...]:

@@ -9,7 +9,7 @@ import pytest
 
 from lsys_kit.budget import limits
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.analysis.lint import check_decomposition, unused_productions
+from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import function_of, is_random
 from lsys_kit.notation.read import read, read_expression, read_number
@@ -60,7 +60,7 @@ def test_a_production_that_another_always_precedes_is_told(rules: str, note: str
 
 
 @pytest.mark.parametrize("rules", [
-    "A : 1 < 2 -> B\nA -> C", "B < A -> B\nA -> C\nB -> A", "A > B -> B\nA -> C\nB -> A", "A -> B : 1/2\nA -> C : 1/2",
+    "A : 1 < 2 -> B\nA -> C", "B < A -> B\nA -> C B\nB -> A", "A > B -> B\nA -> C B\nB -> A", "A -> B : 1/2\nA -> C : 1/2",
     "A -> B(1)\nB(1) -> A\nB(t) -> C", "A -> B(1)\nB(k) -> A\nB(t) -> C", "A -> B\nB -> A\ndecomposition:\nB -> C",
     "A -> B(1)\nB(t) -> B\nB -> A"])
 def test_productions_that_have_their_turn_are_not_told(rules: str) -> None:
@@ -68,7 +68,7 @@ def test_productions_that_have_their_turn_are_not_told(rules: str) -> None:
 
 
 def test_no_certain_production_is_told_behind_chance() -> None:
-    assert read("axiom: A\nA -> B : 1/2\nA -> C\nA -> D").notes == ()
+    assert not any("never applied" in note for note in read("axiom: A\nA -> B : 1/2\nA -> C\nA -> D").notes)
 
 
 @pytest.mark.parametrize("rules", ["A -> A", "A -> B\nB -> C\nC -> x A", "A -> repeat(1) <A>", "A(t) -> A(t-1)", "A -> [A]"])
@@ -89,7 +89,7 @@ def test_many_rules_are_looked_through_quickly() -> None:
         system = read("axiom: A0\ndecomposition:\n" + "\n".join(f"A{i} -> A{i + 1} A{i + 2}" for i in range(5_000)))
     started = time.process_time()
     check_decomposition(system)
-    unused_productions(system)
+    warnings(system)
     assert time.process_time() - started < 2  # comparing each rule with each would take longer on any machine
 
 
@@ -133,3 +133,28 @@ def test_random_numbers_are_drawn_by_what_stands_behind_the_values(text: str) ->
     assert (name, values[0], len(values)) == (text.split("(")[0], 5, text.count(",") + 1)
     assert not is_random(read_expression("sin(t) + if(t < 1, 2, 3)"))
     assert is_random(read_expression(f"1 + max(2, {text})"))
+
+
+@pytest.mark.parametrize(("text", "note"), [
+    ("axiom: a\nA -> A B", 'The production A can never match: no module A occurs. Did you mean "a"?'),
+    ("axiom: A\nA -> B\nC -> D\nD -> C", "The production C can never match: no module C occurs."),
+    ("axiom: A(1)\nA(t) -> A(t,1)", "No production matches A with 2 values: that for A has 1."),
+    ("axiom: A B\nA -> B;",
+     'The ";" after the production for A is read as a command of the turtle; a line needs no sign at its end.'),
+    ("axiom: A\nA -> B.",
+     'The "." after the production for A is read as a command of the turtle; a line needs no sign at its end.'),
+    ("axiom: A\nA -> B : 0.5\nA -> C",
+     "Production 2, for A, has no probability: it is applied only where none of those that have one matches."),
+    ("axiom: A ?E(0)\nA -> A", "Nothing answers ?E: its values stay as they are."),
+])
+def test_what_is_probably_not_meant_is_noted(text: str, note: str) -> None:
+    assert note in read(text).notes
+
+
+@pytest.mark.parametrize("text", [
+    "axiom: F(2) F\nF -> F F", "axiom: A\nA -> {F.F.F.}", "axiom: A\nA -> B ; C", "axiom: a\na -> ab\nb -> a",
+    "axiom: A\nA -> B : 0.5\nA -> C : 0.5", "axiom: A\nA -> B\nB < A -> C\nB -> A B",
+])
+def test_what_may_well_be_meant_is_not_noted(text: str) -> None:
+    assert not any("never match" in note or "No production" in note or "line needs" in note or "no probability" in note
+                   for note in read(text).notes)

@@ -43,7 +43,7 @@ def test_every_problem_has_a_wording_and_every_wording_a_problem() -> None:
 def test_a_wording_ends_as_its_part_of_a_message_does(code: str) -> None:
     """A message is a sentence without its full stop, a hint or a note has one."""
     wording: Wording = WORDINGS[code]
-    note = code.endswith(("never matches", "never applied"))
+    note = code.endswith(("never matches", "never applied", "final sign", "no probability", "number of values", "query"))
     assert wording.message.endswith(".") == note
     assert wording.hint is None or wording.hint.endswith(".")
 

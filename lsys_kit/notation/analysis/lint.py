@@ -1,4 +1,4 @@
-"""What can be seen of a model before it runs: productions that never match, and decomposition that never finishes."""
+"""What can be seen of a model before it runs: what is never applied or answered, likely slips, endless decomposition."""
 
 from __future__ import annotations
 
@@ -12,36 +12,96 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 _ModuleKind = tuple[str, int]
 """A symbol and a number of parameters: what a module is to the rules."""
+_DRAWN_EITHER_WAY = frozenset(("F", "f", "G", "g"))
+"""Commands that make sense with a value and without."""
 
 
 def _kind(module: Pattern) -> _ModuleKind:
     return module.symbol, len(module.arguments)
 
 
-def unused_productions(system: LSystem) -> list[Problem]:
-    """The productions that are never applied: a module they need never occurs, or another always comes first.
+def warnings(system: LSystem) -> list[Problem]:
+    """What is possible in a model and probably not meant.
 
     >>> from lsys_kit.notation.read import read
-    >>> [problem.code for problem in unused_productions(read("axiom: M(1)\\nM(t,p) -> M(t+p)"))]
+    >>> [problem.code for problem in warnings(read("axiom: M(1)\\nM(t,p) -> M(t+p)"))]
     ['never matches']
     >>> read("axiom: A\\nA -> B\\nA -> C").notes
     ('Production 2, for A, is never applied: production 1 comes before it and matches every A.',)
     """
-    return [*_unmatched(system), *_overtaken(system.productions, system, "production"),
-            *_overtaken(system.decomposition, system, "decomposition rule")]
+    reachable = _reachable_kinds(system)
+    return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
+            *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
+            *_other_arities(system, reachable), *_final_signs(system), *_unanswered(reachable)]
 
 
-def _unmatched(system: LSystem) -> Iterator[Problem]:
-    """The rules that can never match, because a module that they need never occurs."""
-    rules = *system.productions, *system.decomposition
-    successors = [*(rule.successor for rule in rules), *(rule.successor for rule in system.meta)]
-    occurring = {_kind(module) for word in (system.axiom, *successors) for module in flat(word)}
-    symbols = {symbol for symbol, _ in occurring}
-    for rule in rules:
+def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
+    """The kinds of modules that can occur in words: those of the axiom, and what rules make of what can occur."""
+    rules = [((rule.predecessor, *rule.left, *rule.right), rule.successor)
+             for rule in (*system.productions, *system.decomposition)]
+    rules += [(rule.predecessors, rule.successor) for rule in system.meta]
+    missing = [{_kind(module) for module in needed if module.symbol != END} for needed, _ in rules]
+    waiting: dict[_ModuleKind, list[int]] = {}
+    for number, kinds in enumerate(missing):
+        for kind in kinds:
+            waiting.setdefault(kind, []).append(number)
+    reached = {_kind(module) for module in flat(system.axiom)}
+    todo = list(reached)
+    while todo:
+        kind = todo.pop()
+        for number in waiting.get(kind, ()):
+            missing[number].discard(kind)
+            if not missing[number]:
+                new = {_kind(module) for module in flat(rules[number][1])} - reached
+                reached |= new
+                todo += new
+    return reached
+
+
+def _unmatched(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem]:
+    """The rules that can never match, because a module that they need never occurs; perhaps its case is wrong."""
+    symbols = {symbol for symbol, _ in reachable}
+    for rule in (*system.productions, *system.decomposition):
         needed = rule.predecessor, *rule.left, *rule.right
-        missing = next((module for module in needed if _kind(module) not in occurring and module.symbol != END), None)
+        missing = next((module for module in needed if _kind(module) not in reachable and module.symbol != END), None)
         if missing is not None:
-            yield Problem("never matches", rule.at, {"rule": rule, "missing": _described(missing, symbols)})
+            other = missing.symbol.swapcase()
+            yield Problem("never matches", rule.at, {"rule": rule, "missing": _described(missing, symbols)},
+                          other if other in symbols and missing.symbol not in symbols else None)
+
+
+def _without_probability(system: LSystem) -> Iterator[Problem]:
+    """The productions without a probability beside others, for the same modules, that have one."""
+    random = {_kind(rule.predecessor) for rule in system.productions if rule.probability is not None}
+    first: dict[_ModuleKind, bool] = {}
+    for number, rule in enumerate(system.productions, 1):
+        comes_later = first.setdefault(_kind(rule.predecessor), rule.probability is not None)
+        if rule.probability is None and comes_later and _kind(rule.predecessor) in random:
+            yield Problem("no probability", rule.at, {"number": number, "rule": rule})
+
+
+def _other_arities(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem]:
+    """The modules that no production rewrites, because they have another number of values than those that it is for."""
+    rewritten = {_kind(rule.predecessor) for rule in (*system.productions, *system.decomposition)}
+    for symbol, count in sorted(reachable - rewritten):
+        others = sorted(other for name, other in rewritten & reachable if name == symbol)
+        if others and symbol.isalpha() and symbol not in _DRAWN_EITHER_WAY:
+            yield Problem("other number of values", None, {"symbol": symbol, "count": count, "others": others[0]})
+
+
+def _final_signs(system: LSystem) -> Iterator[Problem]:
+    """The successors that end in a sign as a sentence or a statement does; it is a command of the turtle."""
+    for rule in system.rules if system.turtle == "abop" else ():
+        modules = [*flat(rule.successor)]
+        last = modules[-1].symbol if modules and not modules[-1].arguments else ""
+        if last == ";" or (last == "." and all(module.symbol != "{" for module in modules)):
+            yield Problem("final sign", rule.at, {"sign": last, "rule": rule})
+
+
+def _unanswered(reachable: set[_ModuleKind]) -> Iterator[Problem]:
+    """Queries that nothing answers."""
+    if any(symbol == "?E" for symbol, _ in reachable):
+        yield Problem("unanswered query", None, {"symbol": "?E"})
 
 
 def _overtaken(rules: Iterable[Production], system: LSystem, called: str) -> Iterator[Problem]:

@@ -98,6 +98,12 @@ WORDINGS: Mapping[str, Wording] = {
     "decomposition rule never applied": Wording(
         "Decomposition rule {number}, for {rule}, is never applied: decomposition rule {first} comes before it and matches "
         "every {module}."),
+    "no probability": Wording("Production {number}, for {rule}, has no probability: it is applied only where none of those "
+                              "that have one matches."),
+    "other number of values": Wording("No production matches {symbol} with {count} values: that for {symbol} has {others}."),
+    "final sign": Wording('The "{sign}" after the production for {rule} is read as a command of the turtle; a line needs no '
+                          "sign at its end."),
+    "unanswered query": Wording("Nothing answers {symbol}: its values stay as they are."),
     "endless decomposition": Wording("Rule {symbol} decomposes into itself: {cycle}", "It can never finish.", ModelValueError),
 }
 """The problems of L-systems, as the kit's own notation words them."""
@@ -134,4 +140,5 @@ def reporting(source: str, spelling: Spelling = KIT_SPELLING) -> Iterator[None]:
 
 def notes(problems: Iterator[Problem] | list[Problem], spelling: Spelling) -> tuple[str, ...]:
     """Problems that are only worth a note, in a dialect's words."""
-    return tuple(worded(problem, spelling)[0] for problem in problems)
+    return tuple(message + (f" {hint}" if problem.suggestion else "")
+                 for problem in problems for message, hint in (worded(problem, spelling),))
