@@ -12,10 +12,11 @@ from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.filaments import LOOKS
@@ -71,6 +72,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     ------
     ModelValueError
         It cannot be drawn, or the choices do not apply to it.
+    ModelNameError
+        There is no such choice.
 
     Examples
     --------
@@ -79,12 +82,25 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     192 segments, width 27, height 31.18
     """
     if isinstance(what, Stages):
+        _check_options(choices, ("tokens", "positions"))
         return _net_picture(what, **choices)
     if isinstance(what, MapSystem | Development):
         return map_picture(what, n, **choices)
     if isinstance(what, Lineage):
+        _check_options(choices, ("intervals",))
         return lineage_picture(what, **choices)
+    if isinstance(what, LSystem):
+        _check_options(choices, ("angle", "seed", "arithmetic", "marked", "cells"), [each.name for each in what.constants])
     return _drawing(what, n, **choices)
+
+
+def _check_options(given: Iterable[str], options: Sequence[str], constants: Sequence[str] = ()) -> None:
+    """Every choice is an option of the picture, or a constant of the system."""
+    for name in given:
+        if name not in options and name not in constants:
+            declared = f" Constants of the system are: {', '.join(constants)}." if constants else ""
+            hint = suggestion(name, [*options, *constants]) or f"Options are: {', '.join(options)}.{declared}"
+            raise ModelNameError(f'There is no option "{name}" here', hint=hint)
 
 
 def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:

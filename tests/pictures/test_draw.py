@@ -6,7 +6,20 @@ import xml.etree.ElementTree as ET
 import pytest
 from PIL import Image
 
-from lsys_kit import LSystemError, ModelFileError, ModelValueError, derive, draw, figure, limits, read, system
+from lsys_kit import (
+    LSystemError,
+    ModelFileError,
+    ModelNameError,
+    ModelValueError,
+    derive,
+    draw,
+    figure,
+    limits,
+    lineage,
+    read,
+    stages,
+    system,
+)
 from lsys_kit.pictures.style.palette import colours
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -132,3 +145,15 @@ def test_a_bundle_has_the_picture_and_its_words():
 def test_names_of_a_model_never_become_markup():
     picture = draw(read("axiom: a\ninterpretation:\na -> L(1,1)"), 0)
     assert "<script" not in picture.svg
+
+
+@pytest.mark.parametrize(("what", "hint"), [
+    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells."),
+    (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
+    (stages(system("P2")), "Options are: tokens, positions."), (lineage(system("P6"), 2), "Options are: intervals."),
+])
+def test_an_option_that_there_is_not_is_named(what, hint):
+    with pytest.raises(ModelNameError) as caught:
+        draw(what, colour="red")
+    assert caught.value.message == 'There is no option "colour" here'
+    assert caught.value.hint.endswith(hint)
