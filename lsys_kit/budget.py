@@ -53,6 +53,8 @@ class Limits:
     """how often a part of a successor is repeated"""
     decomposition: int = 100
     """decompositions of what a decomposition made"""
+    interpretation: int = 500_000
+    """modules that one module is drawn as"""
     brackets: int = 10_000
     """nested brackets of a word"""
     segments: int = 20_000

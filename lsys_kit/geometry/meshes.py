@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError
+from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
 from lsys_kit.geometry.triangulation import triangulate
 
@@ -25,6 +25,8 @@ Numbers: TypeAlias = NDArray[np.uint32]
 
 SIDES, ROUND = 8, 24
 """The number of sides of a stroke, and of corners of a disc."""
+LARGEST_COORDINATE = 1e37
+"""Greater coordinates cannot be computed in single precision."""
 OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
 """Relative widths of strokes by branch order, where the turtle has set no width; the last holds for all deeper branches."""
 RELATIVE_WIDTH, LEAST_WIDTH, GREATEST_WIDTH, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
@@ -80,6 +82,8 @@ def mesh_of(scene: Scene) -> Mesh:
     ------
     ModelLimitError
         There would be more triangles than the limit allows, or a polygon has too many corners.
+    ModelValueError
+        It is too large for the single precision of meshes.
 
     Examples
     --------
@@ -91,6 +95,8 @@ def mesh_of(scene: Scene) -> Mesh:
     ((194, 3), (376, 3))
     """
     _check_triangles(scene)
+    if not max(map(abs, (*scene.corners[0], *scene.corners[1]))) < LARGEST_COORDINATE:
+        raise ModelValueError("This drawing is too large for a mesh", hint="Make its steps shorter.")
     discs, cells = scene.discs, scene.cells
     balls = discs.kinds == SPHERE
     centres, radii = _in_space(discs.centres), discs.radii

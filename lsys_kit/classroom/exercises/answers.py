@@ -19,9 +19,9 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.errors import ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.analysis.checks import span, suggestion
-from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
 from lsys_kit.notation.model.expressions import Expression, expression_type
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -181,7 +181,10 @@ _NOT_PARALLEL: tuple[tuple[Callable[[States, int], list[int]], str], ...] = (
 
 
 def _read_number(_: Exercise, answer: object) -> Value:
-    return number_from(answer, "answer")
+    number = number_from(answer, "answer")
+    if is_symbolic(number):
+        raise ModelValueError(f'A number is needed, and "{quotable(str(number))}" is none')
+    return number
 
 
 def _reply_to_number(_: Exercise, number: Value, solution: Value) -> Verdict:

@@ -3,13 +3,19 @@ Introduction to Modeling with L-systems, section 7)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
+from itertools import islice
+from typing import TypeVar
 
+from lsys_kit.budget import current
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.rules import rules_of
 from lsys_kit.derivation.core.states import States
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import CELLS, WALL, Module, Pattern, flat
 from lsys_kit.notation.model.system import LSystem
+
+_T = TypeVar("_T")
 
 
 def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
@@ -27,19 +33,29 @@ def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[M
 
 def interpretation_of(states: States, module: Module) -> tuple[Module, ...]:
     """The modules that a module is drawn as."""
-    return tuple(_image(states, module, states.system.depth))
-
-
-def _image(states: States, module: Module, depth: int) -> Iterator[Module]:
-    """What a module is drawn as; what that consists of is interpreted in turn, `depth` times in all."""
     rules = rules_of(states.system, states.arithmetic, "interpretation")
-    chance = Chance(0, 0, 0)
-    rule = states.matching_rule(module, rules, chance) if depth else None
-    if rule is None:
-        yield module
-        return
-    for made in states.apply(rule, module, None, chance):
-        yield from _image(states, Module(*made), depth - 1)
+    found: list[Module] = []
+    todo = [(module, states.system.depth)]
+    while todo:
+        part, depth = todo.pop()
+        chance = Chance(0, 0, 0)
+        rule = states.matching_rule(part, rules, chance) if depth else None
+        if rule is None:
+            found.append(part)
+        else:
+            made = _bounded(states.apply(rule, part, None, chance), len(found) + len(todo), module)
+            todo += [(Module(*each), depth - 1) for each in reversed(made)]
+    return tuple(found)
+
+
+def _bounded(made: Iterable[_T], already: int, module: Module) -> list[_T]:
+    """What a module is drawn as, if it is not too much."""
+    most = current().interpretation
+    taken = list(islice(made, max(0, most - already) + 1))
+    if already + len(taken) > most:
+        raise ModelLimitError(f"{module} is drawn as more than {most:,} modules", limit=most,
+                              hint="Use smaller numbers of repetitions, or a smaller depth.")
+    return taken
 
 
 def is_cell(made: Module | Pattern) -> bool:

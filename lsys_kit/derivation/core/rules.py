@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, TypeAlias, TypeGuard
 
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.errors import ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
@@ -240,7 +240,7 @@ def number_from(given: object, name: str = "value") -> Value:
         if isinstance(given, numbers.Rational):
             return normalised(Fraction(int(given.numerator), int(given.denominator)))
         return normalised(Fraction(repr(float(given))))
-    raise ModelValueError(f'"{name}" must be a number, not {str(given)[:40]!r}')
+    raise ModelValueError(f'"{name}" must be a number, not {_beginning(given)}')
 
 
 def real_from(given: object, name: str) -> float:
@@ -253,7 +253,7 @@ def real_from(given: object, name: str) -> float:
     try:
         return float(value)
     except (TypeError, OverflowError):
-        raise ModelValueError(f'"{name}" must be a number that is known and not too large, not {str(given)[:40]!r}') from None
+        raise ModelValueError(f'"{name}" must be a number that is known and not too large, not {_beginning(given)}') from None
 
 
 def unknown_constant(name: str) -> Any:
@@ -261,6 +261,14 @@ def unknown_constant(name: str) -> Any:
     import sympy
 
     return sympy.Symbol(name, real=True)
+
+
+def _beginning(given: object) -> str:
+    """The beginning of a value, as a message quotes it."""
+    try:
+        return repr(quotable(str(given)[:40]))
+    except ValueError:  # Python refuses to write a whole number of thousands of digits
+        return "one of thousands of digits"
 
 
 def _finite(given: numbers.Real) -> bool:

@@ -122,6 +122,8 @@ def _return_to_stroke(turtle: PlaneTurtle, instruction: Instruction) -> None:
         turtle.position = turtle.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
 
 
+LARGEST_EXACT = 2.0**40
+"""Greater angles are reduced to less than a full turn, so that their multiples are no less exact."""
 _COLUMN_TYPES = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
                  "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
 PLANE_HANDLERS: Mapping[str, Handler] = {
@@ -166,6 +168,7 @@ def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     >>> print(place_path(trace(koch), 60, 0))
     192 segments, width 27, height 31.18
     """
+    angle = math.fmod(angle, 360) if abs(angle) > LARGEST_EXACT else angle  # the number of turns is whole
     radians = np.radians(path.turns * angle + path.offsets + heading)
     vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
     ends = _summed_along_parents(vectors, path.parents)

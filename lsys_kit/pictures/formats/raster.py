@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +22,11 @@ if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
-Coordinates: TypeAlias = NDArray[np.float32]
+Coordinates: TypeAlias = NDArray[np.floating[Any]]
 FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
+FLOAT32_RANGE = 1e30
+"""Coordinates up to this can be computed in single precision."""
 STROKES_AT_A_TIME = 2**16
 """Strokes are rasterised in blocks of this size, which stay in the cache of the processor between two operations."""
 
@@ -48,9 +50,10 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -
         pen.polygon((frame.points(corners) * (FINE / 10)).ravel().tolist(), fill=tinted(colour, 0.7), outline=colour, width=2)
     image = np.array(sheet)
     fine = frame.scale * FINE
-    ends = scene.segments.ends.astype(np.float32)
-    across = (ends[:, ::2] - np.float32(frame.left)) * np.float32(fine) + np.float32(MARGIN * FINE)
-    down = (np.float32(frame.top) - ends[:, 1::2]) * np.float32(fine) + np.float32(MARGIN * FINE)
+    precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
+    ends, (left, top, factor, margin) = scene.segments.ends.astype(precision), np.array(
+        [frame.left, frame.top, fine, MARGIN * FINE], precision)
+    across, down = (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
     for colour, width, chosen in groups(scene.segments, frame.scale, colour_of):
         found = touched(across[chosen], down[chosen], image.shape[:2])
         image[spread(found, width * FINE / 20)] = tuple(bytes.fromhex(colour[1:]))
