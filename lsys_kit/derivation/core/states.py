@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import Any
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.application import RuleApplication
@@ -86,6 +87,15 @@ class States(RuleApplication):
 
     def __len__(self) -> int:
         return len(self.modules)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The table without its rules, which are functions; they are made again from the system."""
+        return {**vars(self), "rules": {}, "decomposition": {}, "_applied": {}}
+
+    def __setstate__(self, kept: dict[str, Any]) -> None:
+        vars(self).update(kept)
+        self.rules = rules_of(self.system, self.arithmetic)
+        self.decomposition = rules_of(self.system, self.arithmetic, "decomposition")
 
     def number(self, symbol: str, values: tuple[Value, ...] = ()) -> int:
         """The state of a module, a new one where it has not been met."""

@@ -73,6 +73,9 @@ class ColumnWord(Word):
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
         self._row: Array | None = None
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return Word, (self.states, self.codes)
+
     def __len__(self) -> int:
         return len(self.kinds)
 

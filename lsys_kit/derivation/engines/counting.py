@@ -37,6 +37,12 @@ class CountingEngine:
         self._new = 0  # so many states were met first at the last step
         self._late: list[Word] = []
 
+    def __getstate__(self) -> dict[str, object]:
+        """All but the functions for columns, which are made again; their words number their states before the table is copied."""
+        for word in self._late:
+            word.numbers()
+        return {name: value for name, value in vars(self).items() if name != "_columns"}
+
     @property
     def known(self) -> int:
         """The last step whose size is known."""

@@ -12,6 +12,7 @@ from functools import partial
 
 import numpy as np
 
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
 from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Observation, Observer, Origins, check_size, check_time
@@ -27,6 +28,11 @@ class SteppingEngine:
         states = stepper.states
         self.states, self._world, self._stepper, self._arrays = states, world, stepper, arrays
         self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """The words and their origins, without what was computed on the way: functions and tables are made again."""
+        steps = [(word, origins()) for word, origins in self._steps]
+        return _resumed, (self.states, self._stepper.seed, self._arrays is not None, self._world, steps)
 
     @property
     def known(self) -> int:
@@ -113,3 +119,16 @@ class SteppingEngine:
     def sight(self, step: int) -> Observation | None:
         """What the next step sees of a known step's word; None without an observer."""
         return self._world(self.word(step), lambda: None) if self._world else None
+
+
+def _resumed(states: States, seed: int, by_arrays: bool, world: Observer | None,
+             steps: Sequence[tuple[Word, Origins]]) -> SteppingEngine:
+    """An engine that goes on from some steps."""
+    stepper = Stepper(states, seed)
+    engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world)
+    engine._steps = [(word, partial(_same, origins)) for word, origins in steps]
+    return engine
+
+
+def _same(origins: Origins) -> Origins:
+    return origins
