@@ -1,4 +1,4 @@
-"""Both lessons in a real JupyterLab: every slider moves by keyboard and changes the word, the tokens and the drawing."""
+"""The lessons in a real JupyterLab: every slider moves by keyboard and changes the word, the tokens and the drawing."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class CountingEngine:
         self._late: list[Word] = []
 
     def __getstate__(self) -> dict[str, object]:
-        """All but the functions for columns, which are made again; their words number their states before the table is copied."""
+        """All but the functions for columns, which are made again; words in columns number their states before that."""
         for word in self._late:
             word.numbers()
         return {name: value for name, value in vars(self).items() if name != "_columns"}
