@@ -14,7 +14,7 @@ from lsys_kit import draw, system, systems
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.syntax.text.transcription import transcribe
+from lsys_kit.notation.syntax.text.transcription import _transcript, transcribe
 from lsys_kit.notation.write import write
 
 LISTINGS = {path.stem: path.read_text(encoding="utf-8")
@@ -139,3 +139,12 @@ def test_edges_of_several_kinds_are_drawn() -> None:
     assert len(draw(dragon, 5).scene.segments) == 32
     assert read(write(dragon)) == dragon
     assert not read("axiom: F_l\nF_l -> F_l F_l\ninterpretation:\nF_l -> f").notes
+
+
+@given(st.text("ABp01 .<>:*=->,;#()[]\n\\_{}", max_size=60))
+def test_what_shows_no_sign_of_print_at_first_sight_has_none(text: str) -> None:
+    try:
+        found = _transcript(text)
+    except LSystemError:
+        return
+    assert transcribe(text).text == found.text

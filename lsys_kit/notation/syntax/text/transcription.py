@@ -25,6 +25,7 @@ _WEDGES = str.maketrans("∧⋀", "^^")
 """Before an arrow a wedge joins two conditions; behind it, it is a turn."""
 _LABEL = re.compile(r"[ \t]*+[pP]_?(?:\d+|\{\d+\})[ \t]*+:")
 _OMEGA = re.compile(r"[ \t]*+(?:ω|\\omega)[ \t]*+[:=]")
+_LABELLED = re.compile(rf"^(?:{_LABEL.pattern}|{_OMEGA.pattern})", re.MULTILINE)
 _AXIOM = re.compile(r"[ \t]*+axiom\b", re.IGNORECASE)
 _DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
 _ASSIGNED = r"(?:[A-Za-z]\w*|δ|\\delta)[ \t]*+=[ \t]*+[\d.]+[ \t]*+(?:°|\^?\{?\\circ\}?)?"
@@ -48,6 +49,12 @@ _SPACE = re.compile(
     r"\\(?:q?quad\b|[,;!])|\\\\[ \t]*+$|\\(?:begin|end)[ \t]*+\{(?:array|align\*?|eqnarray\*?|tabular)\}(?:\{[lcr| ]*\})?")
 _LATEX = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|begin[ \t]*+\{)")
 _ACCENT = re.compile(r"\\(bar|overline|hat|tilde|dot)[ \t]*+(?:\{[ \t]*+([A-Za-z]\w*)[ \t]*+\}|([A-Za-z]))")
+
+_SIGN_OF_PRINT = re.compile(r"""[^\x00-\x7f]|\\[a-z]{4}
+    |^[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t])
+    |^[^:<\n]*+<[ \t]*+\d|^[^:\n]*\.\d+[ \t]*+(?:-->|->|::=)|\*[ \t]*+<|>[ \t]*+\*|=[ \t]*+[\d.]++[ \t]*+[,;]""",
+                            re.MULTILINE | re.VERBOSE)
+"""A text in which this is not found is written as the kit writes it; most are, and need not be looked at line by line."""
 
 
 class Edit(NamedTuple):
@@ -104,6 +111,13 @@ def transcribe(source: str) -> Transcript:
     p1 : F→ F[+F] : .5
     p2 : F→ F : .5
     """
+    if not _SIGN_OF_PRINT.search(source):
+        return Transcript(source, source)
+    return _transcript(source)
+
+
+def _transcript(source: str) -> Transcript:
+    """The same, however a text looks at first sight."""
     typed = _with_typed_signs(source)
     listing = _Listing(without_comments(typed))
     edits = sorted({*listing.macros(), *listing.settings(), *listing.rules(), *listing.digits()})
@@ -282,4 +296,4 @@ def as_typed(source: str) -> Transcript:
 
 def likely(text: str) -> int:
     """How likely a text is a listing as The Algorithmic Beauty of Plants prints it: labels and an ω are no other notation's."""
-    return 1 + 100 * any(_LABEL.match(line) or _OMEGA.match(line) for line in text.split("\n"))
+    return 1 + 100 * bool(_LABELLED.search(text))
