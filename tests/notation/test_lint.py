@@ -153,6 +153,7 @@ def test_what_is_probably_not_meant_is_noted(text: str, note: str) -> None:
 
 @pytest.mark.parametrize("text", [
     "axiom: F(2) F\nF -> F F", "axiom: A\nA -> {F.F.F.}", "axiom: A\nA -> B ; C", "axiom: a\na -> ab\nb -> a",
+    "axiom: A\nA -> B\nB -> ;;", "axiom: A\nA -> B\nB -> ;", "axiom: A\nA -> B;\nB -> F;F",
     "axiom: A\nA -> B : 0.5\nA -> C : 0.5", "axiom: A\nA -> B\nB < A -> C\nB -> A B",
 ])
 def test_what_may_well_be_meant_is_not_noted(text: str) -> None:

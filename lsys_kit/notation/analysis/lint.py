@@ -90,11 +90,16 @@ def _other_arities(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Pro
 
 
 def _final_signs(system: LSystem) -> Iterator[Problem]:
-    """The successors that end in a sign as a sentence or a statement does; it is a command of the turtle."""
-    for rule in system.rules if system.turtle == "abop" else ():
-        modules = [*flat(rule.successor)]
+    """
+    The successors that end in a sign as a sentence or a statement does; it is a command of the turtle.
+
+    A system that has the sign in another place, or as a whole successor, uses it as a command.
+    """
+    successors = [(rule, [*flat(rule.successor)]) for rule in (system.rules if system.turtle == "abop" else ())]
+    meant = {module.symbol for _, modules in successors for module in modules[:-1] or modules}
+    for rule, modules in successors:
         last = modules[-1].symbol if modules and not modules[-1].arguments else ""
-        if last == ";" or (last == "." and all(module.symbol != "{" for module in modules)):
+        if last not in meant and (last == ";" or (last == "." and all(module.symbol != "{" for module in modules))):
             yield Problem("final sign", rule.at, {"sign": last, "rule": rule})
 
 
