@@ -39,7 +39,7 @@ ARITHMETICS = pytest.mark.parametrize("arithmetic", ["exact", "float"])
 def columns(wanted: bool) -> Iterator[None]:
     """Words are columns from the first step on, or never."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(CountingEngine, "_nearly_all_new", lambda engine: wanted)
+        patch.setattr(CountingEngine, "_many_new", lambda engine: wanted)
         yield
 
 
@@ -77,6 +77,18 @@ def test_many_different_modules_are_no_burden(arithmetic: str) -> None:
     assert isinstance(derivation[-1], ColumnWord)
     assert len(derivation.states) < 2_000
     assert derivation.origins(3).parents == [0, 0, 1, 1, 2, 2, 3, 3]
+
+
+@ARITHMETICS
+@pytest.mark.parametrize("successor", ["F(.37*x+.1) [+(x) F(.59*x+.2)]", "F(.37*x+.1) [+ F(.59*x+.2)] [- F(.7*x+.3)]"])
+def test_brackets_and_turns_among_different_modules_are_no_burden(successor: str, arithmetic: str) -> None:
+    """At most three of eight modules are new at a step; the others are brackets, or turns that stay."""
+    system = read(f"axiom: F(1)\nF(x) -> {successor}")
+    derivation = derive(system, 9, arithmetic=arithmetic)
+    assert isinstance(derivation[-1], ColumnWord)
+    assert len(derivation.states) < 1_000
+    with columns(False):
+        assert str(derivation[-1]) == str(derive(system, 9, arithmetic=arithmetic)[-1])
 
 
 def test_what_outgrows_exact_numbers_goes_back_to_the_table() -> None:

@@ -21,12 +21,14 @@ from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Origins, check_size, check_time
 from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
 
-DIFFERENT = 50
-"""Where more new states than this are met in a step, and they are most of its word, words become columns."""
+FEWEST_NEW = 50
+"""Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
+SMALL_PART = 1 / 8
+"""A new state takes about eight times as long in the table as a module of columns takes to be numbered afterwards."""
 
 
 class CountingEngine:
-    """The derivation of a D0L system, in columns from where on nearly all modules are different, if it is `columnar`."""
+    """The derivation of a D0L system, in columns from where on many modules are different, if it is `columnar`."""
 
     def __init__(self, states: States, columnar: bool) -> None:
         self.states = states
@@ -59,7 +61,7 @@ class CountingEngine:
     def advance(self, until: float) -> None:
         """Make one step more known."""
         step, (before, _) = self.known + 1, self._steps[-1]
-        if self._late or (self._columnar and self._nearly_all_new()):
+        if self._late or (self._columnar and self._many_new()):
             self._late.append(self._next_word(step, until))
             return
         met = len(self.states)
@@ -72,16 +74,19 @@ class CountingEngine:
         self._new = len(self.states) - met
         self._steps.append((after, size))
 
-    def _nearly_all_new(self) -> bool:
-        """Whether most modules of the last word were met for the first time in it."""
-        return self._new > DIFFERENT and 2 * self._new > self._steps[-1][1]
+    def _many_new(self) -> bool:
+        """Whether many modules of the last word were met for the first time in it.
+
+        They are not most of it where the turtle turns at each of them: brackets and turns are the same, or stay.
+        """
+        return self._new > FEWEST_NEW and self._new > SMALL_PART * self._steps[-1][1]
 
     @cached_property
     def _columns(self) -> ColumnarSteps:
         return ColumnarSteps(self.states)
 
     def _next_word(self, step: int, until: float) -> Word:
-        """The next word, where nearly all modules are different: in columns, or from the table of states."""
+        """The next word, where many modules are different: in columns, or from the table of states."""
         before, columns = self.word(step - 1), self._columns
         check_time(self.states, step, until)
         try:
