@@ -141,7 +141,7 @@ def test_edges_of_several_kinds_are_drawn() -> None:
     assert not read("axiom: F_l\nF_l -> F_l F_l\ninterpretation:\nF_l -> f").notes
 
 
-@given(st.text("ABp01 .<>:*=->,;#()[]\n\\_{}", max_size=60))
+@given(st.text("ABp01 .<>:*=->,;#()[]\n\\_{}ε→ωδ°’–∧•", max_size=60))
 def test_what_shows_no_sign_of_print_at_first_sight_has_none(text: str) -> None:
     try:
         found = _transcript(text)

@@ -15,7 +15,7 @@ from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.spelling import KIT_SPELLING, Spelling
-from lsys_kit.notation.syntax.text.transcription import Transcript, as_typed
+from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft

@@ -75,6 +75,8 @@ def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Produ
 def _likely(text: str) -> int:
     """Ten for each line of the first systems that gives an angle or an axiom as only Fractint does; nothing where other lines
     cannot stand there."""
+    if not _SAID.search(text):
+        return 0
     plain = uncommented(text)
     sample = system_entries(islice(entries_in(plain), SAMPLED_SYSTEMS))
     bodies = [plain[entry.opened + 1:entry.stop] for entry in sample] or [plain]

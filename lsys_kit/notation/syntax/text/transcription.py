@@ -9,14 +9,12 @@ from, so that an error is shown in the text that was typed.
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed
 
 _ARROW = ARROW.pattern
 _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
@@ -50,57 +48,16 @@ _SPACE = re.compile(
 _LATEX = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|begin[ \t]*+\{)")
 _ACCENT = re.compile(r"\\(bar|overline|hat|tilde|dot)[ \t]*+(?:\{[ \t]*+([A-Za-z]\w*)[ \t]*+\}|([A-Za-z]))")
 
-_SIGN_OF_PRINT = re.compile(r"""[^\x00-\x7f]|\\[a-z]{4}
-    |^[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t])
-    |^[^:<\n]*+<[ \t]*+\d|^[^:\n]*\.\d+[ \t]*+(?:-->|->|::=)|\*[ \t]*+<|>[ \t]*+\*|=[ \t]*+[\d.]++[ \t]*+[,;]""",
-                            re.MULTILINE | re.VERBOSE)
-"""A text in which this is not found is written as the kit writes it; most are, and need not be looked at line by line."""
-
-
-class Edit(NamedTuple):
-    """A stretch of the source, and what is written in its place."""
-
-    start: int
-    end: int
-    text: str
-
-
-@dataclass(frozen=True)
-class Transcript:
-    """A source as the kit writes it.
-
-    Attributes
-    ----------
-    source, text
-        What was typed, and what is read.
-    notes
-        What was understood.
-    """
-
-    source: str
-    text: str
-    notes: tuple[str, ...] = ()
-    _starts: Sequence[int] = field(default=(0,), repr=False)
-    _origins: Sequence[int] = field(default=(0,), repr=False)
-
-    def origin(self, offset: int) -> int:
-        """Where in the source a character of the text comes from; what was put in comes from the place where it was put.
-
-        >>> found = transcribe("n=3, δ=60°\\nF\\nF → F+F")
-        >>> found.text, found.origin(found.text.index("F+F"))
-        ('steps:3\\n δ=60°\\naxiom: F\\nF → F+F', 17)
-        """
-        piece = bisect_right(self._starts, offset) - 1
-        last = self._origins[piece + 1] if piece + 1 < len(self._origins) else len(self.source)
-        return min(self._origins[piece] + offset - self._starts[piece], last)
-
-    def relocated(self, error: LSystemError) -> LSystemError:
-        """An error about the text, as one about the source."""
-        if self.text == self.source or error.line is None or error.source != self.text:
-            return error
-        before = sum(len(line) + 1 for line in self.text.split("\n")[:error.line - 1])
-        start, end = before + (error.column or 1) - 1, before + (error.end or 2) - 1
-        return error.moved(self.source, self.origin(start), max(self.origin(end), self.origin(start) + 1))
+_TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}ωδ°•]")
+_SIGNS_OF_PRINT = (
+    re.compile(r"\\[a-z]{4}"),
+    re.compile(r"\*[ \t]*+<"),
+    re.compile(r">[ \t]*+\*"),
+    re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
+    re.compile(rf"\.\d++[ \t]*+(?:{_ARROW})"),
+    re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|[^:<\n]*+<[ \t]*+\d)"))
+"""A text with none of these and nothing typographic is written as the kit writes it, and is not looked at line by line.
+Each begins with one character, which is quickly found."""
 
 
 def transcribe(source: str) -> Transcript:
@@ -111,9 +68,10 @@ def transcribe(source: str) -> Transcript:
     p1 : F→ F[+F] : .5
     p2 : F→ F : .5
     """
-    if not _SIGN_OF_PRINT.search(source):
-        return Transcript(source, source)
-    return _transcript(source)
+    lines = f"\n{source}"
+    typographic = not source.isascii() and _TYPOGRAPHIC.search(source)
+    printed = typographic or any(sign.search(lines) for sign in _SIGNS_OF_PRINT)
+    return _transcript(source) if printed else as_typed(source)
 
 
 def _transcript(source: str) -> Transcript:
@@ -154,6 +112,7 @@ def _with_typed_signs(source: str) -> str:
 class _Line(NamedTuple):
     start: int
     text: str
+    arrow: re.Match[str] | None
 
     @property
     def end(self) -> int:
@@ -165,11 +124,12 @@ class _Listing:
 
     def __init__(self, plain: str) -> None:
         self.plain = plain
-        self.lines = [_Line(match.start(), match.group()) for match in re.finditer(r"[^\n]+", plain)
-                      if match.group().strip() and len(match.group()) <= current().line]  # longer ones will be refused
+        longest = current().line  # longer ones will be refused
+        self.lines = [_Line(match.start(), line, ARROW.search(line)) for match in re.finditer(r"[^\n]+", plain)
+                      if len(line := match.group()) <= longest and not line.isspace()]
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
-        self.first = next((index for index, line in enumerate(self.lines) if ARROW.search(line.text)), len(self.lines))
+        self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
         self.notes: list[str] = []
 
     def macros(self) -> Iterator[Edit]:
@@ -208,22 +168,22 @@ class _Listing:
         """Under a line with the angle a word stands alone, before the first production."""
         named = any(_AXIOM.match(line.text) or _START.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         before = [line for line in self.lines if not _ASSIGNMENTS.match(line.text) and not _NAMED.match(line.text)]
-        if self.printed and not named and len(before) > 1 and not ARROW.search(before[0].text) and ARROW.search(before[1].text):
+        if self.printed and not named and len(before) > 1 and not before[0].arrow and before[1].arrow:
             first = before[0]
             self.notes.append(f'"{first.text.strip()}" is read as the axiom.')
             yield Edit(first.start, first.start, "axiom: ")
 
     def rules(self) -> Iterator[Edit]:
         """Productions: dashes before them, lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
-        heads = [line for line in self.lines if ARROW.search(line.text)]
+        heads = [line for line in self.lines if line.arrow]
         dashed = bool(heads) and all(_DASH.match(line.text) for line in heads)
         above: str | None = None
         for index, line in enumerate(self.lines):
-            arrow = ARROW.search(line.text)
+            arrow = line.arrow
             if arrow is None:
                 number = _ABOVE.match(line.text)
                 following = self.lines[index + 1] if index + 1 < len(self.lines) else None
-                if number and following and ARROW.search(following.text):
+                if number and following and following.arrow:
                     above = number[1]
                     yield Edit(line.start, line.end, "")
                 elif self._goes_on(index):
@@ -259,13 +219,13 @@ class _Listing:
 
     def _end(self, index: int) -> int:
         """Where a production ends that begins on a line."""
-        while index + 1 < len(self.lines) and not ARROW.search(self.lines[index + 1].text) and self._goes_on(index + 1):
+        while index + 1 < len(self.lines) and not self.lines[index + 1].arrow and self._goes_on(index + 1):
             index += 1
         return self.lines[index].end
 
     def digits(self) -> Iterator[Edit]:
         """Digits as symbols, where a production rewrites one: set apart from what they are glued to."""
-        heads = [line for line in self.lines if ARROW.search(line.text)]
+        heads = [line for line in self.lines if line.arrow]
         declared = any(_ALPHABET.match(line.text) for line in self.lines)
         if declared or not any(_DIGIT_RULE.match(self._bare(line)) for line in heads):
             return
@@ -287,11 +247,6 @@ class _Listing:
         """A line without its label, its values and what stands over its arrow, every other character in its place."""
         text = _LABEL.sub(lambda match: " " * len(match.group()), line.text, count=1) if _LABEL.match(line.text) else line.text
         return _PROBABILITY.sub(lambda match: " " * len(match.group()), blank_parentheses(text))
-
-
-def as_typed(source: str) -> Transcript:
-    """A text that is read as it stands."""
-    return Transcript(source, source)
 
 
 def likely(text: str) -> int:
