@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from operator import attrgetter
@@ -19,7 +20,7 @@ from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
 from lsys_kit.geometry.turtle.surfaces import Surface, surface_called, surfaces
 
 
-class Turtle:
+class Turtle(ABC):
     """A turtle, with what it carries and what it has drawn.
 
     Attributes
@@ -63,17 +64,17 @@ class Turtle:
         self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
 
+    @abstractmethod
     def forward(self, length: float, drawn: bool) -> None:
         """Move forward, with or without a stroke."""
-        raise NotImplementedError
 
+    @abstractmethod
     def initial_orientation(self, degrees: float) -> Any:
         """The initial orientation, turned to the left by some degrees."""
-        raise NotImplementedError
 
+    @abstractmethod
     def local_point(self, ahead: float, left: float, up: float) -> Any:
         """A point given by its coordinates in the frame of the turtle."""
-        raise NotImplementedError
 
     def stroke_width(self) -> float:
         """The width of a stroke, in the units of the model."""
