@@ -9,7 +9,6 @@ each combination that occurs.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import Any
 
 from lsys_kit.budget import current
@@ -82,7 +81,7 @@ class States(RuleApplication):
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
         known = traits_of(system, arithmetic)
-        self.traits = replace(known, unknown=True) if any(map(is_symbolic, self.constants)) else known
+        self.traits = known._replace(unknown=True) if any(map(is_symbolic, self.constants)) else known
         self.axiom = tuple(self._axiom())
 
     def __len__(self) -> int:

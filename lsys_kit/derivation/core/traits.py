@@ -9,9 +9,10 @@ so that a larger value asks for more of an engine, and what an engine can do is 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields
 from functools import lru_cache
 from itertools import chain
+from operator import le
+from typing import NamedTuple
 
 from lsys_kit.derivation.core.rules import Rule, is_branch, rules_of
 from lsys_kit.notation.model.expressions import Apply
@@ -26,8 +27,7 @@ MOST_CONTEXT = 10**9
 """More neighbours than any context names."""
 
 
-@dataclass(frozen=True)
-class Traits:
+class Traits(NamedTuple):
     """What a system has.
 
     Attributes
@@ -80,7 +80,7 @@ class Traits:
 
     def within(self, most: Traits) -> bool:
         """Whether the system asks for no more than the given traits."""
-        return all(getattr(self, trait.name) <= getattr(most, trait.name) for trait in fields(self))
+        return all(map(le, self, most))
 
     @property
     def d0l(self) -> bool:

@@ -7,7 +7,6 @@ for it. Those further down serve it as well, and must give the same words: the l
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from types import MappingProxyType
 
 from lsys_kit.derivation.core.states import States
@@ -22,7 +21,7 @@ from lsys_kit.derivation.engines.stepwise import Stepper
 ENGINES: Mapping[type, Traits] = MappingProxyType({
     ColumnarSteps: Traits(),
     CountingEngine: D0L,
-    ContextEngine: replace(S0L, context=1, meta=True),
+    ContextEngine: S0L._replace(context=1, meta=True),
     Stepper: Traits(MOST_CONTEXT, *[True] * 11),
 })
 """The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
