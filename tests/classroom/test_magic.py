@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import builtins
 import html
 import re
@@ -71,11 +72,13 @@ def notebook(monkeypatch, tmp_path):
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
     for name in ("display", "__IPYTHON__"):  # IPython leaves these among the names of Python
         monkeypatch.setattr(builtins, name, None, raising=False)
+    monkeypatch.delattr(builtins, "_", raising=False)  # which a doctest leaves there, and which hides that of the shell
     shell = InteractiveShell.instance(config=Config(HistoryManager={"enabled": False}))
     shell.run_line_magic("load_ext", "lsys_kit")
     yield Notebook(shell)
     shell.restore_sys_module_state()
     InteractiveShell.clear_instance()
+    atexit.unregister(shell.atexit_operations)  # each would collect all garbage once more when the process ends
 
 
 # --- a system ---------------------------------------------------------------------------------------------------------
