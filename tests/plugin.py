@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from collections.abc import Iterator
 
@@ -12,7 +13,7 @@ from lsys_kit.budget import limits
 pytest_plugins = ["tests.browser.fixtures"]
 """The browser is for the tests of the lessons and for the benchmarks."""
 
-FEW_EXAMPLES = 10
+FEW_EXAMPLES = 5
 """How many examples of a law a quick run tries, unless the law sets a number of its own."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
@@ -47,6 +48,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("browser")
         if "benchmark" in fixtures or "benchmarks" in item.path.parts:
             item.add_marker("slow")
+
+
+def pytest_collection_finish() -> None:
+    """What was collected lives to the end: the garbage collector need not look at it again and again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(wrapper=True)

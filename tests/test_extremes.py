@@ -41,6 +41,7 @@ def test_any_number_may_be_an_answer(answer: object) -> None:
     assert check("1.2", answer) < 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "axiom: a\na -> a\ninterpretation:\na -> repeat(100000,i)<repeat(100000,j)<F>>",
     "axiom: a\na -> a\ndepth: 100\ninterpretation:\na -> a a",

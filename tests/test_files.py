@@ -63,6 +63,7 @@ def in_a_small_space(code: str, folder: Path) -> str:
     return done.stdout + done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limit on the size of files")
 def test_a_full_disk_leaves_the_old_picture(tmp_path: Path) -> None:
     draw(system("K5"), 1).save(tmp_path / "plant.svg")

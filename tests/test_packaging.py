@@ -24,6 +24,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return next(folder.glob("*.whl"))
 
 
+@pytest.mark.slow
 def test_the_wheel_is_pure_python(wheel):
     assert wheel.name.endswith("-py3-none-any.whl")
 
@@ -63,6 +64,7 @@ def test_every_link_of_the_readme_and_of_the_guides_leads_to_a_file():
             assert ((ROOT / page).parent / link).exists(), f"{page}: {link}"
 
 
+@pytest.mark.slow
 def test_the_lines_of_the_readme_do_something():
     (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.DOTALL)
     *lines, last = code.strip().splitlines()

@@ -430,6 +430,7 @@ def test_an_interruption_is_quiet(shell, monkeypatch):
     assert shell("derive", "-", "-n", "1") == Said(INTERRUPTED, "", "")
 
 
+@pytest.mark.slow
 def test_the_shell_starts_without_what_it_does_not_need():
     needless = {"numpy", "sympy", "matplotlib", "ipywidgets", "PIL"}
     assert loaded_by("import lsys_kit.__main__") & {*needless, "lark"} == set()

@@ -219,6 +219,7 @@ def test_a_system_of_ones_own_is_explored_too():
     assert str(panel.sight.word) == "A(2.8)"
 
 
+@pytest.mark.slow
 def test_sequential_play_stops_at_the_end():
     import asyncio
 

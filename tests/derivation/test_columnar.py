@@ -79,6 +79,7 @@ def test_many_different_modules_are_no_burden(arithmetic: str) -> None:
     assert derivation.origins(3).parents == [0, 0, 1, 1, 2, 2, 3, 3]
 
 
+@pytest.mark.slow
 @ARITHMETICS
 @pytest.mark.parametrize("successor", ["F(.37*x+.1) [+(x) F(.59*x+.2)]", "F(.37*x+.1) [+ F(.59*x+.2)] [- F(.7*x+.3)]"])
 def test_brackets_and_turns_among_different_modules_are_no_burden(successor: str, arithmetic: str) -> None:

@@ -86,6 +86,7 @@ def test_a_base_that_the_system_declares_may_be_unknown() -> None:
 # Laws
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(HUNDREDTHS, HUNDREDTHS, HUNDREDTHS)
 def test_daughters_that_begin_younger_have_one_base(t_div: Fraction, t_s: Fraction, t_l: Fraction) -> None:
@@ -98,6 +99,7 @@ def test_daughters_that_begin_younger_have_one_base(t_div: Fraction, t_s: Fracti
     assert cells("a^t", t_div=t_div, t_s=t_s, t_l=t_l, a=base).continuous
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(HUNDREDTHS, HUNDREDTHS, HUNDREDTHS)
 def test_a_base_and_a_rate_say_the_same(t_div: Fraction, t_s: Fraction, t_l: Fraction) -> None:
@@ -148,6 +150,7 @@ def test_anabaena_with_linear_growth_has_a_jump_or_a_bend() -> None:
     assert str(bent.divisions[4]) == "ar(1) -> al(0)br(0): derivative 1: 1 before, 2 after, a jump by 1"
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(HUNDREDTHS, HUNDREDTHS, HUNDREDTHS, FACTORS)
 def test_linear_growth_of_equal_cells_is_never_smooth(t_div: Fraction, t_s: Fraction, t_l: Fraction, first: Fraction) -> None:
@@ -162,6 +165,7 @@ def test_linear_growth_of_equal_cells_is_never_smooth(t_div: Fraction, t_s: Frac
         cells("p + c*t", 1, **ages).solve("c")
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(FACTORS, FACTORS)
 def test_the_unit_of_length_does_not_matter(base: Fraction, unit: Fraction) -> None:

@@ -18,6 +18,7 @@ COPIES: dict[str, Callable[[Derivation], Derivation]] = {
     "pickled": lambda words: pickle.loads(pickle.dumps(words)), "copied": copy.copy, "deeply copied": copy.deepcopy}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MODELS)
 @pytest.mark.parametrize("how", COPIES)
 def test_a_copy_of_a_derivation_goes_on_as_the_original(name: str, how: str) -> None:

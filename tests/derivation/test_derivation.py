@@ -311,6 +311,7 @@ def test_an_interrupt_leaves_the_table_whole(system: LSystem) -> None:
         derivation = derive(system, 0)
 
 
+@pytest.mark.slow
 def test_a_step_of_few_modules_that_make_many_has_its_time() -> None:
     """Each of forty modules makes fifty thousand: somebody looks at the clock behind each."""
     system = read("axiom: B" + " A(0)" * 40 + "\nA(x) -> repeat(50000) <F(uniform(0, 1))>\nB < F(x) -> F(x)")

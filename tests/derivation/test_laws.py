@@ -106,6 +106,7 @@ def test_the_last_word_is_the_same_without_those_between(system: LSystem, steps:
         assert modules(derive(system, len(stepwise) - 1)[-1]) == modules(stepwise[-1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("plain_up_to", "piece"), [(0, 1), (0, 3), (5, 64), (10**6, 2)])
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40)
 @given(system=systems())
@@ -358,6 +359,7 @@ def test_what_stands_behind_a_cut_makes_no_difference(system: LSystem, other: LS
     assert list(map(modules, cut))[1:] == list(map(modules, derive(system, STEPS)))[1:]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", [(CONTEXT,), (CHANCE,), ()])
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(data=st.data(), seed=seeds, steps=st.permutations(range(STEPS + 1)))

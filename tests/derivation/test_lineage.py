@@ -45,6 +45,7 @@ def test_the_cells_of_each_step_are_the_modules_of_its_word(id: str) -> None:
     assert words(lineage(derivation)) == named(derivation)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.one_of(systems(), *map(systems_with, ("context", "chance", "decomposition", "cut"))))
 def test_so_they_are_in_random_systems(model: object) -> None:

@@ -65,6 +65,7 @@ def test_a_petri_net_tool_fires_the_steps_that_the_kit_derives(name: str) -> Non
     assert counts(net, marking) == tokens == net.tokens(derive(system(name), STEPS.get(name, 10))[-1])
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(random_systems().filter(ends))
 def test_any_net_is_read_back_as_it_is(model: LSystem) -> None:

@@ -72,6 +72,7 @@ def test_the_first_engine_that_serves(traits: Traits, engine: type) -> None:
     assert next(engine for engine in ENGINES if serves(engine, traits)) is engine
 
 
+@pytest.mark.slow
 @settings(suppress_health_check=list(HealthCheck), max_examples=60)
 @given(systems_with())
 def test_what_alone_decides_has_a_successor_and_nothing_else_has(system: LSystem) -> None:

@@ -80,6 +80,7 @@ def check_drawings(system: LSystem) -> None:
         agree(instanced, whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("turtle", "symbol"), EVERY_COMMAND)
 @settings(max_examples=15)
 @given(data=st.data())

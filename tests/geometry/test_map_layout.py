@@ -50,6 +50,7 @@ def test_other_forces_have_another_balance(stiffness: float, rest: float, pressu
     assert np.ptp(at_rest, axis=0) == pytest.approx([side, side], rel=5e-3)
 
 
+@pytest.mark.slow
 @given(map_systems())
 @settings(max_examples=40)
 def test_forces_move_and_turn_nothing_as_a_whole(system: MapSystem) -> None:

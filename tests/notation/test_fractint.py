@@ -267,6 +267,7 @@ def test_a_system_of_fractints_can_be_written_in_the_kits_own_notation() -> None
     assert read("turtle: fractint\nheading: 0\nangle: 60\naxiom: F--F--F\nF -> F+F--F+F") == KOCH
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "Angle 6\nAxiom " + "F" * 10**6, "A {\nAngle 6\nAxiom F\n}\n" * 43_000, "{" * 10**6, "}" * 10**6, "A" * 10**6, ";" * 10**6,
     "Angle 6\nAxiom F\n" + "F=F\n" * 240_000, "A {\n" * 250_000, "Angle 6\n" * 120_000, "\n" * 999_000, "A { }" * 200_000,

@@ -84,6 +84,7 @@ def test_decomposition_that_may_finish_is_read(rules: str) -> None:
     assert read(f"k = 1\naxiom: A\ndecomposition:\n{rules}").decomposition
 
 
+@pytest.mark.slow
 def test_many_rules_are_looked_through_quickly() -> None:
     with limits(rules=5_000):
         system = read("axiom: A0\ndecomposition:\n" + "\n".join(f"A{i} -> A{i + 1} A{i + 2}" for i in range(5_000)))

@@ -86,6 +86,7 @@ def test_a_cell_with_another_id_takes_no_picture():
     assert "".join(cells(normalised(noted(*THERE), stored))["drawing"]["outputs"][1]["data"][PNG]).strip() == THERE[1]
 
 
+@pytest.mark.slow
 def test_a_notebook_is_run_where_it_stands(tmp_path: Path):
     (tmp_path / "note.txt").write_text("from beside")
     notebook = new_notebook(cells=[new_code_cell("print(open('note.txt').read())\n1 + 1", id="sum")])

@@ -326,6 +326,7 @@ def test_a_drawing_needs_axes_in_the_plane():
         figure(draw(BUSH, 2), Figure().add_subplot(projection="3d"))
 
 
+@pytest.mark.slow
 def test_no_window_and_no_pyplot_is_opened_by_an_export(tmp_path):
     code = ("import sys; from lsys_kit import *; p = draw(system('K14'), 2)\n"
             "for ending in ('pdf', 'png', 'glb', 'obj', 'svg'): p.save(sys.argv[1] + '/a.' + ending)\n"

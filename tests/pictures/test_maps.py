@@ -64,6 +64,7 @@ def test_a_label_has_its_number_lowered() -> None:
     assert '<tspan font-style="italic">P</tspan><tspan dy="3" font-size="70%">0</tspan>' in draw(read_map("map: P0AB"), 0).svg
 
 
+@pytest.mark.slow
 def test_small_maps_have_no_labels_and_fit_into_the_picture() -> None:
     picture = draw(K28, 8)
     root = parsed(picture)

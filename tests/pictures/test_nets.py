@@ -93,6 +93,7 @@ def collisions(net: Stages, notes: bool = True, **options: object) -> list[str]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("positions", [False, True])
 @pytest.mark.parametrize(("name", "constants"), CASES)
 def test_no_line_crosses_a_circle_a_bar_or_a_label(name: str, constants: dict[str, str], positions: bool) -> None:

@@ -170,6 +170,7 @@ def test_a_question_without_an_answer_is_explained(rule: str, said: str, column:
     assert (caught.value.line, caught.value.column) == (5, column)
 
 
+@pytest.mark.slow
 def test_a_derivation_that_takes_too_long_keeps_its_steps() -> None:
     with limits(seconds=0.5), pytest.raises(ModelLimitError, match=r"was not reached in 0\.5 seconds") as caught:
         derive(dichotomy(), 1000)

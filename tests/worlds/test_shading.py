@@ -47,6 +47,7 @@ def test_a_tree_in_the_open_shades_none_of_its_branches(tree: str, seed: int) ->
     assert [max(trees(word)) for word in words[start:]] == [n * n for n in range(8)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_a_tree_beside_an_older_one_has_fewer_shoots(seed: int) -> None:
     together = trees(derive(system("K22"), 16, seed=seed)[-1])

@@ -133,6 +133,7 @@ def by_definition(word: Word, at: int, least: float) -> float:
     return min((math.dist(ends[shoot[-1], 3:], point) for point in points), default=math.inf)
 
 
+@pytest.mark.slow
 @given(plants, st.sampled_from((0.5, 1, 2)))
 def test_the_nearest_shoot_is_that_of_the_definition(modules: list[Pattern], least: float) -> None:
     word = word_of([Pattern("F", (Number(1),)), *modules])
@@ -279,6 +280,7 @@ def test_somebody_looks_at_the_clock_while_the_turtle_goes_on() -> None:
     assert len(calls) >= len(word) // 4_096
 
 
+@pytest.mark.slow
 def test_looking_is_given_up_in_time() -> None:
     with limits(seconds=1), pytest.raises(ModelLimitError, match=r"was not reached in 1 seconds") as caught:
         derive(read("axiom: A ?P(0,0)\nA -> [+F A][-F A]"), 30)
