@@ -97,9 +97,83 @@ def test_a_mistake_in_print_is_shown_where_it_was_typed(text: str, line: int, co
     ("axiom: A\nA .5-> B\nA .5-> C", "axiom: A\nA -> B : 0.5\nA -> C : 0.5"),
     ("ω : A(0)\np1 : A(t) : t=0 → A(1)", "axiom: A(0)\nA(t) : t == 0 -> A(1)"),
     ("\\omega: \\bar{A}\np_1: \\quad \\bar{A} \\rightarrow \\bar{A} B", "axiom: A_bar\nA_bar -> A_bar B"),
+    ("Startwort **ABAB**,\nRegeln **A** \\rightarrow **B** [- **A**] [+ **A**] **B** und **B** \\rightarrow **A**",
+     "axiom: A B A B\nA -> B[-A][+A]B\nB -> A"),  # Kurth, a text on the page on L-systems with brackets
+    ("$a \\rightarrow F [+ b] a,$\n\n$b \\rightarrow F b$\n\nStartwort a", "axiom: a\na -> F[+b]a\nb -> F b"),
+    (r"\omega: F, \quad p_1: F \rightarrow F[+F]F", "axiom: F\nF -> F[+F]F"),
+    ("\\begin{array}{lll}\n\\omega & : & A(1,10) \\\\\np_1 & : & A(l,w) \\rightarrow F(l)[+A(l,w)] \\\\[2pt]\n\\end{array}",
+     "axiom: A(1,10)\nA(l,w) -> F(l)[+A(l,w)]"),
+    ("\\[ \\omega: A \\]\n\\[ A \\rightarrow A B \\tag{7} \\]", "axiom: A\nA -> A B"),
+    ("Example 2\nL-system 4\naxiom: F\nF -> F+F", "axiom: F\nF -> F+F"),
+    ("```\nn=3, δ=60°\nF\nF → F+F\n```", "steps: 3\nangle: 60\naxiom: F\nF -> F+F"),
+    ("1. axiom: A\n2. A -> A B\n3. B -> A", "axiom: A\nA -> A B\nB -> A"),
+    ("• axiom: F\n• F → F+F", "axiom: F\nF -> F+F"), ("- axiom: F\n- F -> F+F", "axiom: F\nF -> F+F"),
+    ("- A < B -> C\naxiom: - A B", "axiom: - A B\n- A < B -> C"),
+    ("axiom: a\n       r\na -> a b\n r    l r", "axiom: a_r\na_r -> a_l b_r"),
+    ("axiom: A\nA -> F[&F\\]B$", "axiom: A\nA -> F [& F \\ ] B $"),  # rolls, no macro
 ])
 def test_other_prints_are_read_as_they_are_meant(text: str, expected: str) -> None:
     assert read(text) == read(expected)
+
+
+MITCHISON = r"""$\omega = \vec{L}$
+$$\vec{S} \longrightarrow \vec{L} \quad \overleftarrow{S} \longrightarrow \overleftarrow{L} \quad
+ \vec{L} \longrightarrow \overleftarrow{L}\vec{S} \quad
+ \overleftarrow{L} \longrightarrow \overleftarrow{S}\vec{L} \quad (1)$$"""
+"""L-system 1 of Prusinkiewicz's introduction (equation 1), set by LaTeX."""
+STAGES = r"""\omega : \vec{L}
+$$\begin{array}{ccccc}
+ \vec{S} \longrightarrow \vec{L} & \vec{L} \longrightarrow \vec{A} & \vec{A} \longrightarrow \vec{B} &
+ \vec{B} \longrightarrow \vec{C} & \vec{C} \longrightarrow \overleftarrow{L}\vec{S} \\
+ \overleftarrow{S} \longrightarrow \overleftarrow{L} & \overleftarrow{L} \longrightarrow \overleftarrow{A} &
+ \overleftarrow{A} \longrightarrow \overleftarrow{B} & \overleftarrow{B} \longrightarrow \overleftarrow{C} &
+ \overleftarrow{C} \longrightarrow \overleftarrow{S}\vec{L}
+ \end{array} \quad (2)$$"""
+"""L-system 2 (equation 2), its misprint in the last rule of each row corrected."""
+PARAMETERS = r"""\omega : \vec{M}(2)
+$$\begin{aligned} \vec{M}(s) : s < 5 &\longrightarrow \vec{M}(s+1) \\ \vec{M}(s) : s == 5 &\longrightarrow
+ \overleftarrow{M}(2) \vec{M}(1) \\ \overleftarrow{M}(s) : s < 5 &\longrightarrow \overleftarrow{M}(s+1) \\
+ \overleftarrow{M}(s) : s == 5 &\longrightarrow \overleftarrow{M}(1) \overrightarrow{M}(2) \end{aligned} \quad (3)$$"""
+"""L-system 3 (equation 3), with its errata."""
+
+
+@pytest.mark.parametrize(("text", "id"), [(MITCHISON, "P1"), (STAGES, "P2"), (PARAMETERS, "P3")], ids=["P1", "P2", "P3"])
+def test_an_equation_is_read_as_it_is_typeset(text: str, id: str) -> None:
+    assert [read(text).productions] == [system(id).productions]
+
+
+OUTPUT = """Axiom: a
+      r
+
+Rules: < a > -> a b
+      r      l r
+      < a > -> b a
+      l      l r
+      < b > -> a
+      r      r
+      < b > -> a
+      l      l
+"""
+"""The table of rules of Jacob's notebook, as Mathematica prints it: subscripts on the line below."""
+
+
+def test_subscripts_may_stand_on_the_line_below() -> None:
+    catenula = read("axiom: ar\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al")
+    assert read(OUTPUT).productions == catenula.productions
+    parameters = read("Axiom: A [1]\n l\nRules: < A [2] > -> A [1]B [1]\n l l r\n < A [i_ /; i < 2] > -> A [1 + i]\n l l")
+    assert str(derive(parameters, 2)[-1]) == "Al[1] Br[1]"
+
+
+@pytest.mark.parametrize(("lines", "steps", "word"), [
+    ("Example 2\nNumber of productions: 3\nI -> I[A]A(I)A\nA -> A[I[L]IF]B\nB -> A(B)B", 1, "I[A]A(I)A"),
+    ("Example 3\nHere is another, a more symmetric plant:\nNumber of productions: 2\nI -> I[I](I)AF\nA -> A[I[L](L)IF]BF",
+     1, "I[I](I)AF"),
+])
+def test_headings_and_sentences_over_a_plant_string_are_passed_over(lines: str, steps: int, word: str) -> None:
+    """The applet's lesson, examples 2 and 3."""
+    plant = read(lines)
+    assert str(derive(plant, steps)[-1]) == word
+    assert f'"{lines.splitlines()[0]}" is passed over.' in plant.notes
 
 
 @pytest.mark.parametrize("text", ["axiom: A\nA -> 2 B", "axiom: A 1\nA -> B", "axiom: A\n1 < A -> B"])
@@ -113,7 +187,7 @@ def test_what_was_understood_is_said() -> None:
     assert read(LISTINGS["2.6"]).constants[0].value.value == Fraction(9, 10)
 
 
-@given(st.text("AB01 .<>:*=→∗δωp\n-,;#n()[]’∧", max_size=60))
+@given(st.one_of(st.text("AB01 .<>:*=→∗δωp\n-,;#n()[]’∧", max_size=60), st.deferred(lambda: TYPESET)))
 def test_every_place_of_a_transcript_is_one_of_the_source(text: str) -> None:
     try:
         found = transcribe(text)
@@ -125,7 +199,8 @@ def test_every_place_of_a_transcript_is_one_of_the_source(text: str) -> None:
 
 
 @pytest.mark.parametrize("part", ["p1 : ", "n=5, ", "δ=", "∗ ", "’", "∧ ", ".5→ ", "A .5", "  ", "\n ", "* <", "- ", "\\bar{A}",
-                                  "0 ", "= "])
+                                  "0 ", "= ", "\\quad ", "& ", "\\\\ ", "$", "**", "**A", "\\begin{array} ", "\\quad A -> B ",
+                                  "\n r l", "A -> B\n r l\n", "Here is ", " und A -> B", "\\[ ", "- A ", "(1) ", "\\bar{"])
 def test_long_texts_are_transcribed_in_linear_time(part: str) -> None:
     text = part * (500_000 // len(part))
     with suppress(LSystemError):
@@ -141,7 +216,15 @@ def test_edges_of_several_kinds_are_drawn() -> None:
     assert not read("axiom: F_l\nF_l -> F_l F_l\ninterpretation:\nF_l -> f").notes
 
 
-@given(st.text("ABp01 .<>:*=->,;#()[]\n\\_{}ε→ωδ°’–∧•", max_size=60))
+SIGNS = st.one_of(st.sampled_from("ABp01 .<>:*=->,;#()[]\n\\_{}$&ε→ωδ°’–∧•"), st.sampled_from([
+    "\nExample 2\n", "\nHere is a plant:\n", "Rules", "Regeln ", " und ", "**", "\n```", "\\quad", "\\vec{A}", "$$", " -> ",
+    "\\begin{array}", "\\\\", "\\end{array}", "\n1. ", "\n(2) ", "\n r l\n", "Startwort "]))
+
+
+TYPESET = st.lists(SIGNS, max_size=40).map("".join)
+
+
+@given(TYPESET)
 def test_what_shows_no_sign_of_print_at_first_sight_has_none(text: str) -> None:
     try:
         found = _transcript(text)

@@ -11,13 +11,15 @@ from lsys_kit.notation.dialects.mathematica.builder import finish
 from lsys_kit.notation.dialects.mathematica.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
 from lsys_kit.notation.dialects.mathematica.spelling import SPELLING
-from lsys_kit.notation.dialects.mathematica.statements import statements
+from lsys_kit.notation.dialects.mathematica.statements import statements, without_nested_comments
 from lsys_kit.notation.dialects.mathematica.writer import module_text, system_text
 from lsys_kit.notation.model.expressions import Apply, Name
 from lsys_kit.notation.model.operators import OPERATORS
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing
+from lsys_kit.notation.syntax.text.subscripts import subscripts
+from lsys_kit.notation.syntax.text.transcript import edited
 
 _MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
                     re.IGNORECASE | re.MULTILINE)
@@ -66,4 +68,4 @@ def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
 MATHEMATICA = Dialect(
     name="mathematica", statements=statements, transformer=transformer, finish=finish, diagnostics=DIAGNOSTICS,
     module=module_text, joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)),
-    spelling=SPELLING)
+    spelling=SPELLING, transcribe=lambda text: edited(text, subscripts(without_nested_comments(text), "", "[]")))

@@ -14,6 +14,7 @@ from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_co
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import ParseFailure
 from lsys_kit.notation.syntax.formatting import first_missing, settings
+from lsys_kit.notation.syntax.text.headings import HEADING, SENTENCE, without_headings
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, statements, without_comments
 
 NAME = "plant-string"
@@ -24,6 +25,8 @@ _LINE = re.compile(rf"""\s*+(?:
     | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*[\d.]+\s*
     | turtle\s*:\s*[a-z-]+\s*
     | productions\s*:\s*
+    | {HEADING}
+    | (?-i:{SENTENCE})
     | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
 """A line of a plant string."""
 _FOREIGN_KEYWORD = re.compile(
@@ -94,4 +97,4 @@ def _branches(words: Iterable[str]) -> int:
 PLANT_STRING = Dialect(
     name=NAME, statements=statements, transformer=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
     module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
-    starts=("statement", "word"))
+    starts=("statement", "word"), transcribe=without_headings)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -35,6 +35,7 @@ class Transcript:
     notes: tuple[str, ...] = ()
     _starts: Sequence[int] = field(default=(0,), repr=False)
     _origins: Sequence[int] = field(default=(0,), repr=False)
+    _before: Transcript | None = field(default=None, repr=False)
 
     def origin(self, offset: int) -> int:
         """Where in the source a character of the text comes from; what was put in comes from the place where it was put.
@@ -45,8 +46,10 @@ class Transcript:
         ('steps:3\\n δ=60°\\naxiom: F\\nF → F+F', 17)
         """
         piece = bisect_right(self._starts, offset) - 1
-        last = self._origins[piece + 1] if piece + 1 < len(self._origins) else len(self.source)
-        return min(self._origins[piece] + offset - self._starts[piece], last)
+        end = len(self._before.text if self._before else self.source)
+        last = self._origins[piece + 1] if piece + 1 < len(self._origins) else end
+        origin = min(self._origins[piece] + offset - self._starts[piece], last)
+        return self._before.origin(origin) if self._before else origin
 
     def relocated(self, error: LSystemError) -> LSystemError:
         """An error about the text, as one about the source."""
@@ -60,3 +63,39 @@ class Transcript:
 def as_typed(source: str) -> Transcript:
     """A text that is read as it stands."""
     return Transcript(source, source)
+
+
+def edited(source: str | Transcript, edits: Iterable[Edit], notes: Sequence[str] = (), typed: str | None = None) -> Transcript:
+    """A text, or a transcript, after some edits; of those that overlap, the first is made.
+
+    Parameters
+    ----------
+    source
+        The text, or what an earlier pass made of it.
+    edits
+        The edits, in any order.
+    notes
+        What was understood; read after the edits.
+    typed
+        The text with some characters in place of others, which the edits refer to.
+
+    Examples
+    --------
+    >>> edited("A => B", [Edit(2, 4, "->")]).text
+    'A -> B'
+    """
+    before = source if isinstance(source, Transcript) else as_typed(source)
+    typed = before.text if typed is None else typed
+    parts, starts, origins = [], [0], [0]
+    at = length = 0
+    for edit in sorted(set(edits)):
+        if edit.start < at:  # within what another edit has replaced
+            continue
+        for text, origin in ((typed[at:edit.start], at), (edit.text, edit.start)):
+            starts.append(length)
+            origins.append(origin)
+            parts.append(text)
+            length += len(text)
+        at = edit.end
+    every = tuple(dict.fromkeys((*before.notes, *notes)))
+    return Transcript(before.source, "".join((*parts, typed[at:])), every, (*starts, length), (*origins, at), before)

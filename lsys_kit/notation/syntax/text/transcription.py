@@ -13,8 +13,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from lsys_kit.budget import current
+from lsys_kit.notation.syntax.text.headings import HEADING, RULES, SENTENCE, headings
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
-from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed
+from lsys_kit.notation.syntax.text.subscripts import SUBSCRIPTS, subscripts
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
+from lsys_kit.notation.syntax.text.typesetting import typesetting
 
 _ARROW = ARROW.pattern
 _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
@@ -32,9 +35,7 @@ _STEPS = re.compile(r"\bn[ \t]*+=")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
 _INCLUDED = re.compile(r"[ \t]*+#[ \t]*+include\b.*")
-_START = re.compile(r"[ \t]*+(Start(?:wort|word)|Start word)\b[ \t]*+:?", re.IGNORECASE)
-_DASH = re.compile(rf"([ \t]*+[-•–*][ \t]++)[A-Za-z\\][^<]*?(?:{_ARROW})")
-"""A dash before a production of a list; before a "<" it would be a neighbour."""
+_START = re.compile(r"[ \t]*+((?:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)", re.IGNORECASE)
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
 _ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:{_ARROW}|:))")
@@ -43,19 +44,20 @@ _DIGIT_RULE = re.compile(rf"(?:[^<>:]*+<)?[ \t]*+\d[ \t]*+(?:>[^<>:]*?)?(?:{_ARR
 _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
 _ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
 _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
-_SPACE = re.compile(
-    r"\\(?:q?quad\b|[,;!])|\\\\[ \t]*+$|\\(?:begin|end)[ \t]*+\{(?:array|align\*?|eqnarray\*?|tabular)\}(?:\{[lcr| ]*\})?")
-_LATEX = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|begin[ \t]*+\{)")
-_ACCENT = re.compile(r"\\(bar|overline|hat|tilde|dot)[ \t]*+(?:\{[ \t]*+([A-Za-z]\w*)[ \t]*+\}|([A-Za-z]))")
 
 _TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}ωδ°•]")
 _SIGNS_OF_PRINT = (
     re.compile(r"\\[a-z]{4}"),
-    re.compile(r"\*[ \t]*+<"),
+    re.compile(r"\*(?:\*|[ \t]*+<)"),
+    re.compile(r"\$[,.;]?+[ \t]*+(?:\n|\Z)"),
+    re.compile(rf"\n[ \t]*+(?:{HEADING})(?:\n|\Z)", re.IGNORECASE),
+    re.compile(rf"\n[ \t]*+{SENTENCE}(?:\n|\Z)"),
+    re.compile(rf"\n[ \t]*+(?:{RULES}|```)", re.IGNORECASE),
+    re.compile(rf"\n{SUBSCRIPTS}(?:\n|\Z)"),
     re.compile(r">[ \t]*+\*"),
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
     re.compile(rf"\.\d++[ \t]*+(?:{_ARROW})"),
-    re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|[^:<\n]*+<[ \t]*+\d)"))
+    re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"))
 """A text with none of these and nothing typographic is written as the kit writes it, and is not looked at line by line.
 Each begins with one character, which is quickly found."""
 
@@ -76,22 +78,13 @@ def transcribe(source: str) -> Transcript:
 
 def _transcript(source: str) -> Transcript:
     """The same, however a text looks at first sight."""
-    typed = _with_typed_signs(source)
+    notes: list[str] = []
+    plain = without_comments(source)
+    lines = edited(source, [*headings(plain, notes), *typesetting(plain), *subscripts(plain, "_")], notes)
+    typed = _with_typed_signs(lines.text)
     listing = _Listing(without_comments(typed))
-    edits = sorted({*listing.macros(), *listing.settings(), *listing.rules(), *listing.digits()})
-    parts, starts, origins = [], [0], [0]
-    at = length = 0
-    for edit in edits:
-        if edit.start < at:  # within what another edit has replaced
-            continue
-        for text, origin in ((typed[at:edit.start], at), (edit.text, edit.start)):
-            starts.append(length)
-            origins.append(origin)
-            parts.append(text)
-            length += len(text)
-        at = edit.end
-    notes = tuple(dict.fromkeys(listing.notes))
-    return Transcript(source, "".join((*parts, typed[at:])), notes, (*starts, length), (*origins, at))
+    edits = [*listing.settings(), *listing.rules(), *listing.digits()]
+    return edited(lines, edits, listing.notes, typed)
 
 
 def _with_typed_signs(source: str) -> str:
@@ -132,15 +125,6 @@ class _Listing:
         self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
         self.notes: list[str] = []
 
-    def macros(self) -> Iterator[Edit]:
-        """Macros of LaTeX that say nothing, or put something over a letter; elsewhere a backslash is a roll."""
-        for line in self.lines if _LATEX.search(self.plain) else ():
-            for match in _SPACE.finditer(line.text):
-                yield Edit(line.start + match.start(), line.start + match.end(), " ")
-            for match in _ACCENT.finditer(line.text):
-                accent = "bar" if match[1] == "overline" else match[1]
-                yield Edit(line.start + match.start(), line.start + match.end(), f"{match[2] or match[3]}_{accent} ")
-
     def settings(self) -> Iterator[Edit]:
         """Numbers on one line, constants and inclusions as cpfg has them, and an axiom that is not called so."""
         for line in self.lines:
@@ -154,6 +138,8 @@ class _Listing:
                 yield Edit(line.start, line.end, "")
             elif start := _START.match(line.text):
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
+            if _named_axiom(line.text) and line.text[:line.end - line.start].endswith(","):
+                yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
 
     def _assignments(self, line: _Line) -> Iterator[Edit]:
@@ -166,7 +152,7 @@ class _Listing:
 
     def _axiom(self) -> Iterator[Edit]:
         """Under a line with the angle a word stands alone, before the first production."""
-        named = any(_AXIOM.match(line.text) or _START.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
+        named = any(_named_axiom(line.text) for line in self.lines)
         before = [line for line in self.lines if not _ASSIGNMENTS.match(line.text) and not _NAMED.match(line.text)]
         if self.printed and not named and len(before) > 1 and not before[0].arrow and before[1].arrow:
             first = before[0]
@@ -174,9 +160,7 @@ class _Listing:
             yield Edit(first.start, first.start, "axiom: ")
 
     def rules(self) -> Iterator[Edit]:
-        """Productions: dashes before them, lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
-        heads = [line for line in self.lines if line.arrow]
-        dashed = bool(heads) and all(_DASH.match(line.text) for line in heads)
+        """Productions: lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
         above: str | None = None
         for index, line in enumerate(self.lines):
             arrow = line.arrow
@@ -189,8 +173,6 @@ class _Listing:
                 elif self._goes_on(index):
                     yield Edit(line.start, line.start, "  ")
                 continue
-            if dashed and (dash := _DASH.match(line.text)):
-                yield Edit(line.start + dash.start(1), line.start + dash.end(1), "")
             yield from self._head(line, line.text[:arrow.start()])
             condition = ":" in self._bare(line)[:arrow.start()]  # which may end with a number, too
             over = None if condition else _PROBABILITY.search(line.text)
@@ -247,6 +229,10 @@ class _Listing:
         """A line without its label, its values and what stands over its arrow, every other character in its place."""
         text = _LABEL.sub(lambda match: " " * len(match.group()), line.text, count=1) if _LABEL.match(line.text) else line.text
         return _PROBABILITY.sub(lambda match: " " * len(match.group()), blank_parentheses(text))
+
+
+def _named_axiom(line: str) -> bool:
+    return any(name.match(line) for name in (_AXIOM, _START, _OMEGA))
 
 
 def likely(text: str) -> int:

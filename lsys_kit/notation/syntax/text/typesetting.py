@@ -1,0 +1,130 @@
+r"""Productions set by LaTeX or Markdown, reduced to lines of plain text.
+
+An article sets its productions in an array or in aligned equations, several on a line apart by `\quad`, with the number of the
+equation behind them, and a web page sets symbols in bold type. What says nothing to a reader of productions becomes a blank,
+and where one production ends and the next begins, a new line.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import zip_longest
+from typing import NamedTuple
+
+from lsys_kit.notation.syntax.text.statements import ARROW
+from lsys_kit.notation.syntax.text.transcript import Edit
+
+_MACRO = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|vec|overleftarrow|overrightarrow|begin[ \t]*+\{)")
+_DOLLARS = re.compile(r"^[ \t]*+(\$)(?![\s<$])[^$\n]*+(\$)[,.;]?[ \t]*+$", re.MULTILINE)
+"""What begins and ends a formula. A single "$" is a command of the turtle, unless the line begins and ends with one."""
+_DISPLAY = re.compile(r"^[ \t]*+(?:(\\[\[(])(?:.*(\\[\])]))?|(\\[\])]))[ \t]*+$|(\$\$)", re.MULTILINE)
+"""The same among macros; a bracket is one alone on a line, or both on one, and no branch after a roll."""
+_ENVIRONMENT = re.compile(
+    r"\\begin[ \t]*+\{(array|align(?:ed|at)?\*?|eqnarray\*?|gather(?:ed)?\*?|split|tabular)\}(?:[ \t]*+\{[^{}\n]*+\})?"
+    r"(?P<rows>.*?)(?P<end>\\end[ \t]*+\{\1\}|\Z)", re.DOTALL)
+_ROW_END = re.compile(r"\\\\(?:\[[^\]\n]*+\])?")
+_NUMBER = r"[ \t]*+\(\d+[a-z]?\)(?=[ \t]*+(?:$|\$\$|\\\]|\\\\|\\end))"
+_NUMBERED = re.compile(rf"\\q?quad{_NUMBER}|\\tag\*?[ \t]*+\{{[^{{}}\n]*+\}}", re.MULTILINE)
+"""The number of an equation."""
+_SPACE = rf"\\q?quad\b(?!{_NUMBER})|\\[,;!]"
+_GAP = re.compile(_SPACE, re.MULTILINE)
+_GAP_IN_ROW = re.compile(rf"{_SPACE}|(?<![\\&])&(?!&)", re.MULTILINE)
+"""Between the columns of an array there may be a "&", which is a command of the turtle elsewhere."""
+_ACCENT = re.compile(r"\\(bar|overline|hat|tilde|dot)[ \t]*+(?:\{[ \t]*+([A-Za-z]\w*)[ \t]*+\}|([A-Za-z]))")
+_STRONG = re.compile(r"(\*\*)(?=\S)[^*\n]*+(?<=\S)(\*\*)")
+_FENCE = re.compile(r"^[ \t]*+```\w*[ \t]*+$", re.MULTILINE)
+_LINE = re.compile(r"[^\n]+")
+_LINE_END = re.compile(r"\\\\[ \t]*+$", re.MULTILINE)
+_ITEM = re.compile(r"[ \t]*+((?:[-–*](?![^\n:]*<)|•|\d+[.)]|\(\d+\))[ \t]++)[A-Za-zωδ\\]")
+"""An item of a list, with its dash or its number; before a "<" a dash would be a neighbour."""
+_BEGINS = re.compile(r"[\s,]*+(?:[pP]_?(?:\d+|\{\d+\})[ \t]*+:|(?:ω|\\omega)[ \t]*+[:=])")
+"""What begins a statement: a label, or the name of the axiom."""
+
+
+def typesetting(plain: str) -> Iterator[Edit]:
+    r"""The edits that reduce typeset productions to lines of plain text.
+
+    >>> [*typesetting("**A** -> B")]
+    [Edit(start=0, end=2, text=''), Edit(start=3, end=5, text='')]
+    """
+    for match in _STRONG.finditer(plain):
+        yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2))
+    for match in _FENCE.finditer(plain):
+        yield Edit(*match.span(), "")
+    for match in _DOLLARS.finditer(plain):
+        yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2))
+    yield from _items(plain)
+    if _MACRO.search(plain):
+        yield from _latex(plain)
+
+
+def _items(plain: str) -> Iterator[Edit]:
+    """The dashes or numbers of a list, if every production is an item of it."""
+    lines = [*_LINE.finditer(plain)]
+    items = [_ITEM.match(line.group()) for line in lines]
+    rules = [item for line, item in zip(lines, items, strict=True) if ARROW.search(line.group())]
+    if rules and all(rules):
+        yield from (Edit(line.start() + item.start(1), line.start() + item.end(1), "")
+                    for line, item in zip(lines, items, strict=True) if item)
+
+
+def _latex(plain: str) -> Iterator[Edit]:
+    """Macros of LaTeX that say nothing, or put something over a letter; elsewhere a backslash is a roll."""
+    for match in _DISPLAY.finditer(plain):
+        yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2, 3, 4) if match[group])
+    for match in _NUMBERED.finditer(plain):
+        yield Edit(*match.span(), "")
+    for match in _ACCENT.finditer(plain):
+        yield Edit(*match.span(), f"{match[2] or match[3]}_{'bar' if match[1] == 'overline' else match[1]} ")
+    at = 0
+    for match in _ENVIRONMENT.finditer(plain):
+        yield from _lines(plain, at, match.start())
+        yield Edit(match.start(), match.start("rows"), "\n")
+        row = match.start("rows")
+        for end in _ROW_END.finditer(plain, row, match.end("rows")):
+            yield from _row(plain, row, end.start())
+            yield Edit(*end.span(), "\n")
+            row = end.end()
+        yield from _row(plain, row, match.end("rows"))
+        yield Edit(match.start("end"), match.end("end"), "\n")
+        at = match.end()
+    yield from _lines(plain, at, len(plain))
+
+
+def _lines(plain: str, start: int, end: int) -> Iterator[Edit]:
+    for line in _LINE.finditer(plain, start, end):
+        stop = _LINE_END.search(plain, *line.span())
+        yield from _row(plain, line.start(), stop.start() if stop else line.end(), _GAP)
+        if stop:
+            yield Edit(stop.start(), line.end(), "")
+
+
+def _row(plain: str, start: int, end: int, gap_sign: re.Pattern[str] = _GAP_IN_ROW) -> Iterator[Edit]:
+    """The gaps of a row: a new line where a production is complete and the next one begins, otherwise a blank."""
+    gaps = [*gap_sign.finditer(plain, start, end)]
+    last = _cell(plain, start, gaps[0].start() if gaps else end)
+    arrow, complete = last.arrow, last.successor
+    for gap, following in zip_longest(gaps, gaps[1:]):
+        cell = _cell(plain, gap.end(), following.start() if following else end)
+        new = cell.named or (complete and cell.predecessor)
+        yield Edit(gap.start(), gap.end(), "\n" if new else " ")
+        complete = cell.successor or (not new and (complete or (arrow and cell.filled)))
+        arrow = cell.arrow or (arrow and not new)
+
+
+class _Cell(NamedTuple):
+    """What stands between two gaps: whether there is anything, a label, an arrow, and something before and behind the arrow."""
+
+    filled: bool
+    named: bool
+    arrow: bool
+    predecessor: bool
+    successor: bool
+
+
+def _cell(plain: str, start: int, end: int) -> _Cell:
+    text = plain[start:end]
+    arrow = ARROW.search(text)
+    before, behind = (text[:arrow.start()], text[arrow.end():]) if arrow else ("", "")
+    return _Cell(*map(bool, (text.strip(), _BEGINS.match(text), arrow, before.strip(), behind.strip())))
