@@ -106,6 +106,8 @@ def test_a_mistake_in_print_is_shown_where_it_was_typed(text: str, line: int, co
     ("\\[ \\omega: A \\]\n\\[ A \\rightarrow A B \\tag{7} \\]", "axiom: A\nA -> A B"),
     ("Example 2\nL-system 4\naxiom: F\nF -> F+F", "axiom: F\nF -> F+F"),
     ("```\nn=3, δ=60°\nF\nF → F+F\n```", "steps: 3\nangle: 60\naxiom: F\nF -> F+F"),
+    ("F\nF -> F[+F]F", "axiom: F\nF -> F[+F]F"),
+    ("ω : A B\np1 : A < B → A\n#ignore: + -", "ignore: + -\naxiom: A B\nA < B -> A"),
     ("1. axiom: A\n2. A -> A B\n3. B -> A", "axiom: A\nA -> A B\nB -> A"),
     ("• axiom: F\n• F → F+F", "axiom: F\nF -> F+F"), ("- axiom: F\n- F -> F+F", "axiom: F\nF -> F+F"),
     ("- A < B -> C\naxiom: - A B", "axiom: - A B\n- A < B -> C"),
@@ -176,6 +178,12 @@ def test_headings_and_sentences_over_a_plant_string_are_passed_over(lines: str, 
     assert f'"{lines.splitlines()[0]}" is passed over.' in plant.notes
 
 
+@pytest.mark.parametrize("text", ["start A\nA -> B", "A -\nA -> B", "A\nB"])
+def test_not_every_first_line_is_an_axiom(text: str) -> None:
+    with pytest.raises(LSystemError):
+        read(text)
+
+
 @pytest.mark.parametrize("text", ["axiom: A\nA -> 2 B", "axiom: A 1\nA -> B", "axiom: A\n1 < A -> B"])
 def test_a_digit_that_nothing_rewrites_is_no_symbol(text: str) -> None:
     with pytest.raises(LSystemError, match="A number is not a module"):
@@ -183,6 +191,7 @@ def test_a_digit_that_nothing_rewrites_is_no_symbol(text: str) -> None:
 
 
 def test_what_was_understood_is_said() -> None:
+    assert read("F\nF -> F[+F]F").notes == ('"F" is read as the axiom.',)
     assert set(read(LISTINGS["1.31a"]).notes) >= {'"n" is read as the number of steps.', "The digits 0, 1 are read as symbols."}
     assert read(LISTINGS["2.6"]).constants[0].value.value == Fraction(9, 10)
 

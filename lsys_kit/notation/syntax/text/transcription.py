@@ -35,6 +35,7 @@ _STEPS = re.compile(r"\bn[ \t]*+=")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
 _INCLUDED = re.compile(r"[ \t]*+#[ \t]*+include\b.*")
+_NEIGHBOURS = re.compile(r"[ \t]*+(#[ \t]*+)(?:ignore|consider)\b", re.IGNORECASE)
 _START = re.compile(r"[ \t]*+((?:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)", re.IGNORECASE)
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
@@ -45,6 +46,9 @@ _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
 _ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
 _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 
+_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t])[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
+"""A line that may be an axiom without its name, and is no name of an axiom without its colon."""
+
 _TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}ωδ°•]")
 _SIGNS_OF_PRINT = (
     re.compile(r"\\[a-z]{4}"),
@@ -54,6 +58,7 @@ _SIGNS_OF_PRINT = (
     re.compile(rf"\n[ \t]*+{SENTENCE}(?:\n|\Z)"),
     re.compile(rf"\n[ \t]*+(?:{RULES}|```)", re.IGNORECASE),
     re.compile(rf"\n{SUBSCRIPTS}(?:\n|\Z)"),
+    re.compile(rf"\A\s*+[^:=<>#\n]++\n[^\n]*(?:{_ARROW})"),
     re.compile(r">[ \t]*+\*"),
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
     re.compile(rf"\.\d++[ \t]*+(?:{_ARROW})"),
@@ -133,6 +138,8 @@ class _Listing:
             elif self.labelled and (defined := _DEFINED.match(line.text)):
                 yield Edit(line.start + defined.start(1), line.start + defined.end(1), "")
                 yield Edit(line.start + defined.start(3), line.start + defined.end(3), " = ")
+            elif self.labelled and (neighbours := _NEIGHBOURS.match(line.text)):
+                yield Edit(line.start + neighbours.start(1), line.start + neighbours.end(1), "")
             elif self.labelled and _INCLUDED.match(line.text):
                 self.notes.append(f'"{line.text.strip()}" is passed over.')
                 yield Edit(line.start, line.end, "")
@@ -154,10 +161,14 @@ class _Listing:
         """Under a line with the angle a word stands alone, before the first production."""
         named = any(_named_axiom(line.text) for line in self.lines)
         before = [line for line in self.lines if not _ASSIGNMENTS.match(line.text) and not _NAMED.match(line.text)]
-        if self.printed and not named and len(before) > 1 and not before[0].arrow and before[1].arrow:
+        if not named and len(before) > 1 and not before[0].arrow and before[1].arrow and self._is_word(before[0]):
             first = before[0]
             self.notes.append(f'"{first.text.strip()}" is read as the axiom.')
             yield Edit(first.start, first.start, "axiom: ")
+
+    def _is_word(self, line: _Line) -> bool:
+        """Whether a line that stands alone is a word."""
+        return self.printed or bool(_WORD.fullmatch(line.text.rstrip()))
 
     def rules(self) -> Iterator[Edit]:
         """Productions: lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
