@@ -157,8 +157,8 @@ def made(text: str) -> LSystem:
     name, t = Name(text), Pattern(text, (Name(text),))
     grown = Pattern(text, (Apply("+", (name, Number(1))),))
     return LSystem((Pattern(text, (Number(1),)), Pattern("F")), (
-        Production(t, (grown, Pattern("F"), Pattern("[["), Pattern(text + "_r"))),
-        Production(t, (grown,), Apply("<", (name, Number(5))), left=(Pattern(text + "_l"),), probability=Number(1))),
+        Production((t,), (grown, Pattern("F"), Pattern("[["), Pattern(text + "_r"))),
+        Production((t,), (grown,), Apply("<", (name, Number(5))), left=(Pattern(text + "_l"),), probability=Number(1))),
         (Constant(f"{text}2", Number(1), (Number(0), Number(2), Number(1))),), notes=(f"A note on {text}.",))
 
 

@@ -177,7 +177,7 @@ def _before_arrow(rule: Production | MetaRule, system: LSystem) -> str:
     else:
         left = f"{_word(rule.left, system)} &lt; " if rule.left else ""
         right = f" &gt; {_word(rule.right, system)}" if rule.right else ""
-        text = f"{left}{_word((rule.predecessor,), system)}{right}"
+        text = f"{left}{_word(rule.predecessors, system)}{right}"
     return f"{text} : {formula(rule.condition, system)}" if rule.condition is not None else text
 
 

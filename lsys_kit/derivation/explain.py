@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from lsys_kit.derivation.core.matching import neighbours_along, values_at
-from lsys_kit.derivation.core.rules import Rule
+from lsys_kit.derivation.core.rules import Rule, kind_of
+from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.stepwise import ParentWord, Stepper, surviving
 from lsys_kit.notation.model.arithmetic import number_text
@@ -19,14 +20,14 @@ from lsys_kit.notation.write import as_written
 
 @dataclass(frozen=True)
 class ModuleOutcome:
-    """What became of one module in a step.
+    """What became of one module in a step, or of several that were replaced together.
 
     Attributes
     ----------
     position
         Its place in the old word, from 1, as a reader counts.
     module
-        The module.
+        The module; of several that were replaced together the first.
     successor
         What replaced it.
     production
@@ -35,6 +36,8 @@ class ModuleOutcome:
         For each production of its symbol that was not applied, why not.
     notation
         In which notation the module and its successor are shown.
+    others
+        The modules behind it that were replaced together with it.
     """
 
     position: int
@@ -43,11 +46,14 @@ class ModuleOutcome:
     production: str
     refused: tuple[str, ...]
     notation: str = "abop"
+    others: tuple[Module, ...] = ()
 
     def __str__(self) -> str:
         own = dialect_named(self.notation)
         made = own.word(self.successor) or "ε"
-        lines = [f"{self.position}. {own.module(self.module)} becomes {made}: {self.production}", *self.refused]
+        last = f"-{self.position + len(self.others)}" if self.others else ""
+        lines = [f"{self.position}{last}. {own.word((self.module, *self.others))} "
+                 f"become{'s' * (not self.others)} {made}: {self.production}", *self.refused]
         return "\n     ".join(lines)
 
 
@@ -92,24 +98,27 @@ def explain(derivation: Derivation, step: int) -> Explanation:
     for code, parent, production in zip(new, origins.parents, origins.productions, strict=True):
         successors.setdefault(parent, []).append(derivation.states.modules[code])
         applied[parent] = production
-    return Explanation(_outcomes(stepper, old, successors, applied))
+    return Explanation(_outcomes(stepper, old, successors, applied, origins.sizes or [1] * len(old.modules)))
 
 
 def _outcomes(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]],
-           applied: dict[int, int | None]) -> Iterator[ModuleOutcome]:
+              applied: dict[int, int | None], sizes: Sequence[int]) -> Iterator[ModuleOutcome]:
     system = stepper.states.system
-    for position, kept in enumerate(surviving(old.symbols)):
+    for position, (kept, size) in enumerate(zip(surviving(old.symbols), sizes, strict=True)):
+        if not size:
+            continue  # it was replaced together with one before it
         module = old.modules[position]
         made = tuple(successors.get(position, ()))
         rules = [rule for kind, found in stepper.states.rules.items() if kind[0] == module.symbol for rule in found]
         refusals = [(rule, _refusal(stepper, old, position, rule)) for rule in rules] if kept else []
-        matching = [rule for rule, why in refusals if why is None]
+        matching = [rule for rule, why in refusals if why is None and (made or len(rule.predecessors) == size)]
         chosen = _applied_rule(matching, applied.get(position), bool(made))
         said = _production_text(system, chosen) if chosen else "it is cut off" if not kept else \
             "no production matches" if rules else f"no production is for {module.symbol}"
         why_not = tuple(f"{_production_text(system, rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals
                         if rule is not chosen)
-        yield ModuleOutcome(position + 1, module, made, said, why_not, system.notation)
+        others = tuple(old.modules[position + 1:position + size])
+        yield ModuleOutcome(position + 1, module, made, said, why_not, system.notation, others)
 
 
 def _applied_rule(matching: list[Rule], applied: int | None, left_something: bool) -> Rule | None:
@@ -136,7 +145,7 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
         return f"is for {asked.symbol} with {len(asked.arguments)} parameters, not {len(module.arguments)}"
     at = stepper.context(rule, old, position)
     if at is None:
-        return _context_missing(system, old, position, rule)
+        return _others_missing(system, old, position, rule) or _context_missing(system, old, position, rule)
     values = values_at(old.modules, at)
     given = values + stepper.states.constants
     arguments = [a for m in rule.production.parameters for a in m.arguments]
@@ -155,6 +164,15 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
     return None
 
 
+def _others_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str | None:
+    """Which modules of those that a rule replaces together are not there."""
+    own = old.modules[position:position + len(rule.predecessors)]
+    if tuple(map(kind_of, own)) == rule.predecessors:
+        return "what is cut off is not replaced" if CUT in old.symbols[position:position + len(own)] else None
+    word = dialect_named(system.notation).word
+    return f"replaces {word(rule.production.predecessors)} together, and there is {word(own)}"
+
+
 def _context_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str:
     """Which context a module lacks."""
     assert old.around is not None
@@ -163,6 +181,6 @@ def _context_missing(system: LSystem, old: ParentWord, position: int, rule: Rule
     there = word(old.modules[at] for at in reversed(left)) or "nothing"
     if tuple((old.symbols[at], len(old.modules[at].arguments)) for at in left) != rule.left:
         return f"needs {word(rule.production.left)} on its left, and there is {there}"
-    right = neighbours_along(old.around.after, position, max(1, len(rule.right)))
+    right = neighbours_along(old.around.after, position + len(rule.predecessors) - 1, max(1, len(rule.right)))
     there = word(old.modules[at] for at in right) or "nothing"
     return f"needs {word(rule.production.right)} on its right, and there is {there}"

@@ -93,7 +93,7 @@ def productions(draw: st.DrawFn, constants: tuple[str, ...]) -> Production:
     parameters = tuple(e.name for e in formal if isinstance(e, Name) and e.name not in constants)
     names = (*parameters, *constants)
     condition = draw(conditions(names)) if parameters and draw(st.integers(0, 3)) else None
-    return Production(Pattern(symbol, tuple(formal)), draw(successors(names)), condition)
+    return Production((Pattern(symbol, tuple(formal)),), draw(successors(names)), condition)
 
 
 @st.composite
@@ -119,8 +119,8 @@ def systems(draw: st.DrawFn) -> LSystem:
                    alphabet=tuple(symbol for symbol in SYMBOLS if len(symbol) > 1))
 
 
-CONTEXT, CHANCE, DECOMPOSITION, CUT, REPETITION, META = KINDS = (
-    "context", "chance", "decomposition", "cut", "repetition", "meta")
+CONTEXT, CHANCE, DECOMPOSITION, CUT, REPETITION, META, SEVERAL = KINDS = (
+    "context", "chance", "decomposition", "cut", "repetition", "meta", "several")
 ARITIES = {"A": 0, "B": 0, "S": 1, "F": 0, "+": 0, "f": 1, "%": 0, "D": 1, "E": 0}
 LIVELY = ("A", "B", "S")
 WEIGHTS: tuple[Expression, ...] = (*map(Number, (1, 2, Fraction(1, 2), Fraction(33, 100))), Apply("/", (Number(1), Number(3))))
@@ -201,23 +201,34 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
     """A rule, or two between which chance decides."""
     symbol = draw(st.sampled_from(("S", *LIVELY, "S", "+")))
     asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name("x")
-    predecessor = Pattern(symbol, (asked,) * ARITIES[symbol])
+    own = (Pattern(symbol, (asked,) * ARITIES[symbol]), *(draw(others()) if SEVERAL in kinds and draw(st.booleans()) else ()))
     sides = draw(st.sampled_from(("left", "right", "right", "both", ""))) if CONTEXT in kinds else ""
     left = draw(patterns("lm", branches=False)) if sides in ("left", "both") else ()
     right = draw(patterns("rs", branches=True)) if sides in ("right", "both") else ()
-    names = tuple(a.name for module in (*left, predecessor, *right) for a in module.arguments if isinstance(a, Name))
+    names = tuple(a.name for module in (*left, *own, *right) for a in module.arguments if isinstance(a, Name))
     condition = draw(conditions(names, 0)) if names and draw(st.integers(0, 7)) else None
     chancy = CHANCE in kinds and draw(st.integers(0, 3))
     successors = items(names, kinds, least=draw(st.sampled_from((0, 1, 1, 1))))
-    return [Production(predecessor, draw(successors), condition, left, right, probability)
+    return [Production(own, draw(successors), condition, left, right, probability)
             for probability in (draw(st.lists(st.sampled_from(WEIGHTS), min_size=1, max_size=2)) if chancy else (None,))]
+
+
+@st.composite
+def others(draw: st.DrawFn) -> tuple[Pattern, ...]:
+    """One or two modules that are replaced together with one before them; values may be asked for."""
+    found = []
+    for name in "yz"[:draw(st.sampled_from((1, 1, 1, 2)))]:
+        symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+")))
+        asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name(name)
+        found.append(Pattern(symbol, (asked,) * ARITIES[symbol]))
+    return tuple(found)
 
 
 @st.composite
 def apices(draw: st.DrawFn, kinds: Collection[str]) -> Production:
     """A rule for an apex that ages and grows where no other rule has a say."""
     older = Pattern("S", (Apply("+", (Name("x"), Number(1))),))
-    return Production(Pattern("S", (Name("x"),)), (*draw(items(("x",), kinds, most=1)), older))
+    return Production((Pattern("S", (Name("x"),)),), (*draw(items(("x",), kinds, most=1)), older))
 
 
 @st.composite
@@ -226,12 +237,12 @@ def decompositions(draw: st.DrawFn, kinds: Collection[str]) -> Production:
     plain = tuple(kind for kind in kinds if kind not in (DECOMPOSITION, CUT))
     probability = draw(st.sampled_from(WEIGHTS)) if CHANCE in kinds and draw(st.booleans()) else None
     if draw(st.integers(0, 2)) == 0:
-        return Production(Pattern("E"), draw(items((), plain, least=1)), probability=probability)
+        return Production((Pattern("E"),), draw(items((), plain, least=1)), probability=probability)
     less = draw(st.sampled_from((Apply("-", (Name("n"), Number(1))), Apply("/", (Name("n"), Number(2))))))
     rest = draw(items(("n",), plain, most=1))
     successor = (Pattern("D", (less,)), *rest, *draw(st.sampled_from(((), (Pattern("E"),)))))
     bound = Number(draw(st.sampled_from((1, 1, 2))))
-    return Production(Pattern("D", (Name("n"),)), successor[::draw(st.sampled_from((1, 1, -1))) if not rest else 1],
+    return Production((Pattern("D", (Name("n"),)),), successor[::draw(st.sampled_from((1, 1, -1))) if not rest else 1],
                       Apply(">=", (Name("n"), bound)), probability=probability)
 
 
@@ -255,13 +266,13 @@ def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
         kinds = tuple(kind for kind in KINDS if kind not in without)
     rewriting = list(chain(*draw(st.lists(rules(kinds), min_size=3, max_size=6))))
     if draw(st.integers(0, 3)):
-        rewriting.sort(key=lambda rule: not (rule.left or rule.right or rule.condition))  # what always applies stands last
+        rewriting.sort(key=lambda rule: not (rule.condition or len(rule.parameters) > 1))  # what always applies stands last
     if draw(st.integers(0, 3)):
         rewriting.append(draw(apices(kinds)))
     meta = tuple(draw(st.lists(metas(kinds), min_size=1, max_size=3))) if META in kinds else ()
     plain = tuple(kind for kind in kinds if kind not in (CHANCE, REPETITION, CUT))
     decomposed = (Pattern("D", (Number(draw(st.integers(1, 3))),)), Pattern("E")) if DECOMPOSITION in kinds else ()
-    found = [m for rule in rewriting[:4] for m in (*rule.left, rule.predecessor, *rule.right)]
+    found = [m for rule in rewriting[:4] for m in rule.parameters]
     found += [m for rule in meta for m in rule.predecessors]
     axiom = [*draw(items((), plain, most=4)), *decomposed, *(draw(instances(module)) for module in found)]
     ignored = draw(st.sampled_from(((), ("+",), ("+", "F")))) if CONTEXT in kinds else ()

@@ -1,6 +1,7 @@
 """Deriving by the book: the definition of an L-system, read literally (ABOP, sections 1.7, 1.8, 1.10 and 3.2).
 
-For each module of the word the first production that matches is looked for; all matches are replaced at once. Nothing is
+For each module of the word the first production that matches is looked for; all matches are replaced at once. A production that
+replaces several modules takes those behind its place with it, and these are passed over (Prusinkiewicz 1986). Nothing is
 remembered, counted or shared, contexts are found by walking along the word, and every number that is not drawn by chance is
 a `Fraction`: slow, and short enough to be believed. Only `Chance` is the engine's own: it is the definition of chance.
 """
@@ -73,9 +74,10 @@ def made(items: Iterable[Item], names: dict, chance: Chance | None = None) -> It
 def replaced(system: LSystem, word: list[Module], at: int, known: dict, chance: Chance, depth: int = 0) -> tuple:
     """The production (deeper, the decomposition rule) for the module at a position, and what the module becomes in the end."""
     matching = [(rule, names) for rule in (system.decomposition if depth else system.productions)
-                for own in follow([rule.predecessor], iter([word[at]]), known)
+                if "%" not in [module.symbol for module in word[at:at + len(rule.predecessors)]]
+                for own in follow(rule.predecessors, iter(word[at:]), known)
                 for left in follow(rule.left[::-1], row(seen(system, reversed(word[:at])), CLOSING, OPENING, ends=False), own)
-                for names in follow(list(row(iter(rule.right))), row(seen(system, word[at + 1:])), left)
+                for names in follow(list(row(iter(rule.right))), row(seen(system, word[at + len(rule.predecessors):])), left)
                 if rule.condition is None or value(rule.condition, names)]
     if depth and (not matching or depth - 1 == system.decomposition_depth):
         return None, [word[at]]
@@ -103,12 +105,13 @@ def words(system: LSystem, steps: int, seed: int = 0) -> tuple[list[list[PlainMo
         known[constant.name] = value(constant.value, known)
     found = [list(made(system.axiom, known))]
     for number in range(steps):
-        after, cut = [], 0  # within what a % cuts off, how many brackets deep, from 1 on
+        after, taken, cut = [], 0, 0  # how many modules are replaced already; within what a % cuts off, how many brackets deep
         for at, module in enumerate(found[-1]):
             cut = cut + (module.symbol in OPENING) - (module.symbol in CLOSING) if cut else int(module.symbol == "%")
-            if not cut:
+            if not cut and at >= taken:
                 rule, parts = replaced(system, found[-1], at, known, Chance(seed, number, at))
                 applied.add(rule)
                 after += parts
+                taken = at + len(rule.predecessors if rule else [module])
         found.append(shortened(system, after, known))
     return [[(module.symbol, module.arguments) for module in word] for word in found], applied - {None}

@@ -22,7 +22,7 @@ from tests.derivation.random_systems import systems_with
 def matches(right: str, word: str, ignored: str = "") -> bool:
     """Whether the first module of a word has a right context; `.` stands for the end of a branch."""
     context = tuple(Pattern(END if letter == "." else letter) for letter in right)
-    rule = Production(Pattern("A"), (Pattern("X"),), right=context)
+    rule = Production((Pattern("A"),), (Pattern("X"),), right=context)
     system = LSystem(read(f"axiom: {word}").axiom, (rule,), ignored=tuple(ignored))
     return derive(system, 1)[-1][0].symbol == "X"
 
@@ -66,7 +66,7 @@ def test_an_empty_branch_is_one_that_ends_at_once() -> None:
 
 
 def test_the_end_of_a_branch_is_no_module() -> None:
-    rule = Production(Pattern("A"), (), right=tuple(map(Pattern, ("[", "B", END, "]"))))
+    rule = Production((Pattern("A"),), (), right=tuple(map(Pattern, ("[", "B", END, "]"))))
     system = LSystem(read("axiom: A[B]").axiom, (rule,))
     assert END not in symbols(system)
     assert warnings(system) == []

@@ -40,6 +40,7 @@ from tests.derivation.random_systems import (
     KINDS,
     META,
     REPETITION,
+    SEVERAL,
     SYMBOLS,
     systems,
     systems_with,
@@ -183,7 +184,7 @@ def test_all_tokens_move_at_once(system: LSystem) -> None:
 def rewritten(system: LSystem, change: Callable[[tuple[Pattern, ...]], tuple[Pattern, ...]],
               predecessor: Callable[[Pattern], Pattern]) -> LSystem:
     """The system with every word in it changed."""
-    rules = tuple(Production(predecessor(rule.predecessor), change(rule.successor), rule.condition)
+    rules = tuple(Production((predecessor(rule.predecessor),), change(rule.successor), rule.condition)
                   for rule in system.productions)
     return replace(system, axiom=change(system.axiom), productions=rules, alphabet=())
 
@@ -234,7 +235,7 @@ def test_a_part_of_a_word_is_a_word(system: LSystem, start: int, end: int) -> No
 
 # Systems with contexts, chance, decomposition, cuts, repetitions and meta-rules
 
-MIXED = [(kind,) for kind in KINDS] + [(CONTEXT, CHANCE), (CONTEXT, CUT), ()]
+MIXED = [(kind,) for kind in KINDS] + [(CONTEXT, CHANCE), (CONTEXT, CUT), (SEVERAL, CONTEXT), (SEVERAL, CHANCE, CUT), ()]
 """Kinds of rules that are tested alone and together; `()` is any mixture."""
 seeds = st.integers(-3, 2**40)
 
@@ -299,13 +300,20 @@ def test_the_random_systems_of_every_kind_are_not_idle(kinds: tuple[str, ...]) -
             REPETITION: any(isinstance(item, Repeat) for rule in applied for item in rule.successor),
             DECOMPOSITION: bool(system.decomposition) and differs(replace(system, decomposition=())),
             META: bool(system.meta) and differs(replace(system, meta=())),
+            SEVERAL: any(len(rule.predecessors) > 1 for rule in applied),
+            "three together": any(len(rule.predecessors) > 2 for rule in applied),
+            "several between neighbours": any(len(rule.predecessors) > 1 and (rule.left or rule.right) for rule in applied),
+            "several with a condition": any(len(rule.predecessors) > 1 and rule.condition is not None for rule in applied),
         })
 
     look()
     for what in ("condition", *(kinds or KINDS)):
         assert seen[what] >= 0.3 * seen["all"], (what, seen)
-    for kind, what in ((CONTEXT, "named branch"), (CHANCE, "random value")):
-        assert kind not in (kinds or KINDS) or seen[what] >= 0.15 * seen["all"], (what, seen)
+    rates = {(CONTEXT, "named branch"): 0.15, (CHANCE, "random value"): 0.15, (SEVERAL, "three together"): 0.1,
+             (SEVERAL, "several with a condition"): 0.2}
+    for (kind, what), rate in rates.items():
+        assert kind not in (kinds or KINDS) or seen[what] >= rate * seen["all"], (what, seen)
+    assert not {CONTEXT, SEVERAL} <= {*(kinds or KINDS)} or seen["several between neighbours"] >= 0.15 * seen["all"], seen
 
 
 @given(systems_with(CONTEXT))
@@ -333,7 +341,7 @@ def test_what_has_no_rival_happens_whatever_its_probability(system: LSystem, pro
 def test_interpretation_never_changes_a_word(system: LSystem, other: LSystem) -> None:
     defined(system)
     drawn = replace(system, interpretation=tuple(
-        Production(Pattern(symbol), (Pattern("F"), Pattern("%"), Pattern("B"))) for symbol in ("A", "B", "F", "+", "E")))
+        Production((Pattern(symbol),), (Pattern("F"), Pattern("%"), Pattern("B"))) for symbol in ("A", "B", "F", "+", "E")))
     assert list(map(modules, derive(drawn, STEPS))) == list(map(modules, derive(system, STEPS)))
 
 

@@ -117,7 +117,7 @@ def test_durations_and_conditions_are_told() -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_name_is_text(name: str) -> None:
-    hostile = LSystem((Pattern(name),), (Production(Pattern(name), (Pattern(name), Pattern(f"{name}2"), Pattern(f"{name}2"))),))
+    hostile = LSystem((Pattern(name),), (Production((Pattern(name),), (Pattern(name), *[Pattern(f"{name}2")] * 2)),))
     text = pnml(stages(hostile))
     root = ET.fromstring(text.encode())
     tags = {element.tag.rpartition("}")[2] for element in root.iter()}

@@ -211,7 +211,7 @@ def systems_of_chance(draw: st.DrawFn) -> LSystem:
     rules = []
     for bud in BUDS:
         ways = draw(st.lists(st.tuples(words, weights), max_size=3))
-        rules += [Production(Pattern(bud), made, probability=weight if number else Number(Fraction(13, 20)))
+        rules += [Production((Pattern(bud),), made, probability=weight if number else Number(Fraction(13, 20)))
                   for number, (made, weight) in enumerate(ways)]
     return LSystem(tuple(map(Pattern, BUDS)), tuple(rules))
 
@@ -222,7 +222,7 @@ def mean(system: LSystem, counts: Mapping[str, Fraction]) -> dict[str, Fraction]
     for symbol, count in counts.items():
         rules = [rule for rule in system.productions if rule.predecessor.symbol == symbol]
         total = sum(Fraction(rule.probability.value) for rule in rules)  # type: ignore[union-attr]
-        for rule in rules or [Production(Pattern(symbol), (Pattern(symbol),))]:
+        for rule in rules or [Production((Pattern(symbol),), (Pattern(symbol),))]:
             share = Fraction(rule.probability.value) / total if rules else 1  # type: ignore[union-attr]
             for module in rule.successor:
                 found[module.symbol] += count * share  # type: ignore[union-attr, assignment]

@@ -53,7 +53,7 @@ def test_the_number_of_parameters_belongs_to_the_symbol() -> None:
 
 def test_a_production_made_by_hand_has_no_place_in_a_text() -> None:
     system = replace(AGES, source="", axiom=(Pattern("axiom"),), productions=(
-        Production(Pattern("axiom"), read("axiom: A(1/0)").axiom),))
+        Production((Pattern("axiom"),), read("axiom: A(1/0)").axiom),))
     with pytest.raises(ModelValueError) as caught:
         States(system).successor(0)
     assert caught.value.message == "axiom under production 1, axiom -> A(1/0), has no value: division by zero"

@@ -99,13 +99,13 @@ def test_a_cut_that_a_meta_rule_makes_cuts_long_words_too() -> None:
 def test_a_random_condition_is_decided_anew_for_each_module() -> None:
     heads = Apply("<", (Apply("uniform", (Number(0), Number(1))), Number(Fraction(1, 2))))
     a, b = Pattern("A"), Pattern("B")
-    word = derive(LSystem((a,) * 200, (Production(a, (b,), heads),)), 1)[-1]
+    word = derive(LSystem((a,) * 200, (Production((a,), (b,), heads),)), 1)[-1]
     assert 60 < word.counts()["B"] < 140
 
 
 def test_a_random_weight_is_drawn_for_each_module() -> None:
     a, weight = Pattern("A"), Apply("uniform", (Number(0), Number(1)))
-    rules = tuple(Production(a, (Pattern(made),), probability=p) for made, p in (("B", weight), ("C", Number(1))))
+    rules = tuple(Production((a,), (Pattern(made),), probability=p) for made, p in (("B", weight), ("C", Number(1))))
     counts = derive(LSystem((a,) * 400, rules), 1)[-1].counts()
     assert 60 < counts["B"] < 190  # of 400, about 1 - log 2 of them
 
@@ -124,7 +124,7 @@ def test_a_module_may_be_its_own_successor_as_one_record() -> None:
     parameter: Expression = Name("x")
     apex = Pattern("A", (parameter,))
     axiom = tuple(replace(apex, arguments=(Number(n),)) for n in range(60))
-    assert len(derive(LSystem(axiom, (Production(apex, (apex, apex)),)), 2, arithmetic="float")[-1]) == 240
+    assert len(derive(LSystem(axiom, (Production((apex,), (apex, apex)),)), 2, arithmetic="float")[-1]) == 240
 
 
 def test_more_cases_than_a_short_number_counts() -> None:

@@ -57,7 +57,7 @@ def systems(draw: st.DrawFn, turtle: str, symbol: str) -> LSystem:
     """A system whose axiom and rules contain a command, in the plane or in space."""
     pitch = [Pattern(PITCH[turtle], (Number(40),))] if turtle in PITCH and draw(st.booleans()) else []
     word = successors(turtle, symbol)
-    return LSystem((*pitch, *draw(word), APEX), tuple(Production(apex, draw(word)) for apex in (APEX, BUD)),
+    return LSystem((*pitch, *draw(word), APEX), tuple(Production((apex,), draw(word)) for apex in (APEX, BUD)),
                    turtle=turtle, angle=draw(st.sampled_from((90, 25))))
 
 

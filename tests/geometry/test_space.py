@@ -373,7 +373,7 @@ def test_a_roll_by_half_a_turn_stays_in_the_plane_and_any_other_leaves_it():
 @pytest.mark.parametrize("symbol", ["&", "^", "$", "@v", "@Ts", "@M"])
 def test_a_command_that_leads_out_of_the_plane_is_seen_in_rules_and_interpretations(symbol):
     apex = Pattern("A")
-    growing, leading = Production(apex, (Pattern("F"), apex)), Production(apex, (Pattern(symbol), apex))
+    growing, leading = Production((apex,), (Pattern("F"), apex)), Production((apex,), (Pattern(symbol), apex))
     assert in_plane(LSystem((apex,), (growing,)))
     assert not in_plane(LSystem((apex,), (leading,)))
     assert not in_plane(LSystem((apex,), (growing,), interpretation=(leading,)))

@@ -22,7 +22,7 @@ from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.notation.write import write
-from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, systems, systems_with
+from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, SEVERAL, systems, systems_with
 
 LETTERS = {"al": "@o", "u_1": "?P"}
 
@@ -44,7 +44,7 @@ def lettered(module: Pattern) -> Pattern:
 
 
 def in_letters(rule: Production) -> Production:
-    return Production(lettered(rule.predecessor), tuple(map(lettered, rule.successor)), spelt(rule.condition),  # type: ignore[arg-type]
+    return Production(tuple(map(lettered, rule.predecessors)), tuple(map(lettered, rule.successor)), spelt(rule.condition),  # type: ignore[arg-type]
                       tuple(map(lettered, rule.left)), tuple(map(lettered, rule.right)), spelt(rule.probability))
 
 
@@ -72,7 +72,7 @@ def settings(system: LSystem) -> st.SearchStrategy[LSystem]:
                      decomposition_depth=few, interpretation=st.sampled_from(((), tuple(system.decomposition[:1]))))
 
 
-ANY_SYSTEM = st.one_of(systems(), systems_with(CONTEXT, CHANCE, DECOMPOSITION, CUT)).map(in_cpfg).flatmap(
+ANY_SYSTEM = st.one_of(systems(), systems_with(CONTEXT, CHANCE, DECOMPOSITION, CUT, SEVERAL)).map(in_cpfg).flatmap(
     lambda system: st.sampled_from((system, with_ends(system)))).flatmap(settings)
 
 
@@ -150,7 +150,7 @@ def test_what_binds_otherwise_in_cpfg_is_put_in_parentheses(kit: str, cpfg: str)
 @given(expressions(), expressions(True))
 def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expression) -> None:
     assume(not missing_function(number) and not missing_function(truth))
-    made = Production(Pattern("A", (Name("t"), Name("x"))), (Pattern("B", (number, number)),), truth)
+    made = Production((Pattern("A", (Name("t"), Name("x"))),), (Pattern("B", (number, number)),), truth)
     assume(not is_random(truth))
     text = f"Axiom: A(0,1)\nA(t,x) : {expression_text(truth)} --> B({expression_text(number)},{expression_text(number)})"
     assert read(text, "cpfg").productions == (made,)
@@ -175,7 +175,7 @@ def test_what_cpfg_lacks_is_named(text: str, feature: str) -> None:
 
 
 def test_the_end_of_a_branch_is_nothing_by_itself() -> None:
-    system = LSystem((Pattern("A"),), (Production(Pattern("A"), (Pattern(END),)),))
+    system = LSystem((Pattern("A"),), (Production((Pattern("A"),), (Pattern(END),)),))
     with pytest.raises(ModelValueError, match='The notation cpfg has no symbol "ε", which this system needs'):
         write(system, "cpfg")
 

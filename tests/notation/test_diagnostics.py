@@ -157,8 +157,6 @@ UNREADABLE = [
      "There is nothing before the arrow", 2, 1, PRODUCTION),
     ("axiom: A\n(A) -> B",
      'I did not expect "(" here', 2, 1, "Possible here: a name or a symbol."),
-    ("axiom: A\nA B -> C",
-     "Only one module can be replaced", 2, 3, 'Write a production for each: "A -> ...", then "B -> ...".'),
     ("axiom: A\nA -> B : 0.5 : 0.5",
      'This ":" comes after the arrow', 2, 14, 'A condition comes before it, as in "A(t) : t < 5 -> B".'),
     ("axiom: A [ B",

@@ -15,6 +15,7 @@ REPEAT = 'A repetition reads "repeat(3) <F>", or, with a name that counts from 0
 CONDITION = 'A condition is written between ":" and the arrow, as in "A(t) : t < 5 -> B".'
 RANDOM = 'Random numbers belong after the arrow of a production, as in "A -> F(uniform(1, 2))".'
 BRACKETS = "A right context may name branches; a left context passes over them."
+BRANCHES = 'What is replaced has no branches; a right context may name them, as in "A > [B]C -> D".'
 
 UNREADABLE = [
     ("axiom: A\nA < > C -> D",
@@ -27,10 +28,20 @@ UNREADABLE = [
      'This is a second ">"', 2, 7, 'A production has one right context: "A > B C -> D".'),
     ("axiom: A\nA > B < C -> D",
      "A left context is not possible here", 2, 7, 'It comes before the module that is replaced: "C < A > B -> D".'),
-    ("axiom: A\nA B > C -> D",
-     "Only one module can be replaced", 2, 3, SIDES),
-    ("axiom: A\nA < B C > D -> E",
-     "Only one module can be replaced", 2, 7, SIDES),
+    ("axiom: A\nA [B] -> C",
+     "A bracket is not possible here", 2, 3, BRANCHES),
+    ("axiom: A\nA > B [ -> C",
+     'This "[" is never closed', 2, 7, 'Every branch ends with "]".'),
+    ("axiom: A\nA B < ] C -> D",
+     "A bracket is not possible here", 2, 7, BRANCHES),
+    ("axiom: A\nA -> B\ndecomposition:\nA B -> C",
+     "A rule of the decomposition replaces one module", 4, 1, "It is applied to one module at a time."),
+    ("axiom: A\nA -> B\ninterpretation:\nA B -> C",
+     "A rule of the interpretation replaces one module", 4, 1, "It is applied to one module at a time."),
+    ("axiom: A\nA B C",
+     "An arrow is missing here", 2, 3, PRODUCTION),
+    ("axiom: A\nA B ~> C",
+     "This is not an arrow", 2, 5, 'An arrow is typed "->", in one piece.'),
     ("axiom: A\nA(t) t > 5 -> B",
      'A ":" is missing before the condition', 2, 6, CONDITION),
     ("axiom: A\nA(t) if t < 5 -> B",

@@ -167,7 +167,7 @@ def test_the_name_of_a_system_is_kept_where_it_is_written_again() -> None:
 
 
 def test_long_rules_are_parted_so_that_fractint_can_read_them() -> None:
-    long = replace(KOCH, productions=(Production(Pattern("F"), (Pattern("F"), Pattern("\\", (Number(30),))) * 500),))
+    long = replace(KOCH, productions=(Production((Pattern("F"),), (Pattern("F"), Pattern("\\", (Number(30),))) * 500),))
     assert max(map(len, write(long).splitlines())) < 160
     assert read(write(long)) == long
 

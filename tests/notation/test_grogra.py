@@ -404,7 +404,7 @@ def test_what_the_notation_lacks_is_named(text: str, lacking: str) -> None:
 
 
 def test_no_text_has_an_empty_axiom_or_a_depth_of_decomposition() -> None:
-    assert dialect_named("grogra").lacking(LSystem((), (Production(Pattern("a"), ()),))) == "empty axiom"
+    assert dialect_named("grogra").lacking(LSystem((), (Production((Pattern("a"),), ()),))) == "empty axiom"
     assert dialect_named("grogra").lacking(LSystem((Pattern("a"),), (), decomposition_depth=2)) == "depth of decomposition"
 
 

@@ -164,7 +164,7 @@ def test_a_printed_rule_is_an_lrule() -> None:
 @pytest.mark.parametrize("arrow", ["->", "→"])
 def test_a_printed_rule_has_an_arrow(arrow: str) -> None:
     assert read(f"Axiom: ab\nRules: a < b > {arrow} ba\na {arrow}").productions == (
-        Production(Pattern("b"), (Pattern("b"), Pattern("a")), left=(Pattern("a"),)), Production(Pattern("a"), ()))
+        Production((Pattern("b"),), (Pattern("b"), Pattern("a")), left=(Pattern("a"),)), Production((Pattern("a"),), ()))
 
 
 def test_a_name_of_several_letters_stays_whole_between_commas() -> None:
@@ -204,7 +204,7 @@ def test_a_comparison_may_go_on() -> None:
 
 def test_symbols_that_are_no_names_stand_in_quotation_marks() -> None:
     assert rule(r'LEFT[], PRED["+"[i_]], RIGHT["[", b, "]"], SUCC[F, "[", "+"[i], "\\", "L*"[0.5], "]"]') == Production(
-        Pattern("+", (Name("i"),)), (*map(Pattern, ("F", "[")), Pattern("+", (Name("i"),)), Pattern("\\"),
+        (Pattern("+", (Name("i"),)),), (*map(Pattern, ("F", "[")), Pattern("+", (Name("i"),)), Pattern("\\"),
                                     Pattern("L*", (Number(Fraction(1, 2)),)), Pattern("]")),
         right=tuple(map(Pattern, "[b]")))
 
@@ -233,7 +233,7 @@ def test_every_function_that_is_written_is_read() -> None:
         operands: tuple[Expression, ...] = (Number(1),) * counts.get(function, 1)
         if function == "if":
             operands = (Apply("<", (Number(1), Number(2))), *operands[1:])
-        system = LSystem((Pattern("a"),), (Production(Pattern("a"), (Pattern("b", (Apply(function, operands),)),)),))
+        system = LSystem((Pattern("a"),), (Production((Pattern("a"),), (Pattern("b", (Apply(function, operands),)),)),))
         assert read(write(system, "mathematica")) == system, function
 
 

@@ -87,7 +87,7 @@ def test_what_mathematica_lacks_is_named(text: str, lacking: str) -> None:
 
 
 def test_the_end_of_a_branch_is_lacking() -> None:
-    system = LSystem((Pattern("A"),), (Production(Pattern("A"), (), right=tuple(map(Pattern, ("[", "B", "ε", "]")))),))
+    system = LSystem((Pattern("A"),), (Production((Pattern("A"),), (), right=tuple(map(Pattern, ("[", "B", "ε", "]")))),))
     assert MATHEMATICA.lacking(system) == "branch ends in contexts"
 
 
@@ -123,7 +123,7 @@ def test_the_systems_written_had_everything() -> None:
 @given(conditions(("i", "t", "j"), 1), conditions(("i", "t", "j"), 1), conditions(("i", "t", "j"), 1), st.booleans())
 def test_every_condition_is_read_again(one: Expression, two: Expression, three: Expression, leftward: bool) -> None:
     joined = Apply("&&", (Apply("&&", (one, two)), three)) if leftward else Apply("&&", (one, Apply("&&", (two, three))))
-    production = Production(Pattern("B", (Name("t"),)), (), joined, (Pattern("A", (Name("i"),)), Pattern("x")),
+    production = Production((Pattern("B", (Name("t"),)),), (), joined, (Pattern("A", (Name("i"),)), Pattern("x")),
                             (Pattern("["), Pattern("C", (Name("j"),)), Pattern("]")))
     system = LSystem((Pattern("B", (Number(1),)),), (production,))
     assert read(write(system, "mathematica"), "mathematica") == system

@@ -89,8 +89,6 @@ UNREADABLE = [
      "There is no condition before the arrow", 2, 6, 'Write one, as in "t < 5", or leave the ":" out.'),
     ("ω: A\np_1: A → B → C",
      "This is a second arrow in one production", 2, 12, "Write one production per line."),
-    ("ω: A\np_1: A B → C",
-     "Only one module can be replaced", 2, 8, 'Write a production for each: "A -> ...", then "B -> ...".'),
     ("ω: A\np_1: A(t) t \\geq 5 → C",
      'A ":" is missing before the condition', 2, 11,
      'A condition is written between ":" and the arrow, as in "A(t) : t < 5 -> B".'),

@@ -50,7 +50,7 @@ def test_a_model_is_read_line_by_line() -> None:
     "axiom: A\ninterpretation:\nproductions:\nA -> B A",
 ])
 def test_a_production_may_be_laid_out_in_many_ways(text: str) -> None:
-    assert read(text) == LSystem((A,), (Production(A, (B, A)),))
+    assert read(text) == LSystem((A,), (Production((A,), (B, A)),))
 
 
 def test_a_condition_may_go_on_over_lines() -> None:

@@ -18,7 +18,8 @@ from lsys_kit.notation.syntax.wording import WORDINGS, worded
 ROOM = Path(lsys_kit.notation.__file__).parent
 DIALECT_WORDINGS = {code: wording for spelling in (MAP_SPELLING, *(dialect.spelling for dialect in DIALECTS.values()))
                     for code, wording in spelling.wordings.items()}
-NAMED = {"context in {}": ("decomposition", "interpretation"), "number of {}": ("steps", "rounds"),
+NAMED = {"context in {}": ("decomposition", "interpretation"), "several modules in {}": ("decomposition", "interpretation"),
+         "number of {}": ("steps", "rounds"),
          "{} never applied": ("production", "decomposition rule")}
 """The codes that are put together from two parts."""
 
@@ -43,7 +44,8 @@ def test_every_problem_has_a_wording_and_every_wording_a_problem() -> None:
 def test_a_wording_ends_as_its_part_of_a_message_does(code: str) -> None:
     """A message is a sentence without its full stop, a hint or a note has one."""
     wording: Wording = WORDINGS[code]
-    note = code.endswith(("never matches", "never applied", "final sign", "no probability", "number of values", "query"))
+    note = code.endswith(("never matches", "never applied", "final sign", "no probability", "number of values", "query",
+                          "several replaced"))
     assert wording.message.endswith(".") == note
     assert wording.hint is None or wording.hint.endswith(".")
 

@@ -114,6 +114,6 @@ def test_equality_ignores_where_a_system_was_read() -> None:
 
 def test_records_print_as_the_notation() -> None:
     assert str(Module("M", (Fraction(1, 2), -1))) == "M(0.5,-1)"
-    assert str(Production(Pattern("A"), ())) == "A -> ε"
+    assert str(Production((Pattern("A"),), ())) == "A -> ε"
     assert str(Constant("k", Number(3))) == "k = 3"
     assert str(LSystem((Pattern("A"),), ())) == "axiom: A"

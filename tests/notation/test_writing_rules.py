@@ -104,7 +104,7 @@ def rules(draw: st.DrawFn, section: str) -> Production:
     positive = st.sampled_from((Number(1), Apply("/", (Number(1), Number(3))), Number(Fraction(33, 100))))
     probability = draw(positive) if section != "interpretation" and draw(st.booleans()) else None
     successor = draw(words(names, chance=section != "interpretation").filter(counted))
-    return Production(own, successor, condition, left, right, probability)
+    return Production((own,), successor, condition, left, right, probability)
 
 
 @st.composite

@@ -220,7 +220,7 @@ def test_hostile_names_are_escaped(name: str) -> None:
     from lsys_kit.notation.model.modules import Pattern
     from lsys_kit.notation.model.system import LSystem, Production
 
-    hostile = LSystem((Pattern(name),), (Production(Pattern(name), (Pattern(name), Pattern(name + "2"))),))
+    hostile = LSystem((Pattern(name),), (Production((Pattern(name),), (Pattern(name), Pattern(name + "2"))),))
     root = svg_of(stages(hostile), positions=True, marked=0)
     tags = {element.tag.removeprefix(SVG) for element in root.iter()}
     assert tags <= {"svg", "g", "rect", "circle", "path", "text", "tspan", "title"}

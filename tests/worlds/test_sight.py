@@ -24,7 +24,7 @@ from lsys_kit.worlds.sight import TurtleObservation, observe
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 
 FUNCTIONS = {1: (1,), 2: (1,), 4: (60, 1), 7: (), 9: (60, 1)}
-ASKING = tuple(Production(Pattern("x"), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
+ASKING = tuple(Production((Pattern("x"),), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
                for number, values in FUNCTIONS.items())
 """Rules that make modules x ask; they are never applied here."""
 

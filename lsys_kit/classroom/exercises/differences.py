@@ -31,9 +31,12 @@ def differing_word(derivation: Derivation, step: int, word: Sequence[Module]) ->
     at = _parting(word, derivation[step])
     if at == len(derivation[step]):
         return f"You have {len(word)} modules, the word has {at}: up to position {at} yours is right."
-    parent = derivation.origins(step).parents[at]
+    origins = derivation.origins(step)
+    parent = origins.parents[at]
+    size = origins.sizes[parent] if origins.sizes else 1
+    where = f"position {parent + 1}" if size == 1 else f"positions {parent + 1} to {parent + size}"
     return (f"Position {at + 1}: you have {_shown(word, at)}, the word has {derivation[step][at]}; look at what becomes of "
-            f"the {derivation[step - 1][parent]} at position {parent + 1} of step {step - 1}.")
+            f"the {derivation[step - 1][parent:parent + size]} at {where} of step {step - 1}.")
 
 
 def differing_system(mine: Derivation, wanted: Derivation, step: int) -> str:

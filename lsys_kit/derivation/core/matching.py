@@ -108,14 +108,28 @@ def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored:
         position += 1
 
 
-def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
-            ignored: Container[str]) -> tuple[int, ...] | None:
-    """The positions of the modules that a rule names, in the order written, where its contexts match; else None."""
-    left = neighbours_along(around.before, position, len(rule.left))
+def match_predecessor(rule: Rule, word: Sequence[Module], position: int) -> tuple[int, ...] | None:
+    """The positions of the modules that a rule replaces, the first of which has the right kind; None where another has not.
+
+    They stand one directly behind the other: no symbol is ignored between them.
+    """
+    size = len(rule.predecessors)
+    if size > 1 and tuple(map(kind_of, word[position + 1:position + size])) != rule.predecessors[1:]:
+        return None
+    return (position,) if size == 1 else tuple(range(position, position + size))
+
+
+def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, own: tuple[int, ...],
+                  ignored: Container[str]) -> tuple[int, ...] | None:
+    """The positions of the modules that a rule names, in the order written, where its contexts match; else None.
+
+    What it replaces stands at its own positions; its contexts are what stands before the first of them and behind the last.
+    """
+    left = neighbours_along(around.before, own[0], len(rule.left))
     if len(left) < len(rule.left) or any(kind_of(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
         return None
-    right = _followed(rule.right, word, symbols, around, position, ignored)
-    return None if right is None else (*reversed(left), position, *right)
+    right = _followed(rule.right, word, symbols, around, own[-1], ignored)
+    return None if right is None else (*reversed(left), *own, *right)
 
 
 def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:

@@ -52,6 +52,8 @@ class Rule:
     ----------
     number
         The production's place in the order written, from 0.
+    predecessors
+        What is replaced: a module, or several one directly behind the other.
     left, right
         What must stand to the left, the nearest first, and to the right, the nearest first.
     equalities
@@ -72,6 +74,7 @@ class Rule:
 
     number: int
     production: Production
+    predecessors: tuple[ModuleKind, ...]
     left: tuple[ModuleKind, ...]
     right: Branch
     equalities: tuple[tuple[int, Function], ...]
@@ -91,7 +94,8 @@ class Rule:
     @cached_property
     def d0l(self) -> bool:
         """Whether a module alone decides what the rule does: no neighbour, no chance, and nothing that the turtle sees."""
-        return not (self.left or self.right or self.random or self.looks or self.probability is not None)
+        alone = len(self.predecessors) == 1 and not (self.left or self.right)
+        return alone and not (self.random or self.looks or self.probability is not None)
 
 
 Rules: TypeAlias = Mapping[ModuleKind, tuple[Rule, ...]]
@@ -99,7 +103,7 @@ Rules: TypeAlias = Mapping[ModuleKind, tuple[Rule, ...]]
 
 
 def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
-    """The rules of a system, by the symbol and the number of parameters that they rewrite.
+    """The rules of a system, by the symbol and the number of parameters of the module that they rewrite; of several, the first.
 
     Parameters
     ----------
@@ -147,7 +151,8 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
     matched = [part for part in (production.condition, production.probability) if part is not None]
     return Rule(
-        number, production, tuple(map(kind_of, reversed(production.left))), _branched_context(production.right),
+        number, production, tuple(map(kind_of, production.predecessors)),
+        tuple(map(kind_of, reversed(production.left))), _branched_context(production.right),
         tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),

@@ -80,6 +80,7 @@ class States(RuleApplication):
         self._decompositions: dict[tuple[object, ...], tuple[int, ...]] = {}
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
+        self._joined = frozenset(kind for rules in self.rules.values() for rule in rules for kind in rule.predecessors[1:])
         known = traits_of(system, arithmetic)
         self.traits = known._replace(unknown=True) if any(map(is_symbolic, self.constants)) else known
         self.axiom = tuple(self._axiom())
@@ -112,7 +113,8 @@ class States(RuleApplication):
 
     def is_d0l(self, state: int) -> bool:
         """Whether the state alone decides what becomes of it, unless it is cut off."""
-        return not self.traits.varying_decomposition and all(rule.d0l for rule in self.candidates(state))
+        return (not self.traits.varying_decomposition and all(rule.d0l for rule in self.candidates(state))
+                and not (self._joined and kind_of(self.modules[state]) in self._joined))
 
     def successor(self, state: int) -> tuple[int, ...]:
         """The states that replace a state in one step: itself, where no production matches.
@@ -202,5 +204,5 @@ class States(RuleApplication):
     def _axiom(self) -> Iterable[int]:
         """The axiom's states: its arguments may use the constants, so it is made like a successor."""
         places = [module.at for module in self.system.axiom if module.at]
-        start = Production(Pattern(AXIOM.symbol), self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
+        start = Production((Pattern(AXIOM.symbol),), self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
         return self.applied_states(rule_for(self.system, 0, start, self.arithmetic), AXIOM)

@@ -23,8 +23,8 @@ CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
 QUERIES = frozenset(("?P", "?H", "?U", "?L"))
 """The symbols whose values are the turtle's: its position, its heading, its up and its left."""
-MOST_CONTEXT = 10**9
-"""More neighbours than any context names."""
+MOST = 10**9
+"""More modules than any production names."""
 
 
 class Traits(NamedTuple):
@@ -34,6 +34,8 @@ class Traits(NamedTuple):
     ----------
     context
         How many neighbours on one side a production names at most.
+    predecessor
+        How many modules a production replaces together at most.
     branching_context
         Whether a right context names branches.
     stochastic
@@ -66,6 +68,7 @@ class Traits(NamedTuple):
     """
 
     context: int = 0
+    predecessor: int = 1
     branching_context: bool = False
     stochastic: bool = False
     random: bool = False
@@ -107,6 +110,7 @@ def traits_of(system: LSystem, arithmetic: str = "exact") -> Traits:
     rules, symbols = [*rewriting, *decomposing], {module.symbol for module in _written(system)}
     return Traits(
         context=max((len(side) for rule in rules for side in (rule.left, rule.right)), default=0),
+        predecessor=max((len(rule.predecessors) for rule in rules), default=1),
         branching_context=any(is_branch(item) for rule in rules for item in rule.right),
         stochastic=any(rule.probability is not None for rule in rewriting),
         random=any(rule.random for rule in rules),

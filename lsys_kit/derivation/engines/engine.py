@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
 
 from lsys_kit.budget import current
@@ -43,13 +43,18 @@ class Origins:
     Attributes
     ----------
     parents
-        For each module the position, in the word before, of the module that it comes from.
+        For each module the position, in the word before, of the module that it comes from; of several that were replaced
+        together, of the first.
     productions
         For each module the place of the production that made it, or None where the module stayed as it was.
+    sizes
+        Where productions replace several modules together, for each module of the word before how many were replaced from its
+        place on: 1, several, or 0 where it was replaced together with one before it. Else empty.
     """
 
     parents: Sequence[int]
     productions: Sequence[int | None]
+    sizes: Sequence[int] = field(default=(), repr=False)
 
 
 class Engine(Protocol):

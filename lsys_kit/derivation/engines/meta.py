@@ -20,7 +20,7 @@ def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[ModuleKind
     found = []
     for number, meta in enumerate(system.meta):
         *before, last = meta.predecessors
-        production = Production(last, meta.successor, meta.condition, left=tuple(before), at=meta.at)
+        production = Production((last,), meta.successor, meta.condition, left=tuple(before), at=meta.at)
         found.append((tuple(map(kind_of, meta.predecessors)), rule_for(system, number, production, arithmetic)))
     return tuple(found)
 

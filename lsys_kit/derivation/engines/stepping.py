@@ -90,7 +90,8 @@ class SteppingEngine:
         word = [code for replacement in made for code in replacement.states]
         parents = [position for position, replacement in enumerate(made) for _ in replacement.states]
         productions = [replacement.production for replacement in made for _ in replacement.states]
-        origins = Origins(parents, productions)
+        together = self.states.traits.predecessor > 1
+        origins = Origins(parents, productions, [replacement.size for replacement in made] if together else ())
         if self.states.system.meta:
             return self._shortened(word, lambda: origins)
         return self._word(word), lambda: origins
@@ -101,7 +102,7 @@ class SteppingEngine:
 
         def after() -> Origins:
             old = origins()
-            return Origins([old.parents[at] for at in first], [old.productions[at] for at in first])
+            return Origins([old.parents[at] for at in first], [old.productions[at] for at in first], old.sizes)
 
         return self._word(short), after
 

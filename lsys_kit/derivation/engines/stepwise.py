@@ -1,5 +1,10 @@
 """One step of any system, module by module: all modules of a word are replaced, each by what the definition says.
 
+Where a production's strict predecessor has several modules, these are replaced together. The word is scanned from left to
+right: at each place the production is looked for that begins there, and the scan goes on behind what it replaces, so that no
+module is replaced twice. Contexts are those of the word before the step (pseudo-L-systems: Prusinkiewicz, Graphical
+applications of L-systems, Graphics Interface 1986).
+
 What a module becomes depends on its state, on the states that the contexts of its rules name, and on chance. Results of equal
 cases are computed once and kept, unless a rule draws random values or asks what the turtle sees.
 """
@@ -13,7 +18,14 @@ from typing import TypeAlias
 
 from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import Chance
-from lsys_kit.derivation.core.matching import Neighbours, match_context, neighbours, neighbours_along, values_at
+from lsys_kit.derivation.core.matching import (
+    Neighbours,
+    match_context,
+    match_predecessor,
+    neighbours,
+    neighbours_along,
+    values_at,
+)
 from lsys_kit.derivation.core.rules import Rule, is_branch
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import CUT
@@ -27,7 +39,7 @@ SensingFunction: TypeAlias = Callable[..., Value]
 
 @dataclass(frozen=True)
 class Replacement:
-    """What one module becomes.
+    """What one module becomes, or several that are replaced together.
 
     Attributes
     ----------
@@ -35,10 +47,13 @@ class Replacement:
         The states that replace it.
     production
         The place of the production in the order written, or None where none was applied.
+    size
+        How many modules it replaces, from its own place on; 0 where the module is replaced together with one before it.
     """
 
     states: tuple[int, ...]
     production: int | None
+    size: int = 1
 
 
 @dataclass(frozen=True)
@@ -92,6 +107,8 @@ class Stepper:
     def replacements(self, codes: Sequence[int], step: int, sees: SensingFunction | None = None) -> Iterator[Replacement]:
         """What each module of a word becomes; what is cut off becomes nothing.
 
+        What several modules become together is given with the first of them.
+
         Parameters
         ----------
         codes
@@ -101,16 +118,21 @@ class Stepper:
         sees
             Answers what modules ask of the turtle.
         """
-        old, nothing = self.old(codes, sees), Replacement((), None)
+        old, nothing, taken = self.old(codes, sees), Replacement((), None), Replacement((), None, 0)
+        behind = 0  # where the scan goes on
         for position, (code, kept) in enumerate(zip(codes, surviving(old.symbols), strict=True)):
             if not kept:
                 yield nothing
+            elif position < behind:
+                yield taken
             elif code in self._alone:
                 yield self._alone[code]
             elif self.states.is_d0l(code):
                 yield self._alone.setdefault(code, Replacement(self.states.successor(code), self.states.production(code)))
             else:
-                yield self._open(old, position, old.chance(self.seed, step, position))
+                replacement = self._open(old, position, old.chance(self.seed, step, position))
+                behind = position + replacement.size
+                yield replacement
 
     def _open(self, old: ParentWord, position: int, chance: Chance) -> Replacement:
         """What becomes of a module whose state does not decide that alone."""
@@ -119,11 +141,12 @@ class Stepper:
         if rule is None:
             return Replacement(self.states.decompose(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
-        key = old.codes[position], values, rule.number
+        size = len(rule.predecessors)
+        key = old.codes[position] if size == 1 else tuple(old.codes[position:position + size]), values, rule.number
         repeatable = not (rule.random or rule.looks or self.states.traits.varying_decomposition)
         if repeatable and key in self._made:
             return self._made[key]
-        replacement = Replacement(self.states.replacement(rule, old.modules[position], values, chance), rule.number)
+        replacement = Replacement(self.states.replacement(rule, old.modules[position], values, chance), rule.number, size)
         if repeatable:
             self._made[key] = replacement
         return replacement
@@ -139,22 +162,25 @@ class Stepper:
         return self._matched[case]
 
     def _case(self, rules: Sequence[Rule], old: ParentWord, position: int) -> tuple[object, ...] | None:
-        """The states on which matching depends; None where it depends on what is seen, on chance, or on whole branches."""
+        """The states on which matching depends; None where it depends on what is seen, on chance, on whole branches, or on the
+        contexts of several modules."""
         if any(rule.matches_anew for rule in rules):
             return None
+        longest = max((len(rule.predecessors) for rule in rules), default=1)
         if old.around is None:
-            return (old.codes[position],)
-        if any(is_branch(item) for rule in rules for item in rule.right):
+            return tuple(old.codes[position:position + longest])
+        if longest > 1 or any(is_branch(item) for rule in rules for item in rule.right):
             return None
         left = neighbours_along(old.around.before, position, max((len(rule.left) for rule in rules), default=0))
         right = neighbours_along(old.around.after, position, max((len(rule.right) for rule in rules), default=0))
         return (old.codes[position], *(old.codes[at] for at in left), None, *(old.codes[at] for at in right))
 
     def context(self, rule: Rule, old: ParentWord, position: int) -> tuple[int, ...] | None:
-        """The positions of the modules that a rule names, where its contexts match; else None."""
-        if old.around is None:
-            return (position,)
-        return match_context(rule, old.modules, old.symbols, old.around, position, self.passed)
+        """The positions of the modules that a rule names, where what it replaces is there and its contexts match; else None."""
+        own = match_predecessor(rule, old.modules, position)
+        if own is None or any(old.symbols[at] == CUT for at in own[1:]):  # what is cut off is replaced by no rule
+            return None
+        return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own, self.passed)
 
     def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> list[Match]:
         found: list[Match] = []

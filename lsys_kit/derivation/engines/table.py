@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.traits import D0L, MOST_CONTEXT, S0L, Traits
+from lsys_kit.derivation.core.traits import D0L, MOST, S0L, Traits
 from lsys_kit.derivation.engines.columnar import ColumnarSteps
 from lsys_kit.derivation.engines.contexts import ContextEngine
 from lsys_kit.derivation.engines.counting import CountingEngine
@@ -22,7 +22,7 @@ ENGINES: Mapping[type, Traits] = MappingProxyType({
     ColumnarSteps: Traits(),
     CountingEngine: D0L,
     ContextEngine: S0L._replace(context=1, meta=True),
-    Stepper: Traits(MOST_CONTEXT, *[True] * 11),
+    Stepper: Traits(MOST, MOST, *[True] * 11),
 })
 """The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
 

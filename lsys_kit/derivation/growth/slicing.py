@@ -107,9 +107,9 @@ def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosit
 
 
 def _sliced_production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
-    return replace(rule, predecessor=without_arguments(rule.predecessor, kept), successor=_sliced_items(rule.successor, kept),
-                   left=tuple(without_arguments(module, kept) for module in rule.left),
-                   right=tuple(without_arguments(module, kept) for module in rule.right))
+    own, left, right = (tuple(without_arguments(module, kept) for module in modules)
+                        for modules in (rule.predecessors, rule.left, rule.right))
+    return replace(rule, predecessors=own, successor=_sliced_items(rule.successor, kept), left=left, right=right)
 
 
 def _sliced_items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:

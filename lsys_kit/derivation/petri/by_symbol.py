@@ -20,6 +20,7 @@ from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, function_of, names_in
 from lsys_kit.notation.model.modules import Item, Module, Pattern, Repeat, flat, joined
+from lsys_kit.notation.model.system import Production
 
 
 def by_symbol(states: States) -> Stages:
@@ -33,6 +34,8 @@ def by_symbol(states: States) -> Stages:
     for at_once, kind in product((False, True), kinds):
         rules = tables[at_once].get(kind, ())
         for rule, chance in zip(rules, _chances(rules, states), strict=True):
+            if len(rule.predecessors) > 1:
+                continue  # told besides
             arcs += [Arc(len(transitions), where[target], copies, spots, factor)
                      for target, copies, spots, factor in _products(rule.production.successor, states)]
             transitions.append(Transition(where[kind], rule.number, _requirements(rule, chance),
@@ -62,14 +65,14 @@ def _reachable_kinds(states: States, tables: Sequence[Mapping[ModuleKind, Sequen
 
 def _applicable(rules: Sequence[Rule]) -> Sequence[Rule]:
     """The rules of one kind up to the first that always matches: no later one is ever applied."""
-    last = next((number for number, rule in enumerate(rules, 1) if not (rule.left or rule.right or rule.equalities)
-                 and rule.condition is None and rule.probability is None), len(rules))
+    last = next((number for number, rule in enumerate(rules, 1) if not (rule.left or rule.right or rule.predecessors[1:])
+                 and not rule.equalities and rule.condition is None and rule.probability is None), len(rules))
     return rules[:last]
 
 
 def _chances(rules: Sequence[Rule], states: States) -> Sequence[Value | None]:
     """How likely each rule of one kind is, where that is constant: all have the same conditions, and constant weights."""
-    asked = {(rule.production.predecessor, rule.production.left, rule.production.right, rule.production.condition)
+    asked = {(rule.production.predecessors, rule.production.left, rule.production.right, rule.production.condition)
              for rule in rules}
     weights = [_constant_value(rule.production.probability, states) for rule in rules]
     if len(asked) == 1:
@@ -134,9 +137,14 @@ def _requirements(rule: Rule, chance: Value | None) -> str:
     return ", ".join(filter(None, (text, weight)))
 
 
+def _replaces_several(production: Production) -> bool:
+    """Whether a production replaces several modules together, which no transition with one place before it shows."""
+    return len(production.predecessors) > 1
+
+
 def _unshown(states: States) -> Iterator[str]:
     """What the system does that no transition shows."""
-    for rule in states.system.meta:
+    for rule in (*filter(_replaces_several, states.system.productions), *states.system.meta):
         yield str(rule)
     if states.traits.cut:
         yield f"{CUT} cuts off the rest of its branch"

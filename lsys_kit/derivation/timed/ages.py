@@ -178,7 +178,9 @@ def undecided_age(states: States, module: Module, production: Production) -> Mod
 def _grown(states: States, production: Production) -> Iterator[tuple[int, Value]]:
     """The first parameter to which a production adds a declared constant or 1, and how much that is."""
     before, after = production.predecessor, production.successor
-    if len(after) != 1 or not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
+    if not len(production.predecessors) == len(after) == 1:
+        return
+    if not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
         return
     for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True)):
         added = _added(old, new)

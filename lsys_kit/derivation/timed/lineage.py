@@ -137,6 +137,9 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
 def _derived_lineage(derivation: Derivation) -> Lineage:
     """The lineage of a derivation."""
     states = derivation.states
+    if states.traits.predecessor > 1:
+        raise ModelValueError("A cell of a lineage has one mother, but this system replaces several modules together",
+                              hint="explain(derivation, step) tells which modules become which.")
     if sum(derivation.lengths) > MOST_CELLS:
         raise ModelLimitError(f"The words of a lineage may have {MOST_CELLS:,} modules together", limit=MOST_CELLS,
                               needed=sum(derivation.lengths), hint="Take fewer steps.")

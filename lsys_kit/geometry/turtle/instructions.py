@@ -131,7 +131,7 @@ def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> 
     >>> unknown_commands({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
     ('RH', '=')
     """
-    known = {production.predecessor.symbol for production in (*system.productions, *system.decomposition)}
+    known = {module.symbol for rule in (*system.productions, *system.decomposition) for module in rule.predecessors}
     known |= COMMANDS[system.turtle].keys()
     met = dict.fromkeys(module.symbol for image in drawn.values() for module in image)
     return tuple(symbol for symbol in met

@@ -117,18 +117,26 @@ def check_range(constant: Constant, values: Mapping[str, Value]) -> None:
 
 
 def check_production(production: Production, constants: Collection[str], section: str = "productions") -> None:
-    """Parameters are distinct, names known, the condition a truth, the brackets closed, contexts where they are possible."""
+    """Parameters are distinct, names known, the condition a truth, the brackets closed, contexts and several modules to
+    replace where they are possible."""
     names = {*check_parameters(production.parameters, constants), *constants}
     if section != "productions" and (production.left or production.right):
         raise problem(f"context in {section}", production.at)
-    bracket = next((module for module in (*production.left, production.predecessor) if module.symbol in "[]()"), None)
-    if bracket is not None:
+    if section != "productions" and len(production.predecessors) > 1:
+        raise problem(f"several modules in {section}", production.at)
+    if (bracket := _first_bracket(production.left)) is not None:
         raise problem("bracket before arrow", bracket.at)
+    if (bracket := _first_bracket(production.predecessors)) is not None:
+        raise problem("bracket replaced", bracket.at)
     check_word(production.right, constants, arguments=False)
     if production.condition is not None:
         check_expression(production.condition, names, "truth")
     check_probability(production, names, section)
     check_word(production.successor, names, chance=section != "interpretation")
+
+
+def _first_bracket(modules: Iterable[Pattern]) -> Pattern | None:
+    return next((module for module in modules if module.symbol in "[]()"), None)
 
 
 def check_probability(production: Production, names: Collection[str], section: str) -> None:

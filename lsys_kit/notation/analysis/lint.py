@@ -32,13 +32,12 @@ def warnings(system: LSystem) -> list[Problem]:
     reachable = _reachable_kinds(system)
     return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
             *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
-            *_other_arities(system, reachable), *_final_signs(system), *_unanswered(reachable)]
+            *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system), *_unanswered(reachable)]
 
 
 def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
     """The kinds of modules that can occur in words: those of the axiom, and what rules make of what can occur."""
-    rules = [((rule.predecessor, *rule.left, *rule.right), rule.successor)
-             for rule in (*system.productions, *system.decomposition)]
+    rules = [(rule.parameters, rule.successor) for rule in (*system.productions, *system.decomposition)]
     rules += [(rule.predecessors, rule.successor) for rule in system.meta]
     missing = [{_kind(module) for module in needed if module.symbol != END} for needed, _ in rules]
     waiting: dict[_ModuleKind, list[int]] = {}
@@ -62,7 +61,7 @@ def _unmatched(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem
     """The rules that can never match, because a module that they need never occurs; perhaps its case is wrong."""
     symbols = {symbol for symbol, _ in reachable}
     for rule in (*system.productions, *system.decomposition):
-        needed = rule.predecessor, *rule.left, *rule.right
+        needed = *rule.predecessors, *rule.left, *rule.right
         missing = next((module for module in needed if _kind(module) not in reachable and module.symbol != END), None)
         if missing is not None:
             other = missing.symbol.swapcase()
@@ -82,11 +81,21 @@ def _without_probability(system: LSystem) -> Iterator[Problem]:
 
 def _other_arities(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem]:
     """The modules that no production rewrites, because they have another number of values than those that it is for."""
-    rewritten = {_kind(rule.predecessor) for rule in (*system.productions, *system.decomposition)}
+    rewritten = {_kind(module) for rule in (*system.productions, *system.decomposition) for module in rule.predecessors}
     for symbol, count in sorted(reachable - rewritten):
         others = sorted(other for name, other in rewritten & reachable if name == symbol)
         if others and symbol.isalpha() and symbol not in _DRAWN_EITHER_WAY:
             yield Problem("other number of values", None, {"symbol": symbol, "count": count, "others": others[0]})
+
+
+def _several_replaced(system: LSystem) -> Iterator[Problem]:
+    """The productions whose strict predecessor has several modules: a context may have been meant."""
+    numbers = [number for number, rule in enumerate(system.productions, 1) if len(rule.predecessors) > 1]
+    if numbers:
+        rule, others = system.productions[numbers[0] - 1], f"; so are those of {len(numbers) - 1} other productions"
+        yield Problem("several replaced", rule.at, {"number": numbers[0], "rule": rule, "count": len(rule.predecessors),
+                                                    "others": others * (len(numbers) > 2)
+                                                    or "; so are those of another production" * (len(numbers) == 2)})
 
 
 def _final_signs(system: LSystem) -> Iterator[Problem]:
@@ -155,7 +164,7 @@ def check_decomposition(system: LSystem) -> None:
 def _always(rule: Production, constants: Iterable[str]) -> bool:
     """Whether a rule applies to every module with its symbol and number of parameters."""
     free = all(isinstance(argument, Name) and argument.name not in constants for argument in rule.predecessor.arguments)
-    return free and rule.condition is None and rule.probability is None
+    return free and len(rule.predecessors) == 1 and rule.condition is None and rule.probability is None
 
 
 def _always_made(items: Iterable[Item]) -> Iterator[Pattern]:

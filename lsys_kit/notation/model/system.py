@@ -19,12 +19,14 @@ from lsys_kit.notation.model.modules import END, Item, Pattern, flat, joined
 
 @dataclass(frozen=True)
 class Production:
-    """What a module becomes in one step: predecessor and successor, perhaps contexts, a condition, a probability.
+    """What modules become in one step: strict predecessor and successor, perhaps contexts, a condition, a probability.
 
     Attributes
     ----------
-    predecessor
-        The strict predecessor. A parameter is a `Name`; any other expression matches that value alone.
+    predecessors
+        The strict predecessor: the module that is replaced, or several neighbours that are replaced together (pseudo-L-systems:
+        Prusinkiewicz, Graphical applications of L-systems, 1986). A parameter is a `Name`; any other expression matches that
+        value alone.
     successor
         The modules that replace it; none erases it.
     condition
@@ -35,7 +37,7 @@ class Production:
         Its weight among the matching productions with a probability; None for a production without chance.
     """
 
-    predecessor: Pattern
+    predecessors: tuple[Pattern, ...]
     successor: tuple[Item, ...]
     condition: Expression | None = None
     left: tuple[Pattern, ...] = ()
@@ -48,18 +50,24 @@ class Production:
         right = f" > {joined(map(str, self.right))}" if self.right else ""
         condition = f" : {self.condition}" if self.condition is not None else ""
         probability = f" : {self.probability}" if self.probability is not None else ""
-        return f"{left}{self.predecessor}{right}{condition} -> {joined(map(str, self.successor)) or 'ε'}{probability}"
+        own = joined(map(str, self.predecessors))
+        return f"{left}{own}{right}{condition} -> {joined(map(str, self.successor)) or 'ε'}{probability}"
+
+    @property
+    def predecessor(self) -> Pattern:
+        """The module that is replaced; of several that are replaced together the first."""
+        return self.predecessors[0]
 
     @property
     def modules(self) -> Iterator[Pattern]:
         """All its modules, in the order written."""
-        yield from (*self.left, self.predecessor, *self.right)
+        yield from self.parameters
         yield from flat(self.successor)
 
     @property
     def parameters(self) -> tuple[Pattern, ...]:
         """The modules whose arguments name its parameters."""
-        return *self.left, self.predecessor, *self.right
+        return *self.left, *self.predecessors, *self.right
 
 
 @dataclass(frozen=True)
@@ -179,7 +187,7 @@ class LSystem:
     def picture(self, n: int | None = None, **choices: Any) -> Any:
         """The picture that `draw(system, n)` makes.
 
-        >>> LSystem((Pattern("F"),), (Production(Pattern("F"), (Pattern("F"), Pattern("F"))),)).picture(3)
+        >>> LSystem((Pattern("F"),), (Production((Pattern("F"),), (Pattern("F"), Pattern("F"))),)).picture(3)
         8 segments, width 0, height 8
         """
         return import_module("lsys_kit").draw(self, n, **choices)  # imported late: this room knows no pictures
@@ -206,7 +214,7 @@ WRITERS: dict[str, Callable[[LSystem], str]] = {}
 def symbols(system: LSystem) -> tuple[str, ...]:
     """All symbols of a system, in the order in which they are first read.
 
-    >>> symbols(LSystem((Pattern("A"),), (Production(Pattern("A"), (Pattern("A"), Pattern("B"))),)))
+    >>> symbols(LSystem((Pattern("A"),), (Production((Pattern("A"),), (Pattern("A"), Pattern("B"))),)))
     ('A', 'B')
     """
     modules = [*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)]

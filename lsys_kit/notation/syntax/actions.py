@@ -142,6 +142,9 @@ class Statements(Transformer[Any, Any]):
     def erased(self, _: Token) -> tuple[Pattern, ...]:
         return ()
 
+    def predecessor(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+        return "predecessors", modules
+
     def left(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
         return "left", modules[0] if modules else ()
 
@@ -164,9 +167,8 @@ class Statements(Transformer[Any, Any]):
         return repeat
 
     def production(self, *parts: Any) -> tuple[str, Production]:
-        modules = [part for part in parts if isinstance(part, Pattern)]
         successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
-        return "production", Production(modules[0], successor, **dict(part for part in parts if _is_named(part)))
+        return "production", Production(successor=successor, **dict(part for part in parts if _is_named(part)))
 
     def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Any) -> tuple[str, MetaRule]:
         successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))

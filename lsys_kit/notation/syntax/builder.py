@@ -17,7 +17,7 @@ from lsys_kit.notation.analysis.checks import (
 )
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import names_in
-from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
 _SYMBOL_LISTS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
@@ -86,6 +86,13 @@ class Draft:
         if kind in self.settings:
             raise problem("setting twice", at, keyword=kind)
         self.settings[kind] = record
+
+
+def occurring_symbols(draft: Draft) -> set[str]:
+    """The symbols that can occur in words."""
+    productions = [rule.successor for rules in draft.sections.values() for rule in rules]
+    words = (draft.axiom or (), *productions, *(rule.successor for rule in draft.meta))
+    return {module.symbol for word in words for module in flat(word)}
 
 
 def build_system(draft: Draft) -> LSystem:

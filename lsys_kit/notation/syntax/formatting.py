@@ -61,6 +61,7 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "round brackets as branches": lambda s: any(m.symbol in "()" for m in s.modules),
     "conditions": lambda s: any(rule.condition is not None for rule in s.rules),
     "contexts": lambda s: any(rule.left or rule.right for rule in s.rules),
+    "predecessors of several modules": lambda s: any(len(rule.predecessors) > 1 for rule in s.rules),
     "probabilities": lambda s: any(rule.probability is not None for rule in s.rules),
     "repetition": lambda s: any(isinstance(item, Repeat) for rule in s.rules for item in rule.successor),
     "constants": lambda s: bool(s.constants),

@@ -34,17 +34,17 @@ def diagnose_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found == "ε":
         return failure.error('This "ε" does not end a branch', 'It is written before the "]" of a branch in a right context, '
                              'as in "A > [B ε]C -> D".')
-    return _condition(failure, head) or _context(failure) or _several(failure, head)
+    return _condition(failure, head) or _context(failure) or _several(failure)
 
 
 def _missing_arrow(failure: ParseFailure) -> ModelSyntaxError | None:
     if not {"ARROW", "LESSTHAN"} & failure.accepted or failure.found.startswith("="):
         return None
-    garbled = re.compile(r"\.{2,}|[•…⋯]+").search(failure.text, failure.start, failure.end)
+    garbled = re.compile(r"\.{2,}|[•…⋯]+|[-–—−~]*-[ \t]+>|[–—−~]>").search(failure.text, failure.start, failure.end)
     if garbled:
         return failure.error("This is not an arrow", f'An arrow is typed "{failure.spelling.arrow}", in one piece.',
                              garbled.start(), len(garbled.group()))
-    at = after_first(failure) if failure.accepted == {"LESSTHAN"} else failure.at
+    at = after_first(failure) if "LESSTHAN" in failure.accepted else failure.at
     return failure.error("An arrow is missing here", failure.spelling.rule_example, at)
 
 
@@ -61,15 +61,16 @@ def _condition(failure: ParseFailure, head: str) -> ModelSyntaxError | None:
 
 
 def missing_colon(productions: Iterable[Production], symbols: Collection[str]) -> None:
-    """A left context must not be a condition without its colon, as in "A(t) t < T -> B".
+    """What is replaced and its left context must not be a condition without its colon, as in "A(t) t < T -> B".
 
     It is one where a parameter is used as if it were a module, and no module has its name.
     """
     for production in productions:
-        before = [*production.left, production.predecessor]
+        before = [*production.left, *production.predecessors]
+        compared = [*before, *production.right[:1]]
         parameters = {argument.name for module in before for argument in module.arguments if isinstance(argument, Name)}
-        compared = {module.symbol for module in before if not module.arguments} & parameters
-        if production.left and compared - {*symbols}:
+        strange = parameters.intersection(module.symbol for module in compared if not module.arguments).difference(symbols)
+        if strange and len(before) > 1 and (production.left or production.right):
             first = next(index for index, module in enumerate(before) if module.arguments)
             raise problem("condition without colon", before[min(first + 1, len(before) - 1)].at)
 
@@ -93,13 +94,10 @@ def _context(failure: ParseFailure) -> ModelSyntaxError | None:
     return None
 
 
-def _several(failure: ParseFailure, head: str) -> ModelSyntaxError | None:
-    """More than one module to replace."""
-    hint = failure.spelling.contexts if "<" in head or ">" in head else \
-        f'Write a production for each: "A {failure.spelling.arrow} ...", then "B {failure.spelling.arrow} ...".'
-    if "LESSTHAN" in failure.accepted and "ARROW" not in failure.accepted and (
-            failure.found in (":", ">") or ARROW.match(failure.found)):
-        return failure.error("Only one module can be replaced", hint, after_first(failure), 1)
+def _several(failure: ParseFailure) -> ModelSyntaxError | None:
+    """More than one module to replace, in a plant string."""
     if "ARROW" in failure.accepted and not _OPERATORS & failure.accepted and failure.found[:1].isalpha():
-        return failure.error("Only one module can be replaced", hint)
+        arrow = failure.spelling.arrow
+        return failure.error("Only one module can be replaced",
+                             f'Write a production for each: "A {arrow} ...", then "B {arrow} ...".')
     return None

@@ -100,7 +100,7 @@ def _glued(modules: Iterable[Pattern], whole: frozenset[str], parts: frozenset[s
 
 def _whole_and_parts(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     """The names that stay whole, and the symbols of which a name may be made."""
-    rewritten = {rule.predecessor.symbol for rule in system.rules}
+    rewritten = {module.symbol for rule in system.rules for module in rule.predecessors}
     rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
     shown = [m.symbol for m in (*system.axiom, *(m for rule in system.rules for m in rule.modules))]
     whole = rewritten | set(system.alphabet)

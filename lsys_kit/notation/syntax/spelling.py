@@ -121,9 +121,9 @@ class Spelling:
         return f"{value:,}" if isinstance(value, int) else str(value)
 
     def left_side(self, rule: Production) -> str:
-        """A production's predecessor with its contexts."""
-        left, right = (self.joined(map(self.module, context)) for context in (rule.left, rule.right))
-        return f"{left} < " * bool(left) + self.module(rule.predecessor) + f" > {right}" * bool(right)
+        """A production's strict predecessor with its contexts."""
+        left, own, right = (self.joined(map(self.module, modules)) for modules in (rule.left, rule.predecessors, rule.right))
+        return f"{left} < " * bool(left) + own + f" > {right}" * bool(right)
 
 
 KIT_SPELLING = Spelling()

@@ -68,6 +68,8 @@ WORDINGS: Mapping[str, Wording] = {
     "bracket never closed": Wording('This "{bracket}" is never closed', 'Every branch ends with "{other}".'),
     "bracket before arrow": Wording("A bracket is not possible here",
                                     "A right context may name branches; a left context passes over them."),
+    "bracket replaced": Wording("A bracket is not possible here", 'What is replaced has no branches; a right context may name '
+                                'them, as in "A > [B]C {arrow} D".'),
     "parameter twice": Wording('The parameter "{name}" is named twice', "Give each parameter a name of its own.",
                                ModelNameError),
     "calculated parameter": Wording('Before the arrow a parameter is a name alone, not "{expression}"',
@@ -76,6 +78,8 @@ WORDINGS: Mapping[str, Wording] = {
                                        'A condition is written between ":" and the arrow, as in "A(t) : t < 5 {arrow} B".'),
     "context in decomposition": Wording("A rule of the decomposition cannot have a context", _ONE_AT_A_TIME),
     "context in interpretation": Wording("A rule of the {interpretation} cannot have a context", _ONE_AT_A_TIME),
+    "several modules in decomposition": Wording("A rule of the decomposition replaces one module", _ONE_AT_A_TIME),
+    "several modules in interpretation": Wording("A rule of the {interpretation} replaces one module", _ONE_AT_A_TIME),
     "probability in interpretation": Wording(
         "A rule of the {interpretation} cannot have a probability",
         "A word is always drawn in the same way; chance belongs in the productions.", ModelValueError),
@@ -98,6 +102,8 @@ WORDINGS: Mapping[str, Wording] = {
     "decomposition rule never applied": Wording(
         "Decomposition rule {number}, for {rule}, is never applied: decomposition rule {first} comes before it and matches "
         "every {module}."),
+    "several replaced": Wording("The strict predecessor of production {number}, for {rule}, has {count} modules, which are "
+                                "replaced together{others}. A neighbour that stays is a context, before \"<\" or after \">\"."),
     "no probability": Wording("Production {number}, for {rule}, has no probability: it is applied only where none of those "
                               "that have one matches."),
     "other number of values": Wording("No production matches {symbol} with {count} values: that for {symbol} has {others}."),

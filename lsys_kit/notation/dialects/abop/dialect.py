@@ -10,10 +10,10 @@ from lark import Transformer
 from lark.visitors import merge_transformers
 
 from lsys_kit.notation.model.expressions import Name
-from lsys_kit.notation.model.modules import Pattern, flat, joined
+from lsys_kit.notation.model.modules import Pattern, joined
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.actions import Expressions, Statements
-from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
@@ -46,17 +46,10 @@ def _resolve_deferred(draft: Draft) -> None:
         draft.notes.append('"d" is read as the length of a segment.')
 
 
-def _occurring_symbols(draft: Draft) -> set[str]:
-    """The symbols that can occur in words."""
-    productions = [rule.successor for rules in draft.sections.values() for rule in rules]
-    words = (draft.axiom or (), *productions, *(rule.successor for rule in draft.meta))
-    return {module.symbol for word in words for module in flat(word)}
-
-
 def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
-    missing_colon(draft.sections["productions"], _occurring_symbols(draft))
+    missing_colon(draft.sections["productions"], occurring_symbols(draft))
     system = _with_edges(segment_with_notes(build_system(draft)))
     check_digits(system.modules, system.alphabet)
     return system
@@ -70,7 +63,7 @@ def _with_edges(system: LSystem) -> LSystem:
     if not edges:
         return system
     names = [tuple(Name(f"x{i}") for i in range(size)) for _, size in sorted(edges)]
-    rules = (Production(Pattern(symbol, values), (Pattern("F", values[:1]),))
+    rules = (Production((Pattern(symbol, values),), (Pattern("F", values[:1]),))
              for (symbol, _), values in zip(sorted(edges), names, strict=True))
     shown = ", ".join(sorted({symbol for symbol, _ in edges}))
     return replace(system, interpretation=(*system.interpretation, *rules), notes=(*system.notes, f"Drawn as F: {shown}."))

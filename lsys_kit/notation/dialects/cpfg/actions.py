@@ -100,6 +100,9 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def word(self, *parts: Pattern | tuple[Pattern, ...]) -> tuple[Pattern, ...]:
         return tuple(_flattened(parts))
 
+    def predecessor(self, *parts: Pattern | tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
+        return super().predecessor(*_flattened(parts))
+
     def constant(self, name: Token, value: Expression, *rest: Expression) -> tuple[str, Constant]:
         return super().constant(name, as_number(value), *rest)
 

@@ -49,7 +49,7 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     """A rule with what its blocks compute: one before its condition, one after it.
 
     >>> x, doubled = Name("x"), Apply("+", (Name("t"), Name("t")))
-    >>> rule = Production(Pattern("M", (Name("t"),)), (Pattern("I", (x,)),))
+    >>> rule = Production((Pattern("M", (Name("t"),)),), (Pattern("I", (x,)),))
     >>> print(substitute(rule, (), (Assignment(x, doubled),), (), ""))
     M(t) -> I(t + t)
     """

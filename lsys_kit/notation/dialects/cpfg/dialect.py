@@ -16,8 +16,9 @@ from lsys_kit.notation.dialects.cpfg.statements import statements
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
 
 _MARKS = re.compile(
@@ -33,6 +34,7 @@ def _finish(draft: Draft) -> LSystem:
     _check_macros(draft)
     _resolve_deferred(draft)
     draft.notes += _notes(draft)
+    missing_colon(draft.sections["productions"], occurring_symbols(draft))
     return build_system(draft)
 
 

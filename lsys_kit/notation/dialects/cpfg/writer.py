@@ -82,11 +82,12 @@ def _macro_line(constant: Constant) -> str:
 
 def _rule(rule: Production) -> str:
     left = f"{joined_word(map(module_text, rule.left))} < " if rule.left else ""
+    own = joined_word(map(module_text, rule.predecessors))
     right = f" > {joined_word(_right_context(rule.right))}" if rule.right else ""
     condition = f" : {expression_text(rule.condition)}" if rule.condition is not None else ""
     probability = f" : {expression_text(rule.probability)}" if rule.probability is not None else ""
     successor = joined_word(map(module_text, flat(rule.successor))) or "*"
-    return f"{re.sub('^//', '/ /', left)}{module_text(rule.predecessor)}{right}{condition} --> {successor}{probability}"
+    return f"{re.sub('^//', '/ /', left)}{own}{right}{condition} --> {successor}{probability}"
 
 
 def _right_context(modules: Iterable[Pattern]) -> Iterator[str]:
@@ -117,7 +118,7 @@ def _symbols(system: LSystem) -> Iterator[str]:
     for rule in system.rules:
         ends = {at for at, module in enumerate(rule.right[1:]) if module.symbol == "]" and rule.right[at].symbol == END}
         seen = (module for at, module in enumerate(rule.right) if at not in ends)
-        yield from (module.symbol for module in (*rule.left, rule.predecessor, *seen, *flat(rule.successor)))
+        yield from (module.symbol for module in (*rule.left, *rule.predecessors, *seen, *flat(rule.successor)))
 
 
 def _lacking_symbol(symbol: str) -> str | None:

@@ -57,7 +57,7 @@ class Records(Transformer[Any, Any]):
         if symbol in RESERVED:
             raise ActionError(ModelSyntaxError, f'"{predecessor[0]}" is a command, which a rule cannot rewrite', at,  # type: ignore[arg-type]
                           "Choose another letter for the predecessor.")
-        return "deferred", ("rule", Production(Pattern(symbol, at=at), word))  # type: ignore[arg-type]
+        return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))  # type: ignore[arg-type]
 
     def erasing(self, predecessor: Token) -> tuple[str, Any]:
         if "=" not in predecessor:

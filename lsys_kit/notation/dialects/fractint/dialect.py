@@ -69,7 +69,7 @@ def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Produ
         raise ModelSyntaxError(f'"{pair[1].symbol}" would be read as part of "{module_text(pair[0])}" in the rule before',
                                draft.source, *(pair[1].at or parts[0][1]),
                                "Rules for the same symbol are joined: divide the word elsewhere.")
-    return Production(parts[0][0].predecessor, successor, at=parts[0][1] if len(parts) == 1 else None)
+    return Production(parts[0][0].predecessors, successor, at=parts[0][1] if len(parts) == 1 else None)
 
 
 def _likely(text: str) -> int:

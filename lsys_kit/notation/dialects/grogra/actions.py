@@ -126,7 +126,7 @@ def _production_of(parts: tuple[Any, ...]) -> Production:
     predecessor = next(part for part in parts if isinstance(part, Pattern))
     named = {part[0]: part[1] for part in parts if isinstance(part, tuple) and part and isinstance(part[0], str)}
     successor = next((part for part in parts if isinstance(part, tuple) and not (part and isinstance(part[0], str))), ())
-    return Production(predecessor, successor, **named)
+    return Production((predecessor,), successor, **named)
 
 
 def transformer() -> Transformer[Any, Any]:

@@ -248,7 +248,8 @@ def _rule_of(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, ri
         raise ActionError(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
     numbers = count(1)
     modules = tuple(_module_of(one, numbers) for one in every)
-    production = Production(modules[len(left)], successor, condition, modules[:len(left)], modules[len(left) + 1:])
+    own = len(left)
+    production = Production((modules[own],), successor, condition, modules[:own], modules[own + 1:])
     return RuleDefinition(production, tuple(argument for one in every for argument in one.arguments), at)
 
 

@@ -68,8 +68,9 @@ def _lines(system: LSystem) -> Iterator[str]:
 
 def _lacking(system: LSystem) -> str | None:
     return first_missing(
-        system, "parameters", "symbols of several letters", "conditions", "contexts", "probabilities", "repetition",
-        "constants", "decomposition rules", "meta-rules", "interpretation rules", "starting direction", "ignored symbols")
+        system, "parameters", "symbols of several letters", "conditions", "contexts", "predecessors of several modules",
+        "probabilities", "repetition", "constants", "decomposition rules", "meta-rules", "interpretation rules",
+        "starting direction", "ignored symbols")
 
 
 def _likely(text: str) -> int:
