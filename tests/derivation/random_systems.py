@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
-from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
+from lsys_kit.notation.model.system import ANY_BRANCH, BRANCHES, Constant, LSystem, MetaRule, Production
 
 SYMBOLS = ("A", "B", "al", "u_1")
 """Symbols that productions rewrite; each has as many parameters as `ARITY` says."""
@@ -280,4 +280,5 @@ def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
         tuple(axiom), tuple(rewriting),  # type: ignore[arg-type]
         decomposition=tuple(draw(st.lists(decompositions(kinds), min_size=1, max_size=3))) if DECOMPOSITION in kinds else (),
         meta=meta, ignored=ignored,
-        considered=draw(st.sampled_from(((), (), LIVELY))) if CONTEXT in kinds and not ignored else ())
+        considered=draw(st.sampled_from(((), (), LIVELY))) if CONTEXT in kinds and not ignored else (),
+        branches=draw(st.sampled_from(BRANCHES)) if CONTEXT in kinds else ANY_BRANCH)

@@ -41,24 +41,33 @@ def row(modules: Iterator[Module], opening: frozenset = OPENING, closing: frozen
             return
 
 
-def seen(system: LSystem, modules: Iterable[Module]) -> Iterator[Module]:
-    """The modules that contexts do not pass over."""
-    return (module for module in modules if module.symbol not in system.ignored
-            and (not system.considered or module.symbol in {*system.considered, *OPENING, *CLOSING}))
+def seen(system: LSystem, modules: Iterable[Module], flat: bool = False) -> Iterator[Module]:
+    """The modules that contexts do not pass over; flat, without brackets."""
+    brackets = set() if flat else {*OPENING, *CLOSING}
+    return (module for module in modules if module.symbol in brackets or (
+        module.symbol not in {*OPENING, *CLOSING, *system.ignored}
+        and (not system.considered or module.symbol in system.considered)))
 
 
-def follow(pattern: Sequence, neighbours: Iterator, names: dict) -> Iterator[dict]:
-    """The names with the values of a pattern's parameters, if neighbours are as it says, the nearest first; else nothing."""
+def follow(pattern: Sequence, neighbours: Iterator, names: dict, following: bool = False) -> Iterator[dict]:
+    """
+    The names with the values of a pattern's parameters, if neighbours are as it says, the nearest first; else nothing.
+
+    A branch that is named is any of those behind a module, or the following one.
+    """
     wanted, near = (pattern[0], next(neighbours, Module(END))) if pattern else (None, None)
     if near is None:
         yield names
     elif isinstance(near, list):  # a side branch, which is passed over unless the pattern means it
-        inside = list(follow(wanted, iter(near), names)) if isinstance(wanted, list) else []
-        yield from follow(pattern[1:], neighbours, inside[0]) if inside else follow(pattern, neighbours, names)
+        inside = list(follow(wanted, iter(near), names, following)) if isinstance(wanted, list) else []
+        if inside:
+            yield from follow(pattern[1:], neighbours, inside[0], following)
+        elif not (isinstance(wanted, list) and following):
+            yield from follow(pattern, neighbours, names, following)
     elif isinstance(wanted, Pattern) and (wanted.symbol, len(wanted.arguments)) == (near.symbol, len(near.arguments)):
         names = {a.name: v for a, v in zip(wanted.arguments, near.arguments, strict=True) if isinstance(a, Name)} | names
         if [value(a, names) for a in wanted.arguments] == list(near.arguments):
-            yield from follow(pattern[1:], neighbours, names)
+            yield from follow(pattern[1:], neighbours, names, following)
 
 
 def made(items: Iterable[Item], names: dict, chance: Chance | None = None) -> Iterator[Module]:
@@ -77,7 +86,10 @@ def replaced(system: LSystem, word: list[Module], at: int, known: dict, chance: 
                 if "%" not in [module.symbol for module in word[at:at + len(rule.predecessors)]]
                 for own in follow(rule.predecessors, iter(word[at:]), known)
                 for left in follow(rule.left[::-1], row(seen(system, reversed(word[:at])), CLOSING, OPENING, ends=False), own)
-                for names in follow(list(row(iter(rule.right))), row(seen(system, word[at + len(rule.predecessors):])), left)
+                for names in follow(
+                    list(row(iter(rule.right))),
+                    row(seen(system, word[at + len(rule.predecessors):], system.branches == "flat")), left,
+                    system.branches == "next")
                 if rule.condition is None or value(rule.condition, names)]
     if depth and (not matching or depth - 1 == system.decomposition_depth):
         return None, [word[at]]

@@ -8,11 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lsys_kit.derivation.engines.contexts as bulk
-from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, neighbours
+from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, Passing, neighbours
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation, derive
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
+from lsys_kit.notation.model.system import BRANCHES
 from lsys_kit.notation.read import read
 
 ROLES = {"A": bulk.ORDINARY, "B": bulk.ORDINARY, "+": bulk.PASSED, "-": bulk.PASSED, "[": bulk.OPENS, "]": bulk.CLOSES}
@@ -31,21 +32,24 @@ i < i > i -> o
 + -> -
 - -> +"""
 GROWING = "axiom: A(0) b\nA(x) > b -> A(x+1) [b] A(x+2)\nA(x) > A(y) : x < 9 -> A(y+1) b\nb < A(x) -> b A(x/2)"
+FLAT = "branches: flat\naxiom: B A A\nB > A -> A [B]\nA > B -> B [A] A\nA > A -> [A] B"
 CHANCE = "axiom: F F F F F\nF -> F [+ F] F [- F] F : 0.33\nF -> F [+ F] F : 0.33\nF -> ε : 0.1"
 
 
-@given(words)
-def test_neighbours_are_found_at_once(word: str) -> None:
+@given(words, st.sampled_from(BRANCHES))
+def test_neighbours_are_found_at_once(word: str, branches: str) -> None:
     """Of modules that are passed over as well: they may have contexts of their own."""
     places = np.arange(len(word))
-    left, right = bulk.context_neighbours(places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NO_NEIGHBOUR)
-    found, modules = neighbours(word, "+-"), np.array([symbol not in "[]" for symbol in word], dtype=bool)
+    left, right = bulk.context_neighbours(places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NO_NEIGHBOUR,
+                                            branches == "flat")
+    found, modules = neighbours(word, Passing("+-", branches)), np.array([symbol not in "[]" for symbol in word], dtype=bool)
     assert left[modules].tolist() == np.array(found.before, dtype=int)[modules].tolist()
     assert right[modules].tolist() == np.array(found.after, dtype=int)[modules].tolist()
 
 
 @pytest.mark.parametrize("table", [bulk.LARGEST_TABLE, 0], ids=["looked up", "sorted"])
-@pytest.mark.parametrize(("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6)], ids=["signals", "growing", "chance"])
+@pytest.mark.parametrize(("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6), (FLAT, 10)],
+                         ids=["signals", "growing", "chance", "flat"])
 def test_a_step_at_once_is_the_step_one_by_one(monkeypatch, text, steps, table):
     system = read(text)
     one_by_one = list(map(str, Derivation(SteppingEngine(Stepper(States(system), 5), None)).to(steps)))

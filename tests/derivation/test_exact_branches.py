@@ -13,17 +13,18 @@ from hypothesis import strategies as st
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.model.modules import END, Pattern
-from lsys_kit.notation.model.system import LSystem, Production, symbols
+from lsys_kit.notation.model.system import BRANCHES, LSystem, Production, symbols
 from lsys_kit.notation.read import read
+from lsys_kit.notation.write import write
 from tests.derivation import reference
 from tests.derivation.random_systems import systems_with
 
 
-def matches(right: str, word: str, ignored: str = "") -> bool:
+def matches(right: str, word: str, ignored: str = "", branches: str = "any") -> bool:
     """Whether the first module of a word has a right context; `.` stands for the end of a branch."""
     context = tuple(Pattern(END if letter == "." else letter) for letter in right)
     rule = Production((Pattern("A"),), (Pattern("X"),), right=context)
-    system = LSystem(read(f"axiom: {word}").axiom, (rule,), ignored=tuple(ignored))
+    system = LSystem(read(f"axiom: {word}").axiom, (rule,), ignored=tuple(ignored), branches=branches)
     return derive(system, 1)[-1][0].symbol == "X"
 
 
@@ -50,6 +51,39 @@ def test_side_branches_and_ignored_symbols_do_not_go_on_with_a_branch() -> None:
     assert matches("[B.]", "A[B+]", ignored="+")
     assert not matches("[B.]", "A[B+]")
     assert not matches("[B.]", "A[B[D]E]")
+
+
+@pytest.mark.parametrize(("right", "word", "expected"), [
+    ("[B]", "A[B]", "any next"), ("[D]", "A[B][D]", "any"), ("[B][D]", "A[B][D]", "any next"), ("[D]C", "A[D]C", "any next"),
+    ("[B]", "A[B][D]C", "any next"), ("[B]C", "A[B][D]C", "any next"), ("[B][D]", "A[B][C][D]", "any"),
+    ("[B.]", "A[B C][B]", "any"),
+    ("C[D]", "A[B]C[D]", "any next"), ("C[D]", "A C[B][D]", "any"), ("[B[D]]", "A[B[C][D]]", "any"),
+    ("[B]", "A+[B]", "any next"),
+    ("C", "A[B]C", "any next"), ("B", "A[B]C", "flat"), ("B C", "A[B]C", "flat"), ("D", "A[[D]]", "flat"),
+    ("", "A", "any next flat"),
+    ("C", "A[]+C", "any next flat"), ("B D", "A[B[D]]", "flat"),
+])
+def test_a_named_branch_is_any_of_those_there_or_the_next(right: str, word: str, expected: str) -> None:
+    """And where the word is read flat, no branch is named."""
+    found = [branches for branches in BRANCHES if matches(right.replace(" ", ""), word, "+", branches)]
+    assert found == expected.split()
+
+
+def test_a_flat_right_context_goes_on_beyond_the_end_of_its_branch() -> None:
+    """And a left context follows the branches in any case."""
+    system = read("branches: flat\naxiom: [A]B C\nA > B -> D\nA < B -> E\nB < C -> F")
+    assert str(derive(system, 1)[-1]) == "[D]B F"
+
+
+@given(systems_with("context"))
+def test_which_branch_is_named_is_said_only_where_it_matters(system: LSystem) -> None:
+    """Where no branch is named, a system is the same as one in which any could be."""
+    for branches in BRANCHES:
+        changed = replace(system, branches=branches)
+        named = any(module.symbol == "[" for rule in system.productions for module in rule.right)
+        assert (changed.branches == branches) == (branches == "any" or named or (
+            branches == "flat" and any(rule.right for rule in system.productions)))
+        assert read(write(changed)) == changed
 
 
 def test_the_ends_of_branches_on_branches_are_named_too() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.read import read, read_word
@@ -170,6 +171,27 @@ def test_sections_go_with_a_colon_or_without() -> None:
 
 def test_brackets_may_be_considered_like_other_symbols() -> None:
     assert read("Lsystem: 1\nConsider: JFD?P[]\nAxiom: J").considered == ("J", "F", "D", "?P")
+
+
+def test_a_named_branch_is_the_next_one() -> None:
+    """As in cpfg, which reads a right context and the word together from left to right."""
+    text = "Lsystem: 1\nAxiom: F[-X][+D]F\nF > [+D=] --> G"
+    assert str(derive(read(text), 1)[-1]) == "F[-X][+D]F"
+    assert str(derive(read(text.replace("[-X]", "")), 1)[-1]) == "G[+D]F"
+    assert read(text) == read("branches: next\naxiom: F[-X][+D]F\nF > [+D] -> G")
+    with pytest.raises(ModelValueError, match='has no right contexts that name any branch'):
+        write(read("axiom: F[-X][+D]F\nF > [+D] -> G"), "cpfg")
+
+
+@pytest.mark.parametrize(("line", "branches"), [
+    ("consider: AB", "flat"), ("consider: AB[]", "any"), ("ignore: +", "any"), ("ignore: +[]", "flat"), ("", "any"),
+])
+def test_brackets_that_are_not_considered_are_passed_over_by_right_contexts(line: str, branches: str) -> None:
+    system = read(f"Lsystem: 1\n{line}\nAxiom: A[B]\nA > B --> A(1)\nA < B --> B(1)")
+    assert system.branches == branches
+    assert str(derive(system, 1)[-1]) == ("A(1)[B(1)]" if branches == "flat" else "A[B(1)]")
+    assert read(write(system)) == system
+    assert any("pass over brackets" in note for note in system.notes) == (line == "consider: AB")
 
 
 def test_a_macro_is_a_number_and_not_its_text() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
-from lsys_kit.notation.model.system import LSystem, MetaRule, Production
+from lsys_kit.notation.model.system import BRANCHES, LSystem, MetaRule, Production
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import conditions, expressions
@@ -125,7 +125,7 @@ def systems(draw: st.DrawFn) -> LSystem:
         interpretation=tuple(draw(st.lists(rules("interpretation"), max_size=1))),
         decomposition=tuple(draw(st.lists(rules("decomposition"), max_size=2))),
         meta=tuple(draw(st.lists(meta_rules(), max_size=2))), depth=draw(st.integers(1, 3)), alphabet=ALPHABET,
-        ignored=() if considers else passed, considered=passed if considers else ())
+        ignored=() if considers else passed, considered=passed if considers else (), branches=draw(st.sampled_from(BRANCHES)))
 
 
 SEEN: Counter[str] = Counter()

@@ -4,6 +4,14 @@ The left context of a module goes back along its branch: it passes finished side
 parent. The right context goes on along its branch and passes side branches, unless the pattern names one: a named branch must
 match the beginning of a branch that stands there, or all of it, where the pattern says that the branch ends. Ignored symbols
 are passed on both sides. Beyond the ends of the word there are no neighbours.
+
+Which branch may be the named one is a property of the system. In the book a right context is a subtree that begins at the end
+of the segment (ABOP, section 1.8, page 32); of an axial tree it distinguishes the straight segment at a node from the lateral
+ones, but numbers these not (section 1.6.1): any of them may be meant, and several that are named are met in their order. Of
+GROGRA nothing else is known (Kurth's lecture slides name no branches in contexts), so that its notation reads as the book does.
+cpfg reads pattern and word from left to right together, and passes over a branch only where the pattern names none: there a
+named branch is the next one. It passes over brackets like any ignored symbol where `consider:` does not list them: then right
+contexts read the word as if it were flat, and left contexts follow its branches all the same.
 """
 
 from __future__ import annotations
@@ -14,9 +22,51 @@ from dataclasses import dataclass
 from lsys_kit.derivation.core.rules import Branch, Rule, is_branch, kind_of
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
+from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
 
 NO_NEIGHBOUR = -1
 """The position of a neighbour that is not there."""
+
+
+@dataclass(frozen=True)
+class _AllBut:
+    """All symbols but some."""
+
+    those: frozenset[str]
+
+    def __contains__(self, symbol: object) -> bool:
+        return symbol not in self.those
+
+
+@dataclass(frozen=True)
+class Passing:
+    """What contexts pass over: symbols that are ignored, and branches.
+
+    Attributes
+    ----------
+    ignored
+        The symbols.
+    branches
+        Which branches right contexts may name: see `LSystem.branches`.
+    """
+
+    ignored: Container[str] = ()
+    branches: str = ANY_BRANCH
+
+    @property
+    def flat(self) -> bool:
+        """Whether right contexts pass over brackets."""
+        return self.branches == FLAT
+
+
+def passing_of(system: LSystem) -> Passing:
+    """What the contexts of a system pass over.
+
+    >>> from lsys_kit.notation.read import read
+    >>> "+" in passing_of(read("ignore: + -\\naxiom: A")).ignored, "B" in passing_of(read("consider: A\\naxiom: A")).ignored
+    (True, True)
+    """
+    return Passing(_AllBut(frozenset(system.considered)) if system.considered else frozenset(system.ignored), system.branches)
 
 
 @dataclass(frozen=True)
@@ -25,6 +75,8 @@ class Neighbours:
 
     Attributes
     ----------
+    passing
+        What contexts pass over.
     before
         The module that the left context begins with.
     after
@@ -37,21 +89,28 @@ class Neighbours:
 
     Examples
     --------
-    >>> found = neighbours("ABC[DE][SG[HI]M]", ())
+    >>> found = neighbours("ABC[DE][SG[HI]M]", Passing())
     >>> "ABC[DE][SG[HI]M]"[found.before[8]], "ABC[DE][SG[HI]M]"[found.after[9]]
     ('C', 'M')
     """
 
+    passing: Passing
     before: Sequence[int]
     after: Sequence[int]
     inside: Sequence[int]
     closing: Sequence[int]
 
 
-def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
+def neighbours(symbols: Sequence[str], passing: Passing) -> Neighbours:
     """The neighbours of all positions of a word, in one pass in each direction."""
-    size = len(symbols)
-    before, after, inside, closing = ([NO_NEIGHBOUR] * size for _ in range(4))
+    before, closing = _backwards(symbols, passing.ignored)
+    after, inside = _ahead(symbols, passing.ignored) if not passing.flat else _ahead_of_all(symbols, passing.ignored)
+    return Neighbours(passing, before, after, inside, closing)
+
+
+def _backwards(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
+    """The neighbours to the left, and where each branch closes."""
+    before, closing = [NO_NEIGHBOUR] * len(symbols), [NO_NEIGHBOUR] * len(symbols)
     last, stack = NO_NEIGHBOUR, []
     for position, symbol in enumerate(symbols):
         before[position] = last
@@ -63,9 +122,15 @@ def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
                 closing[opened] = position
         elif symbol not in ignored:
             last = position
+    return before, closing
+
+
+def _ahead(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
+    """The neighbours to the right, and the first module of each branch."""
+    after, inside = [NO_NEIGHBOUR] * len(symbols), [NO_NEIGHBOUR] * len(symbols)
     following = NO_NEIGHBOUR
     behind: list[int] = []
-    for position in range(size - 1, -1, -1):
+    for position in range(len(symbols) - 1, -1, -1):
         symbol = symbols[position]
         if symbol in OPENING:
             inside[position] = following
@@ -76,7 +141,17 @@ def neighbours(symbols: Sequence[str], ignored: Container[str]) -> Neighbours:
             following = NO_NEIGHBOUR
         elif symbol not in OPENING and symbol not in ignored:
             following = position
-    return Neighbours(before, after, inside, closing)
+    return after, inside
+
+
+def _ahead_of_all(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
+    """The same where the word is read flat: the next module that is no bracket, wherever it stands, and no branches."""
+    after, following = [NO_NEIGHBOUR] * len(symbols), NO_NEIGHBOUR
+    for position in range(len(symbols) - 1, -1, -1):
+        after[position] = following
+        if symbols[position] not in OPENING and symbols[position] not in CLOSING and symbols[position] not in ignored:
+            following = position
+    return after, after
 
 
 def neighbours_along(links: Sequence[int], position: int, length: int) -> tuple[int, ...]:
@@ -94,7 +169,7 @@ def neighbours_along(links: Sequence[int], position: int, length: int) -> tuple[
     return tuple(found)
 
 
-def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored: Container[str]) -> Iterator[int]:
+def branches(symbols: Sequence[str], around: Neighbours, position: int) -> Iterator[int]:
     """The opening brackets of the side branches that stand right behind a position, before the next module."""
     position += 1
     while position < len(symbols):
@@ -103,7 +178,7 @@ def branches(symbols: Sequence[str], around: Neighbours, position: int, ignored:
             position = around.closing[position]
             if position == NO_NEIGHBOUR:
                 return
-        elif symbols[position] in CLOSING or symbols[position] not in ignored:
+        elif symbols[position] in CLOSING or symbols[position] not in around.passing.ignored:
             return
         position += 1
 
@@ -119,8 +194,8 @@ def match_predecessor(rule: Rule, word: Sequence[Module], position: int) -> tupl
     return (position,) if size == 1 else tuple(range(position, position + size))
 
 
-def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, own: tuple[int, ...],
-                  ignored: Container[str]) -> tuple[int, ...] | None:
+def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
+                  own: tuple[int, ...]) -> tuple[int, ...] | None:
     """The positions of the modules that a rule names, in the order written, where its contexts match; else None.
 
     What it replaces stands at its own positions; its contexts are what stands before the first of them and behind the last.
@@ -128,7 +203,7 @@ def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], ar
     left = neighbours_along(around.before, own[0], len(rule.left))
     if len(left) < len(rule.left) or any(kind_of(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
         return None
-    right = _followed(rule.right, word, symbols, around, own[-1], ignored)
+    right = _followed(rule.right, word, symbols, around, own[-1])
     return None if right is None else (*reversed(left), *own, *right)
 
 
@@ -137,38 +212,43 @@ def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, 
     return tuple(value for at in positions for value in word[at].arguments)
 
 
-def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int,
-              ignored: Container[str]) -> tuple[int, ...] | None:
+def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
+              position: int) -> tuple[int, ...] | None:
     """The positions of a row of modules and branches that begins behind a position, or None."""
     if not row:
         return ()
     first, rest = row[0], row[1:]
     if is_branch(first):
-        return _branched(row, word, symbols, around, position, position, ignored)
+        return _branched(row, word, symbols, around, position)
     at = around.inside[position] if symbols[position] in OPENING else around.after[position]
     if first[0] == END:
         return () if at == NO_NEIGHBOUR else None
     if at == NO_NEIGHBOUR or kind_of(word[at]) != first:
         return None
-    found = _followed(rest, word, symbols, around, at, ignored)
+    found = _followed(rest, word, symbols, around, at)
     return None if found is None else (at, *found)
 
 
-def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int, behind: int,
-              ignored: Container[str]) -> tuple[int, ...] | None:
-    """The positions of a row that begins with branches, which stand behind a position and behind the branches named already."""
+def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
+              position: int) -> tuple[int, ...] | None:
+    """The positions of a row that begins with branches, which stand behind a position."""
     first = next((index for index, item in enumerate(row) if not is_branch(item)), len(row))
-    named = [item for item in row[:first] if is_branch(item)]
-    there = list(branches(symbols, around, position, ignored))
+    there = iter(() if around.passing.flat else branches(symbols, around, position))
     found: list[int] = []
-    for branch in named:
-        for opened in there:
-            inside = _followed(branch, word, symbols, around, opened, ignored) if opened > behind else None
-            if inside is not None:
-                found += inside
-                behind = around.closing[opened]
-                break
-        else:
+    for branch in row[:first]:
+        inside = _first_match(branch, word, symbols, around, there)  # type: ignore[arg-type]
+        if inside is None:
             return None
-    rest = _followed(row[len(named):], word, symbols, around, position, ignored)
+        found += inside
+    rest = _followed(row[first:], word, symbols, around, position)
     return None if rest is None else (*found, *rest)
+
+
+def _first_match(branch: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
+                 there: Iterator[int]) -> tuple[int, ...] | None:
+    """The positions of a branch that is named, in the first of some branches that it may be; those before are used up."""
+    for opened in there:
+        inside = _followed(branch, word, symbols, around, opened)
+        if inside is not None or around.passing.branches == NEXT_BRANCH:
+            return inside
+    return None

@@ -148,7 +148,7 @@ class ContextEngine:
         role, fixed = ORDINARY, 0
         if symbol in OPENING or symbol in CLOSING:
             role = OPENS if symbol in OPENING else CLOSES
-        elif symbol in self.stepper.passed:
+        elif symbol in self.stepper.passing.ignored:
             role = PASSED
             if states.is_d0l(state):
                 role, fixed = SKIPPED, self.outcomes.number(Replacement(states.successor(state), states.production(state)))
@@ -156,7 +156,8 @@ class ContextEngine:
 
     def _in_context(self, codes: IntegerArray, roles: IntegerArray, size: int) -> IntegerArray:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for none."""
-        left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size)
+        flat = self.stepper.passing.flat
+        left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size, flat)
         kind = code_type(size * (size + 1) ** 2)
         keys = left.astype(kind) * kind.type(size + 1) + right.astype(kind, copy=False)
         keys = keys * kind.type(size) + codes.astype(kind, copy=False)
@@ -236,7 +237,8 @@ class ContextEngine:
         return ours, outcomes[rules]
 
 
-def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int) -> tuple[IntegerArray, IntegerArray]:
+def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int,
+                       flat: bool = False) -> tuple[IntegerArray, IntegerArray]:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
@@ -247,6 +249,8 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int) -> t
         For each module `ORDINARY`, `OPENS`, `CLOSES` or `PASSED`.
     none
         What stands for a missing neighbour. The neighbours of brackets mean nothing.
+    flat
+        Whether those to the right are found as if there were no brackets.
 
     Examples
     --------
@@ -255,6 +259,9 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int) -> t
     >>> left[[0, 2, 5, 7]].tolist(), right[[0, 2, 5, 7]].tolist()
     ([99, 10, 10, 10], [13, 99, 99, 99])
     """
+    if flat:
+        passed = np.where(roles == ORDINARY, roles, PASSED)
+        return context_neighbours(codes, roles, none)[0], context_neighbours(codes, passed, none)[1]
     size = len(codes)
     behind = np.append(codes, codes.dtype.type(none))  # the neighbour found at each place, coming from the right
     ahead = behind

@@ -11,7 +11,7 @@ cases are computed once and kept, unless a rule draws random values or asks what
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
@@ -24,6 +24,7 @@ from lsys_kit.derivation.core.matching import (
     match_predecessor,
     neighbours,
     neighbours_along,
+    passing_of,
     values_at,
 )
 from lsys_kit.derivation.core.rules import Rule, is_branch
@@ -31,7 +32,6 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
-from lsys_kit.notation.model.system import LSystem
 
 SensingFunction: TypeAlias = Callable[..., Value]
 """Answers a module: from its position, the number of a sensitive function and the function's arguments."""
@@ -92,7 +92,7 @@ class Stepper:
 
     def __init__(self, states: States, seed: int) -> None:
         self.states, self.seed = states, seed
-        self.passed = ignored_symbols(states.system)
+        self.passing = passing_of(states.system)
         self.in_context = states.traits.context > 0
         self._alone: dict[int, Replacement] = {}
         self._matched: dict[tuple[object, ...], list[Match]] = {}
@@ -102,7 +102,7 @@ class Stepper:
         """A word as the parent of the next one."""
         modules = [self.states.modules[code] for code in codes]
         symbols = [module.symbol for module in modules]
-        return ParentWord(codes, modules, symbols, neighbours(symbols, self.passed) if self.in_context else None, sees)
+        return ParentWord(codes, modules, symbols, neighbours(symbols, self.passing) if self.in_context else None, sees)
 
     def replacements(self, codes: Sequence[int], step: int, sees: SensingFunction | None = None) -> Iterator[Replacement]:
         """What each module of a word becomes; what is cut off becomes nothing.
@@ -180,7 +180,7 @@ class Stepper:
         own = match_predecessor(rule, old.modules, position)
         if own is None or any(old.symbols[at] == CUT for at in own[1:]):  # what is cut off is replaced by no rule
             return None
-        return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own, self.passed)
+        return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own)
 
     def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> list[Match]:
         found: list[Match] = []
@@ -195,26 +195,6 @@ class Stepper:
                 if rule.probability is not None:
                     found.append((rule, values))
         return found
-
-
-@dataclass(frozen=True)
-class _AllBut:
-    """All symbols but some."""
-
-    those: frozenset[str]
-
-    def __contains__(self, symbol: object) -> bool:
-        return symbol not in self.those
-
-
-def ignored_symbols(system: LSystem) -> Container[str]:
-    """The symbols that contexts pass over.
-
-    >>> from lsys_kit.notation.read import read
-    >>> "+" in ignored_symbols(read("ignore: + -\\naxiom: A")), "B" in ignored_symbols(read("consider: A\\naxiom: A"))
-    (True, True)
-    """
-    return _AllBut(frozenset(system.considered)) if system.considered else frozenset(system.ignored)
 
 
 def surviving(symbols: Sequence[str]) -> Iterator[bool]:

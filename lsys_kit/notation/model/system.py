@@ -14,7 +14,7 @@ from typing import Any
 
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, TextSpan
-from lsys_kit.notation.model.modules import END, Item, Pattern, flat, joined
+from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, flat, joined
 
 
 @dataclass(frozen=True)
@@ -109,6 +109,10 @@ class Constant:
         return f"{self.name} = {self.value}{span}"
 
 
+ANY_BRANCH, NEXT_BRANCH, FLAT = BRANCHES = ("any", "next", "flat")
+"""How right contexts treat the branches behind a module; see `LSystem.branches`."""
+
+
 @dataclass(frozen=True)
 class LSystem:
     """An L-system: axiom and productions, with what is needed to derive and draw them.
@@ -129,6 +133,10 @@ class LSystem:
         Rules that shorten the word after a step, until none applies.
     ignored, considered
         Symbols that contexts pass over; or, where these are given, the only ones that they do not pass over.
+    branches
+        Which branches a right context may name: "any" of those behind a module, in their order, whatever stands between them;
+        the "next" alone, as in cpfg; or none, where right contexts read the word "flat", as if it had no brackets. It is "any"
+        where the right contexts mean the same in any case.
     depth
         How often interpretation rules are applied to what they make.
     decomposition_depth
@@ -168,10 +176,15 @@ class LSystem:
     seed: int | None = None
     decomposition_depth: int | None = None
     turtle: str = "abop"
+    branches: str = ANY_BRANCH
     cells: str = field(default="rectangles", compare=False)
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if self.branches != ANY_BRANCH and not any(_depends_on_branches(rule, self.branches) for rule in self.productions):
+            object.__setattr__(self, "branches", ANY_BRANCH)
 
     def __hash__(self) -> int:
         return self._hash
@@ -205,6 +218,11 @@ class LSystem:
             yield from rule.modules
         for meta in self.meta:
             yield from (*meta.predecessors, *flat(meta.successor))
+
+
+def _depends_on_branches(rule: Production, branches: str) -> bool:
+    """Whether a right context means something else than where it may name any branch."""
+    return bool(rule.right) and (branches == FLAT or any(module.symbol in OPENING for module in rule.right))
 
 
 WRITERS: dict[str, Callable[[LSystem], str]] = {}

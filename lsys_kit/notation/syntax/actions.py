@@ -209,6 +209,9 @@ class Statements(Transformer[Any, Any]):
     def cells(self, _: Token, look: Token) -> tuple[str, str]:
         return "cells", str(look)
 
+    def branches(self, _: Token, which: Token) -> tuple[str, str]:
+        return "branches", str(which)
+
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))
 

@@ -39,11 +39,13 @@ from lsys_kit.notation.syntax.predecessor_diagnostics import diagnose_predecesso
 from lsys_kit.notation.syntax.text.statements import ARROW
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
-            "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells")
+            "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells", "branches")
 _SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books call a keyword."""
 _CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),
-            "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".')}
+            "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".'),
+            "WHICH": ("branches", "kind of branch",
+                      'A right context names "any" branch or the "next" one, or reads the word "flat".')}
 """The keywords that take one of a few words, by the token of that word; what it is called, and which there are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
 

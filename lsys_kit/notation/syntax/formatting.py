@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.modules import Repeat
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.modules import OPENING, Repeat
+from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
 
 OWN_NOTATION = "abop"
 """The dialect of turtle commands, and of the notation, that is meant where nothing is said."""
@@ -33,6 +33,8 @@ def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
     for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
         if symbols:
             yield f"{keyword}: {' '.join(symbols)}"
+    if system.branches != ANY_BRANCH:
+        yield f"branches: {system.branches}"
 
 
 def sections(system: LSystem, rule: Callable[[object], str]) -> Iterator[str]:
@@ -70,5 +72,9 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "interpretation rules": lambda s: bool(s.interpretation),
     "starting direction": lambda s: s.heading != 90,
     "ignored symbols": lambda s: bool(s.ignored or s.considered),
+    "right contexts that name the next branch": lambda s: s.branches == NEXT_BRANCH,
+    "right contexts that pass over brackets": lambda s: s.branches == FLAT,
+    "right contexts that name any branch": lambda s: s.branches == ANY_BRANCH and any(
+        module.symbol in OPENING for rule in s.productions for module in rule.right),
 }
 """What a system may need, and whether it does."""

@@ -119,11 +119,12 @@ class CpfgStatements(_CpfgExpressions, Statements):
         name = keyword.split()[0].rstrip(":").lower()
         return "deferred", ("section", _SECTION_NAMES.get(name, name))
 
-    def symbols(self, keyword: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
-        """Brackets are possible among the symbols that contexts see: contexts follow the branches in any case."""
+    def symbols(self, keyword: Token, *names: Token) -> tuple[str, Any]:
+        """Brackets are symbols like others; one without the other is refused."""
         others = [name for name in names if name not in "[]"]
-        consider = keyword.lower().startswith("consider") and others
-        return super().symbols(keyword, *(others if consider else names))
+        both = {"[", "]"} <= set(names) and (others or keyword.lower().startswith("ignore"))
+        kind, symbols = super().symbols(keyword, *(others if both else names))
+        return "deferred", ("passed", (kind, symbols, len(others) < len(names)))
 
     def condition(self, expression: Expression) -> tuple[str, Any]:
         """A number other than 0 is a condition that always holds."""

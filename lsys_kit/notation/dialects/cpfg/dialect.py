@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
@@ -15,7 +16,8 @@ from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
 from lsys_kit.notation.dialects.cpfg.statements import statements
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.modules import flat
+from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
@@ -41,16 +43,33 @@ def _finish(draft: Draft) -> LSystem:
 def _resolve_deferred(draft: Draft) -> None:
     """Take in what is known only when the whole text is read: the sections, and what the blocks of the rules compute."""
     section, constants = "productions", [constant.name for constant in draft.constants]
-    for kind, record, at in draft.deferred:
+    draft.settings["branches"] = NEXT_BRANCH
+    for kind, record, at in sorted(draft.deferred, key=lambda deferred: deferred[0] == "passed"):
         if kind == "section":
             section = record
             draft.add(kind, record, at)
         elif kind == "rule":
             production, before, after = record
             draft.add("production", substitute(production, before, after, constants, draft.source), at)
+        elif kind == "passed":
+            _resolve_passed(draft, record, at)
         elif kind == "count":
             keyword, expression = record
             _resolve_count(draft, section, keyword, expression, at)
+
+
+def _resolve_passed(draft: Draft, passed: tuple[str, tuple[str, ...], bool], at: tuple[int, int]) -> None:
+    """Take in what contexts pass over, or what they see: right contexts pass over brackets that they are not to see."""
+    keyword, symbols, brackets = passed
+    draft.add(keyword, symbols, at)
+    if brackets != (keyword == "ignore"):
+        return
+    draft.settings["branches"] = FLAT
+    rules = draft.sections["productions"]
+    words = (draft.axiom or (), *(flat(rule.successor) for rule in rules))
+    if keyword == "consider" and any(rule.right for rule in rules) and any(module.symbol == "[" for module in chain(*words)):
+        draft.notes.append('Right contexts pass over brackets, as in cpfg, because "consider:" does not list them: they read '
+                           f'the word as if it were flat. To follow its branches, write "consider: {"".join(symbols)}[]".')
 
 
 def _resolve_count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:

@@ -11,7 +11,7 @@ from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.modules import END, Module, Pattern, flat
-from lsys_kit.notation.model.system import Constant, LSystem, Production
+from lsys_kit.notation.model.system import FLAT, Constant, LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.syntax.formatting import first_missing
 
@@ -50,9 +50,7 @@ def _lines(system: LSystem) -> Iterator[str]:
     for keyword, number in (("seed", system.seed), ("derivation length", system.steps)):
         if number is not None:
             yield f"{keyword}: {number}"
-    for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
-        if symbols:
-            yield f"{keyword}: {joined_word(symbols)}"
+    yield from _passed(system)
     for keyword, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90),
                                   ("length", system.length, None)):
         if value != usual and value is not None:
@@ -62,6 +60,14 @@ def _lines(system: LSystem) -> Iterator[str]:
     yield from _section("decomposition", system.decomposition, system.decomposition_depth)
     yield from _section("homomorphism", system.interpretation, None if system.depth == 1 else system.depth)
     yield "endlsystem"
+
+
+def _passed(system: LSystem) -> Iterator[str]:
+    """What contexts pass over; right contexts pass over brackets too where they are ignored, or not considered."""
+    if system.considered:
+        yield f"consider: {joined_word(system.considered)}{'' if system.branches == FLAT else '[]'}"
+    elif system.ignored or system.branches == FLAT:
+        yield f"ignore: {joined_word(system.ignored)}{'[]' if system.branches == FLAT else ''}"
 
 
 def _section(keyword: str, rules: Iterable[Production], depth: int | None) -> Iterator[str]:
@@ -105,7 +111,8 @@ def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
         return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
-    found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules"),),
+    found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules",
+                                 "right contexts that name any branch"),),
                   map(_lacking_symbol, _symbols(system)), map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))
     return next(filter(None, found), None)
