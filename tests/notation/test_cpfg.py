@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
+from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.expressions import Apply, Number, function_of, to_sympy
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
@@ -113,7 +118,8 @@ def test_numbers_are_those_of_c() -> None:
 @pytest.mark.parametrize(("cpfg", "kit"), [
     ("x ? 1 : 2", "if(x != 0, 1, 2)"), ("x < 1 ? 1 : x < 2 ? 2 : 3", "if(x < 1, 1, if(x < 2, 2, 3))"),
     ("(x < 5) * 2", "if(x < 5, 1, 0) * 2"), ("2^x^3", "(2^x)^3"), ("-x^2", "(-x)^2"), ("-(x^2)", "-(x^2)"),
-    ("fabs(x)", "abs(x)"), ("abs(x)", "abs(x)"), ("pow(x,2)", "x^2"), ("sin(x)", "sin(x)"), ("x % 3", "mod(x, 3)"),
+    ("fabs(x)", "abs(x)"), ("abs(x)", "abs(x)"), ("pow(x,2)", "x^2"), ("sin(x)", "sin(x)"),
+    ("x % 3", "rem(x, 3)"), ("x - 3*floor(x/3)", "mod(x, 3)"),
     ("ran(x)", "uniform(0, x)"), ("nran(1, x)", "normal(1, x)"), ("biran(x, 0.5)", "binomial(x, 0.5)"),
     ("x + ran(5 - x)", "uniform(x, 5)"), ("x < 2 ? x : 2", "min(x, 2)"), ("x > 2 ? x : 2", "max(x, 2)"),
     ("trunc(x)", "if(x < 0, ceil(x), floor(x))"), ("sign(x)", "if(x < 0, -1, if(x > 0, 1, 0))"),
@@ -192,6 +198,36 @@ def test_brackets_that_are_not_considered_are_passed_over_by_right_contexts(line
     assert str(derive(system, 1)[-1]) == ("A(1)[B(1)]" if branches == "flat" else "A[B(1)]")
     assert read(write(system)) == system
     assert any("pass over brackets" in note for note in system.notes) == (line == "consider: AB")
+
+
+@pytest.mark.parametrize(("text", "value"), [
+    ("-7%3", -1), ("7.9%3", 1), ("7%-3", 1), ("-7%-3", -1), ("7%3.9", 1), ("0.5%2", 0), ("-7-3*floor(-7/3)", 2), ("-2^2", 4),
+])
+def test_remainders_are_those_of_c(text: str, value: int) -> None:
+    assert derive(read(f"Axiom: A({text})\nA(x) --> A(x)", "cpfg"), 0)[0][0].arguments == (value,)
+
+
+@given(st.fractions(-50, 50, max_denominator=4).map(normalised), st.fractions(1, 9, max_denominator=4).map(normalised),
+       st.sampled_from((1, -1)))
+def test_a_remainder_has_the_sign_of_what_is_divided(left: Value, right: Value, sign: int) -> None:
+    divided = Apply("rem", (Number(left), Number(sign * right)))
+    assert function_of(divided, {})(()) == to_sympy(divided) == int(math.fmod(math.trunc(left), math.trunc(sign * right)))
+    assert function_of(divided, {}, "float")(()) == math.fmod(math.trunc(left), math.trunc(sign * right))
+
+
+@pytest.mark.parametrize("text", ["Axiom: A(1/0)", "Axiom: A(0)\nA(x) --> A(1/x)", "Axiom: A(0)\nA(x) --> A(5%x)",
+                                  "#define c 1/0\nAxiom: A(c)"])
+def test_the_error_for_a_division_by_zero_says_what_cpfg_does(text: str) -> None:
+    with pytest.raises(ModelValueError, match="division by zero") as caught:
+        derive(read(text, "cpfg"), 1)
+    assert "cpfg warns of it and divides by 1" in (caught.value.hint or "")
+
+
+def test_what_other_notations_lack_of_cpfg_is_said() -> None:
+    system = read("Lsystem: 1\nAxiom: A(1)\nA(x) --> A((x+1)%5)")
+    assert read(write(system, "abop")) == system
+    with pytest.raises(ModelValueError, match="function rem"):
+        write(system, "mathematica")
 
 
 def test_a_macro_is_a_number_and_not_its_text() -> None:

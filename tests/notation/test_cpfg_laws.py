@@ -127,7 +127,7 @@ def expressions(draw: st.DrawFn, truth: bool = False, depth: int = 3) -> Express
         return Name(draw(st.sampled_from(("t", "x"))))
     operands = draw(expressions(depth=depth - 1)), draw(expressions(depth=depth - 1))
     if kind == "binary":
-        operators = ("+", "-", "*", "/", "^", "mod", "min", "max", "uniform", "normal", "binomial")
+        operators = ("+", "-", "*", "/", "^", "mod", "rem", "min", "max", "uniform", "normal", "binomial")
         return Apply(draw(st.sampled_from(operators)), operands)
     if kind == "unary":
         return operands[0] if isinstance(operands[0], Number) else Apply("-x", operands[:1])
@@ -138,7 +138,8 @@ def expressions(draw: st.DrawFn, truth: bool = False, depth: int = 3) -> Express
 
 @pytest.mark.parametrize(("kit", "cpfg"), [
     ("-t^2", "-(t^2)"), ("(-t)^2", "(-t)^2"), ("t^x^2", "t^(x^2)"), ("(t^x)^2", "(t^x)^2"), ("t^-x", "t^(-x)"),
-    ("2 * mod(t + 1, x)", "2 * ((t + 1) % x)"), ("-if(t < 1, x, 2)", "-(t < 1 ? x : 2)"), ("t - (x - 1)", "t - (x - 1)"),
+    ("2 * rem(t + 1, x)", "2 * ((t + 1) % x)"), ("mod(t, x)", "t - x * floor(t/x)"),
+    ("-if(t < 1, x, 2)", "-(t < 1 ? x : 2)"), ("t - (x - 1)", "t - (x - 1)"),
     ("max(t, -x)", "(t > -x ? t : -x)"), ("uniform(-1, x)", "((-1) + ran(x - -1))"),
 ])
 def test_what_binds_otherwise_in_cpfg_is_put_in_parentheses(kit: str, cpfg: str) -> None:

@@ -247,8 +247,8 @@ UNKNOWN = [
      'I do not know the function "tanh"', 2, 11, 'Did you mean "tan"?'),
     ("axiom: A(0)\nA(t) -> A(gamma(t))",
      'I do not know the function "gamma"', 2, 11,
-     "Functions are: abs, acos, asin, atan, binomial, ceil, cos, exp, floor, if, log, max, min, mod, normal, poisson, sensed, "
-     "sin, sqrt, table, tan, uniform."),
+     "Functions are: abs, acos, asin, atan, binomial, ceil, cos, exp, floor, if, log, max, min, mod, normal, poisson, rem, "
+     "sensed, sin, sqrt, table, tan, uniform."),
     ("axiom: A\nA = B",
      'I do not know the name "B"', 2, 5, 'A production reads "A -> B".'),
     ("Axiom = A\nA -> B",

@@ -10,6 +10,7 @@ from lsys_kit.notation.model.arithmetic import Value, reason_of
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
+from lsys_kit.notation.syntax.spelling import Wording
 from lsys_kit.notation.write import as_written
 
 AXIOM = Module("axiom")
@@ -20,11 +21,14 @@ UNKNOWN = "it depends on an unknown constant"
 
 def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exception) -> LSystemError:
     """A value that cannot be computed."""
-    shown, production = dialect_named(system.notation).module(module), as_written(system, rule.production)
+    dialect = dialect_named(system.notation)
+    shown, production = dialect.module(module), as_written(system, rule.production)
     what = "The axiom" if module is AXIOM else f"{shown} under production {rule.number + 1}, {production},"
     hint = None if module is AXIOM else "A condition before the arrow can keep such values out."
     if rule.looks:
         hint = "Where there is no such shoot, an answer is infinite." if isinstance(fault, OverflowError) else None
+    if isinstance(fault, ZeroDivisionError):
+        hint = " ".join(filter(None, (hint, dialect.spelling.wordings.get("division by zero", Wording("")).hint))) or None
     start, end = rule.production.at or (None, None)
     return ModelValueError(f"{what} has no value: {reason_of(fault)}", system.source or None, start, end, hint)
 

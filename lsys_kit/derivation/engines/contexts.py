@@ -24,6 +24,7 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
 IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
 LARGEST_TABLE = 2**22
@@ -156,8 +157,7 @@ class ContextEngine:
 
     def _in_context(self, codes: IntegerArray, roles: IntegerArray, size: int) -> IntegerArray:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for none."""
-        flat = self.stepper.passing.flat
-        left, right = context_neighbours(codes.astype(code_type(size + 1), copy=False), roles, size, flat)
+        left, right = context_neighbours(codes.astype(code_type(size + 1)), roles, size, self.stepper.passing.flat)
         kind = code_type(size * (size + 1) ** 2)
         keys = left.astype(kind) * kind.type(size + 1) + right.astype(kind, copy=False)
         keys = keys * kind.type(size) + codes.astype(kind, copy=False)
@@ -224,8 +224,7 @@ class ContextEngine:
             result[ours] = outcomes
         return result
 
-    def _choose(self, choice: RuleChoice, ours: IntegerArray, where: IntegerArray | None,
-                step: int) -> tuple[IntegerArray, IntegerArray]:
+    def _choose(self, choice: RuleChoice, ours: IntegerArray, where: IntegerArray | None, step: int) -> Sides:
         """Where the modules of a choice stand, and the numbers of what they become.
 
         What a rule makes is computed when it is drawn first: one that never is may have no value.
@@ -237,8 +236,7 @@ class ContextEngine:
         return ours, outcomes[rules]
 
 
-def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int,
-                       flat: bool = False) -> tuple[IntegerArray, IntegerArray]:
+def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int, flat: bool = False) -> Sides:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
     Parameters
@@ -260,7 +258,7 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int,
     ([99, 10, 10, 10], [13, 99, 99, 99])
     """
     if flat:
-        passed = np.where(roles == ORDINARY, roles, PASSED)
+        passed = np.where(roles == ORDINARY, ORDINARY, PASSED)
         return context_neighbours(codes, roles, none)[0], context_neighbours(codes, passed, none)[1]
     size = len(codes)
     behind = np.append(codes, codes.dtype.type(none))  # the neighbour found at each place, coming from the right

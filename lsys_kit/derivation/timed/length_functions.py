@@ -22,7 +22,7 @@ AGE = "t"
 """What a growth function calls the age."""
 MOST_TEXT, MOST_TOWERS, MOST_BITS, MOST_DEGREE = 300, 3, 10**8, 12
 """How long a growth function is; how deep powers, how long numbers and how high powers in it are."""
-JUMPS = frozenset(("if", "floor", "ceil", "mod"))
+JUMPS = frozenset(("if", "floor", "ceil", "mod", "rem"))
 """Operators that are not continuous where their operands are."""
 
 

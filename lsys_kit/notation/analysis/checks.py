@@ -63,6 +63,8 @@ def value_of(expression: Expression, values: Mapping[str, Value] = MappingProxyT
     order = {name: index for index, name in enumerate(values)}
     try:
         return finite(function_of(expression, order)(tuple(values.values())))
+    except ZeroDivisionError as fault:
+        raise problem("division by zero", expression.at, expression=expression, reason=reason_of(fault)) from None
     except (ArithmeticError, ValueError) as fault:
         raise problem("no value", expression.at, expression=expression, reason=reason_of(fault)) from None
 

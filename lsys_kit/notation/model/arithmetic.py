@@ -172,6 +172,18 @@ def rounding(function: Callable[[Value], int]) -> Callable[[Value], Value]:
     return lambda x: float(function(x)) if isinstance(x, float) else function(x)
 
 
+def remainder(left: Value, right: Value) -> Value:
+    """What C's `%` leaves of two numbers: both lose what follows their points, and the sign is that of the first.
+
+    >>> remainder(-7, 3), remainder(Fraction(79, 10), 3), remainder(7, -3), remainder(-0.5, 2.0)
+    (-1, 1, 1, 0.0)
+    """
+    whole, by = int(left), int(right)  # a TypeError where an unknown constant decides
+    rest = abs(whole) % abs(by)
+    rest = -rest if whole < 0 else rest
+    return float(rest) if isinstance(left, float) or isinstance(right, float) else rest
+
+
 def partial_function(name: str, function: Callable[[Value], Value]) -> Callable[[Value], Value]:
     """A function that is not defined everywhere; where it is not, the error says so in plain words."""
 

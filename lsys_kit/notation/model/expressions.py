@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, literal_text
@@ -225,13 +225,16 @@ def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
     """For each operator what builds it in sympy."""
     import sympy
 
+    def remainder(x: Any, y: Any) -> Any:
+        return sympy.sign(x) * sympy.Mod(sympy.floor(sympy.Abs(x)), sympy.floor(sympy.Abs(y)))
+
     degree = sympy.pi / 180
     return {
         "||": sympy.Or, "&&": sympy.And, "!": sympy.Not, "==": sympy.Eq, "!=": sympy.Ne,
         "<": sympy.Lt, "<=": sympy.Le, ">": sympy.Gt, ">=": sympy.Ge,
         "+": sympy.Add, "-": lambda x, y: x - y, "*": sympy.Mul, "/": lambda x, y: x / y, "-x": lambda x: -x,
         "^": sympy.Pow, "abs": sympy.Abs, "floor": sympy.floor, "ceil": sympy.ceiling, "min": sympy.Min,
-        "max": sympy.Max, "mod": sympy.Mod, "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
+        "max": sympy.Max, "mod": sympy.Mod, "rem": remainder, "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
         "sqrt": sympy.sqrt, "exp": sympy.exp, "log": sympy.log,
         "sin": lambda x: sympy.sin(x * degree), "cos": lambda x: sympy.cos(x * degree), "tan": lambda x: sympy.tan(x * degree),
         "asin": lambda x: sympy.asin(x) / degree, "acos": lambda x: sympy.acos(x) / degree,

@@ -20,6 +20,7 @@ from lsys_kit.notation.model.arithmetic import (
     equal_values,
     partial_function,
     power,
+    remainder,
     rounding,
     short_text,
 )
@@ -181,6 +182,7 @@ OPERATORS: Mapping[str, Operator] = {
     "min": Operator(_strict(min), None, arity=(2, 16)),
     "max": Operator(_strict(max), None, arity=(2, 16)),
     "mod": Operator(_strict(lambda x, y: bounded_exact(x % y)), None),
+    "rem": Operator(_strict(remainder), None),
     "if": Operator(_if, None, arity=(3, 3), conditional=True),
     "sqrt": _function("sqrt", math.sqrt),
     "exp": _function("exp", math.exp),

@@ -27,6 +27,7 @@ WORDINGS: Mapping[str, Wording] = {
                                 'Compare it with something, as in "{expression} > 0".', ModelValueError),
     "truth for number": Wording('"{expression}" is true or false, but a number is needed here', error=ModelValueError),
     "no value": Wording('"{expression}" has no value: {reason}', error=ModelValueError),
+    "division by zero": Wording('"{expression}" has no value: {reason}', error=ModelValueError),
     "name too long": Wording("This name has more than {most} letters"),
     "number too long": Wording("This number is too long", _TEN_308),
     "number too large": Wording("This number is too large", _TEN_308),

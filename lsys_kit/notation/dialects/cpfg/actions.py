@@ -18,7 +18,7 @@ from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
 from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
 
-_SPELLINGS = {"<>": "!=", "%": "mod"}
+_SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
 SYMBOL_PATTERN = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
 """A symbol: a character, or "@" or "?" with a letter."""

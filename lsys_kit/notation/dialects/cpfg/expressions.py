@@ -1,7 +1,8 @@
 """Expressions as cpfg has them: C's truths, which are numbers, and the functions of its manual.
 
-cpfg's signs bind more tightly than `^`, and `^` goes from left to right: `-2^2` is 4, `2^3^2` is 64. Angles are in degrees
-(CPFG User's Manual, "Predefined functions").
+cpfg's signs bind more tightly than `^`, and `^` goes from left to right: `-2^2` is 4, `2^3^2` is 64. `%` is that of C for whole
+numbers, to which its operands are cut: `-7%3` is -1, `7.9%3` is 1. Angles are in degrees (CPFG User's Manual, "Predefined
+functions").
 """
 
 from __future__ import annotations
@@ -106,13 +107,14 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
 def _instead(name: str) -> str | None:
     """What cpfg has in place of a function of the kit."""
     return {"if": 'A choice is typed "t < 5 ? 1 : 2".', "min": 'Type "x < y ? x : y".', "max": 'Type "x > y ? x : y".',
-            "mod": 'Type "x % y".', "uniform": 'Type "ran(x)", a number from 0 to x.'}.get(name)
+            "mod": 'Type "x - y*floor(x/y)".', "rem": 'Type "x % y".',
+            "uniform": 'Type "ran(x)", a number from 0 to x.'}.get(name)
 
 
 _LESS: Mapping[str, str] = {"<": "min", ">": "max"}
 """What `x < y ? x : y` says."""
 _STYLE = Style({kit: cpfg for cpfg, kit in RENAMED.items()})
-_KNOWN = frozenset((*SAME, *RENAMED.values(), *_LESS.values(), "if", "mod", "uniform"))
+_KNOWN = frozenset((*SAME, *RENAMED.values(), *_LESS.values(), "if", "mod", "rem", "uniform"))
 
 
 def expression_text(expression: Expression) -> str:
@@ -139,10 +141,17 @@ def _respelt(expression: Expression) -> Expression:
             return Name(f"ran({texts[1]})")
         return Name(f"({_parenthesised(operands[0])} + ran({_between(expression)}))")
     if operator == "mod":
+        return _respelt(_floored(*expression.operands))
+    if operator == "rem":
         return Name(f"({_parenthesised(operands[0])} % {_parenthesised(operands[1])})")
     if operator in ("-x", "^"):  # both bind differently in cpfg and in the kit
         operands = (*operands[:-1], Name(_parenthesised(operands[-1])))
     return Apply(operator, operands)
+
+
+def _floored(left: Expression, right: Expression) -> Apply:
+    """What is left of a number when another is taken away as often as it goes."""
+    return Apply("-", (left, Apply("*", (right, Apply("floor", (Apply("/", (left, right)),))))))
 
 
 def _parenthesised(expression: Expression) -> str:
@@ -168,6 +177,9 @@ def simplified(applied: Apply) -> Apply:
     first, *others = applied.operands
     if applied.operator == "if" and isinstance(first, Apply) and first.operator in _LESS and first.operands == tuple(others):
         return applied if is_random(first) else Apply(_LESS[first.operator], first.operands, applied.at)
+    if applied.operator == "-" and isinstance(others[0], Apply) and others[0].operator == "*":
+        divisor = others[0].operands[0]
+        return Apply("mod", (first, divisor), applied.at) if _floored(first, divisor) == applied else applied
     if applied.operator == "+" and isinstance(others[0], Apply) and others[0].operator == "uniform" and not is_random(first):
         zero, width = others[0].operands
         if zero == ZERO and isinstance(width, Apply) and width.operator == "-" and width.operands[1:] == (first,):
@@ -187,6 +199,8 @@ def missing_function(expression: Expression) -> str | None:
         return f'function "{expression.operator}"'
     if expression.operator in _LESS.values() and (len(expression.operands) > 2 or is_random(expression)):
         return f'function "{expression.operator}" of more than two numbers, or of random numbers'
+    if expression.operator == "mod" and is_random(expression):
+        return 'function "mod" of random numbers'
     if expression.operator == "uniform" and is_random(expression.operands[0]):
         return "random numbers from a random number on"
     if simplified(expression) != expression:
