@@ -50,9 +50,9 @@ class Limits:
     exponent: int = 1_000
     """absolute value of an exact exponent"""
     repetitions: int = 100_000
-    """how often a part of a successor is repeated"""
+    """how often a part of a successor is repeated, or decomposed, where the model says how often"""
     decomposition: int = 100
-    """decompositions of what a decomposition made"""
+    """decompositions of what a decomposition made, where the model does not say how often"""
     interpretation: int = 500_000
     """modules that one module is drawn as"""
     brackets: int = 10_000

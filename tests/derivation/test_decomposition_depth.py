@@ -42,9 +42,20 @@ def test_without_a_depth_an_end_must_come_of_itself() -> None:
     system = read("axiom: A(0)\ndecomposition:\nA(t) : t >= 0 -> A(t+1)")
     with pytest.raises(ModelLimitError, match=r"A\(100\) is decomposed more than 100 times"):
         derive(system, 1)
-    with pytest.raises(ModelLimitError, match=r"A\(100\) is decomposed more than 100 times"):
-        derive(replace(system, decomposition_depth=101), 1)
-    assert str(derive(replace(system, decomposition_depth=100), 1)[-1]) == "A(100)"
+
+
+@pytest.mark.parametrize("depth", [100, 101, 500, 25_000])
+def test_a_depth_that_the_model_sets_is_kept(depth: int) -> None:
+    system = read(f"Lsystem: 1\nAxiom: A(0)\ndecomposition\nmaximum depth: {depth}\nA(t) --> A(t+1)")
+    assert str(derive(system, 1)[-1]) == f"A({depth})"
+    words = read(f"Lsystem: 1\nAxiom: X({depth})\ndecomposition\nmaximum depth: {depth}\nX(n) : n>0 --> FX(n-1)")
+    assert len(derive(words, 1)[-1]) == depth + 1
+
+
+def test_a_depth_without_end_has_one() -> None:
+    system = read("decomposition depth: 1000000000\naxiom: A\ndecomposition:\nA -> A")
+    with pytest.raises(ModelLimitError, match="A is decomposed more than 100000 times"):
+        derive(system, 1)
 
 
 @given(systems_with(DECOMPOSITION, CHANCE), st.integers(0, 3))

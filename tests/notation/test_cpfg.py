@@ -230,6 +230,16 @@ def test_what_other_notations_lack_of_cpfg_is_said() -> None:
         write(system, "mathematica")
 
 
+@pytest.mark.parametrize(("text", "noted"), [
+    ("Axiom: A@o(2)B\no(r) --> o(r+1)", True), ("Axiom: A@oB\no(r) --> o(r+1)\nA --> o(1)", False),
+    ("Axiom: A@o(2)B\nB --> C", False), ("Axiom: A@o(2)B\no(r) < B --> C", True),
+    ("Axiom: A\nA --> ?P(1,2)\nP(x,y) --> A", True),
+    ("Axiom: A@o(2)B\n@o(r) --> @o(r+1)", False),
+])
+def test_a_rule_for_half_of_a_symbol_gets_a_note(text: str, noted: bool) -> None:
+    assert any("is one symbol here" in note for note in read(text, "cpfg").notes) == noted
+
+
 def test_a_macro_is_a_number_and_not_its_text() -> None:
     system = read("#define a 1\n#define b a+1\n#define c (a+1)\n#define d -a\nAxiom: F(2*b)", "cpfg")
     assert system.notes == ('The macro "b" is a number here; cpfg puts its text in place: write "(a+1)".',)

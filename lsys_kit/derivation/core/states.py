@@ -182,7 +182,8 @@ class States(RuleApplication):
 
     def _decomposed(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
         found: list[int] = []
-        deepest, most, asked = current().decomposition, current().modules, self.system.decomposition_depth
+        most, asked = current().modules, self.system.decomposition_depth
+        deepest = current().decomposition if asked is None else current().repetitions
         todo = [(module, 0)]
         while todo:
             part, depth = todo.pop()

@@ -113,12 +113,26 @@ def _notes(draft: Draft) -> Iterator[str]:
         value = _DEFINED.sub("", text[start:end]).strip()
         if _infix(constant.value) and not _enclosed(value):
             yield f'The macro "{constant.name}" is a number here; cpfg puts its text in place: write "({value})".'
+    yield from _split_symbols(draft)
     for production in (production for rules in draft.sections.values() for production in rules):
         start, end = production.at or (0, 0)
         arrow = ARROW.search(text, start, end)
         prose = _PROSE.search(text, arrow.end(), end) if arrow else None
         if prose:
             yield f'"{prose.group()}" is read as symbols, two rolls first; a comment is written between "/*" and "*/".'
+
+
+def _split_symbols(draft: Draft) -> Iterator[str]:
+    """Notes on "@o" and the like, which to cpfg are two symbols, so that a rule for the letter applies to the second."""
+    rules = [rule for rules in draft.sections.values() for rule in rules]
+    words = chain(draft.axiom or (), *(flat(rule.successor) for rule in rules))
+    pairs = {(module.symbol[1:], len(module.arguments)): module for module in words
+             if len(module.symbol) > 1 and module.symbol[0] in "@?"}
+    for asked in dict.fromkeys((m.symbol, len(m.arguments)) for rule in rules for m in rule.parameters):
+        if asked in pairs:
+            pair = pairs[asked].symbol
+            yield (f'"{pair}" is one symbol here, and what is said of "{pair[1:]}" before an arrow is not about it; to cpfg '
+                   f'"{pair}" is "{pair[0]}" and "{pair[1:]}".')
 
 
 def _infix(expression: Expression) -> bool:
