@@ -1,4 +1,4 @@
-"""Strict predecessors of several modules: pseudo-L-systems (Prusinkiewicz, Graphical applications of L-systems, 1986; ABOP, 1.4)."""
+"""Strict predecessors of several modules: pseudo-L-systems (Prusinkiewicz, Graphical applications of L-systems, 1986)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def after(axiom: str, *rules: str, settings: str = "") -> str:
 def test_a_step_is_a_replacement_from_left_to_right_without_overlap(axiom: str, rules: list[tuple[str, str]]) -> None:
     """As the substitution of regular expressions, which tries its alternatives in their order at each place."""
     system = LSystem(letters(axiom), tuple(Production(letters(before), letters(made)) for before, made in rules))
-    successors = {before: made for before, made in reversed(rules)}
+    successors = dict(reversed(rules))
     expected = re.sub("|".join(before for before, _ in rules), lambda match: successors[match[0]], axiom)
     assert "".join(module.symbol for module in derive(system, 1)[1]) == expected
 
@@ -53,7 +53,8 @@ def test_cars_move_on_a_road() -> None:
     for _ in range(6):
         expected = "".join("A" if (here == "A" and front == "A") or (here == "O" and behind == "A") else "O"
                            for behind, here, front in zip("O" + road, road, road[1:] + "A", strict=False))
-        assert (road := after(road, "A O -> O A")) == expected
+        road = after(road, "A O -> O A")
+        assert road == expected
 
 
 def test_a_number_is_halved_while_it_is_even() -> None:
@@ -89,7 +90,8 @@ def test_what_is_cut_off_is_not_replaced() -> None:
 
 
 def test_values_of_all_modules_count() -> None:
-    system = read("axiom: A(1) B(2) A(3) B(1) A(0) B(0)\nA(x) B(y) : x < y -> C(x+y)\nA(3) B(y) -> C(y)\nA(x) B(x0) -> A(x) A(x0)")
+    system = read("axiom: A(1) B(2) A(3) B(1) A(0) B(0)\n"
+                  "A(x) B(y) : x < y -> C(x+y)\nA(3) B(y) -> C(y)\nA(x) B(x0) -> A(x) A(x0)")
     assert str(derive(system, 1)[1]) == "C(3)C(1)A(0)A(0)"
 
 

@@ -71,7 +71,8 @@ def test_names_stay_whole_in_what_is_replaced() -> None:
     assert read("axiom: FG\nF G -> GF\nG -> F").axiom == (Pattern("F"), Pattern("G"))
 
 
-@pytest.mark.parametrize("text", [SUM, "axiom: F+F\nF+F -> G", "axiom: A\nS < A B > [C]D -> E : 1/2", "axiom: A\nal br -> al\\ vec"])
+@pytest.mark.parametrize("text", [
+    SUM, "axiom: F+F\nF+F -> G", "axiom: A\nS < A B > [C]D -> E : 1/2", "axiom: A\nal br -> al\\ vec"])
 def test_it_is_written_as_it_is_read(text: str) -> None:
     assert write(read(text)).splitlines() == text.splitlines()
 
