@@ -13,19 +13,18 @@ from dataclasses import replace
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
-from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import DIALECTS, dialect_named, recognise
-from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_word
-from lsys_kit.notation.syntax.text.statements import ARROW, bounded, check_text
-from lsys_kit.notation.syntax.wording import notes, reporting
+from lsys_kit.notation.syntax.systems import system_in
+from lsys_kit.notation.syntax.text.statements import ARROW, check_text
+from lsys_kit.notation.syntax.wording import reporting
 
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
@@ -75,10 +74,10 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
-        return _read_in(dialect_named(notation), text, name)
+        return system_in(dialect_named(notation), text, name)
     chosen = recognise(text)
     try:
-        system = _read_in(chosen, text, name)
+        system = system_in(chosen, text, name)
     except LSystemError as error:
         other = next((other.name for other in _others(chosen, text) if _reads(other, text, name)), None)
         if other:
@@ -96,32 +95,10 @@ def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
 def _reads(notation: Dialect, text: str, name: str | None) -> bool:
     """Whether a text makes sense in a notation."""
     try:
-        _read_in(notation, text, name)
+        system_in(notation, text, name)
     except LSystemError:
         return False
     return True
-
-
-def _read_in(notation: Dialect, text: str, name: str | None) -> LSystem:
-    """Read a system in a notation."""
-    transcript = notation.transcribe(notation.entry(text, name))
-    try:
-        system = _built(notation, transcript.text)
-    except LSystemError as error:
-        raise transcript.relocated(error) from None
-    return replace(system, notes=(*transcript.notes, *system.notes, *notes(warnings(system), notation.spelling)))
-
-
-def _built(notation: Dialect, text: str) -> LSystem:
-    """The system of a text that is written as its notation's grammar has it."""
-    draft = Draft(text, notation.name, notation.turtle)
-    with reporting(text, notation.spelling):
-        for start, end in bounded(notation.statements(text), text):
-            kind, record = parse(notation, "statement", text, start, end)
-            draft.add(kind, record, (start, end))
-        system = notation.finish(draft)
-        check_decomposition(system)
-    return system
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:

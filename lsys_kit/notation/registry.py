@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 from lsys_kit.errors import ModelNameError
 from lsys_kit.notation.dialects.abop.dialect import ABOP
@@ -13,11 +14,12 @@ from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.dialects.plant_string.dialect import PLANT_STRING
 from lsys_kit.notation.model.system import WRITERS
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.systems import text_in
 
 DIALECTS: Mapping[str, Dialect] = {
     notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA, FRACTINT)}
 """The notations that can be read and written."""
-WRITERS.update({notation.name: notation.text for notation in DIALECTS.values()})
+WRITERS.update({notation.name: partial(text_in, notation) for notation in DIALECTS.values()})
 
 
 def dialect_named(name: str) -> Dialect:

@@ -1,6 +1,6 @@
 """Records to text: a whole system, laid out in a notation; or a part of it, as it was written.
 
-`read(write(system)) == system` for every system that the notation can express.
+`read(write(system)) == system`, or `write` says what the notation lacks.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from typing import Any
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
+from lsys_kit.notation.syntax.systems import text_in
 
 
 def write(system: LSystem, notation: str | None = None) -> str:
@@ -28,6 +29,8 @@ def write(system: LSystem, notation: str | None = None) -> str:
         There is no such notation.
     ModelValueError
         The notation lacks something that the system needs; the message names it.
+    ModelLimitError
+        The text is longer than what is read.
 
     Examples
     --------
@@ -36,7 +39,7 @@ def write(system: LSystem, notation: str | None = None) -> str:
     axiom: A(0)
     A(t) : t < 5 -> A(t + 1)[B]
     """
-    return dialect_named(notation or system.notation).text(system)
+    return text_in(dialect_named(notation or system.notation), system)
 
 
 def as_written(system: LSystem, part: Any) -> str:

@@ -21,6 +21,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import parse
+from lsys_kit.notation.syntax.systems import lacking
 from lsys_kit.notation.write import write
 from tests.plants import plant
 
@@ -116,7 +117,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
     GROGRA declares random numbers on lines of their own.
     """
     chosen = DIALECTS[notation]
-    spelt = {chosen.module(Pattern("a", (expression,)))[2:-1] for id in systems() if not chosen.lacking(system(id))
+    spelt = {chosen.module(Pattern("a", (expression,)))[2:-1] for id in systems() if not lacking(chosen, system(id))
              for expression in expressions(system(id)) if notation != "grogra" or not is_random(expression)}
     taken = dict.fromkeys(spelt, float("inf"))
     parse(chosen, "expression", "1", 0, 1)  # the first makes the parser
@@ -157,7 +158,7 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_a_model_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
     """A plant and a parametric filament where the notation can express it: from text to system."""
-    texts = [write(each, notation) for each in (plant(notation), system("P4")) if not DIALECTS[notation].lacking(each)]
+    texts = [write(each, notation) for each in (plant(notation), system("P4")) if not lacking(DIALECTS[notation], each)]
     assert benchmark(lambda: [read(text, notation) for text in texts])
 
 

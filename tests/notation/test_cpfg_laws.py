@@ -21,6 +21,7 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number,
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_expression, read_word
+from lsys_kit.notation.syntax.systems import lacking
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, DECOMPOSITION, SEVERAL, systems, systems_with
 
@@ -79,7 +80,7 @@ ANY_SYSTEM = st.one_of(systems(), systems_with(CONTEXT, CHANCE, DECOMPOSITION, C
 def writable(system: LSystem) -> bool:
     chance = any(rule.probability is not None or any(map(is_random, module.arguments))  # type: ignore[arg-type]
                  for rule in system.interpretation for module in rule.modules)
-    return not chance and CPFG.lacking(system) is None
+    return not chance and lacking(CPFG, system) is None
 
 
 @given(ANY_SYSTEM)
@@ -158,7 +159,7 @@ def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expres
 
 
 @pytest.mark.parametrize(("text", "feature"), [
-    ("axiom: al", "symbols of several letters"), ("axiom: A\nA -> repeat(2) <B>", "repetition"),
+    ("axiom: al", 'symbol "al"'), ("axiom: A\nA -> repeat(2) <B>", "repetition"),
     ("axiom: f f\nmeta: f f -> f", "meta-rules"),
     ("turtle: grogra\naxiom: F", "turtle commands of GROGRA"),
     ("turtle: plant-string\naxiom: F", "turtle commands of plant strings"),
@@ -167,7 +168,7 @@ def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expres
     ("axiom: A(1)\nA(t) -> A(uniform(uniform(0, 1), 2))", "random numbers from a random number on"),
     ("axiom: A(1)\nA(t) -> A(if(t < 1, t, 1))", 'other words for "min"'),
     ("k = 1 in 0 .. 2*3\naxiom: A", "ends of sliders that are calculated"),
-    ("ignore: al\naxiom: A", "symbols of several letters"),
+    ("ignore: al\naxiom: A", 'symbol "al"'),
 ])
 def test_what_cpfg_lacks_is_named(text: str, feature: str) -> None:
     with pytest.raises(ModelValueError) as caught:

@@ -22,6 +22,7 @@ from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.syntax.parser import parse
+from lsys_kit.notation.syntax.systems import lacking
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, conditions, systems, systems_with
 
@@ -88,7 +89,7 @@ def test_what_mathematica_lacks_is_named(text: str, lacking: str) -> None:
 
 def test_the_end_of_a_branch_is_lacking() -> None:
     system = LSystem((Pattern("A"),), (Production((Pattern("A"),), (), right=tuple(map(Pattern, ("[", "B", "ε", "]")))),))
-    assert MATHEMATICA.lacking(system) == "branch ends in contexts"
+    assert lacking(MATHEMATICA, system) == "branch ends in contexts"
 
 
 def expressed(system: LSystem) -> LSystem:

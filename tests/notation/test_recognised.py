@@ -11,6 +11,7 @@ from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
+from lsys_kit.notation.syntax.systems import lacking
 from lsys_kit.notation.write import write
 from tests.plants import plant
 
@@ -20,7 +21,7 @@ LISTINGS = [(listing["file"], listing["notation"])
             if listing["notation"] in DIALECTS]
 ALIKE = "003-parameters.grogra.txt"
 """One production that two notations spell alike."""
-WRITTEN = [(id, name) for name, notation in DIALECTS.items() for id in systems() if not notation.lacking(system(id))]
+WRITTEN = [(id, name) for name, notation in DIALECTS.items() for id in systems() if not lacking(notation, system(id))]
 SHORT = {
     "abop": [
         "", "axiom: A", "A -> B", "axiom: A\nA -> A B", "axiom: F\nF -> F[+F]F[-F]F", "axiom: F\nF → F F", "axiom: A\nA --> B",

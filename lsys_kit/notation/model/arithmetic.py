@@ -21,6 +21,8 @@ SMALL = 2**63
 
 SHORT = 40
 """A decimal with at most so many places is easier to read than a quotient."""
+PLAIN = 300
+"""A literal of more characters is written with an exponent, where that makes it shorter."""
 
 
 def number_text(value: Value) -> str:
@@ -44,9 +46,14 @@ def literal_text(value: Value) -> str:
 
     >>> literal_text(Fraction(1, 2**41)) == f"{1 / 2**41:.41f}", literal_text(Fraction(1, 3))
     (True, '1/3')
+    >>> literal_text(Fraction(3, 10**400))
+    '3e-400'
     """
     places = _places(value) if isinstance(value, Fraction) else None
-    return number_text(value) if places is None else _decimal(value, places)  # type: ignore[arg-type]
+    if places is None:
+        return number_text(value)
+    text = _decimal(value, places)  # type: ignore[arg-type]
+    return text if len(text) <= PLAIN else min(text, _scientific(value, places), key=len)  # type: ignore[arg-type]
 
 
 def _places(value: Fraction) -> int | None:
@@ -62,6 +69,22 @@ def _places(value: Fraction) -> int | None:
 def _decimal(value: Fraction, places: int) -> str:
     digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
     return ("-" if value < 0 else "") + f"{digits[:-places]}.{digits[-places:]}"
+
+
+def _scientific(value: Fraction, places: int) -> str:
+    """A decimal fraction with an exponent, and one digit before the point."""
+    digits = str(abs(value.numerator) * 10**places // value.denominator)
+    point = f".{digits[1:]}" if digits[1:] else ""
+    return f"{'-' * (value < 0)}{digits[0]}{point}e{len(digits) - 1 - places}"
+
+
+def shortest_decimal(value: Value) -> Value:
+    """A double as the decimal that it is printed as; any other value as it is.
+
+    >>> shortest_decimal(0.1), shortest_decimal(2.0), shortest_decimal(3)
+    (Fraction(1, 10), 2, 3)
+    """
+    return normalised(Fraction(repr(value))) if isinstance(value, float) and math.isfinite(value) else value
 
 
 def is_symbolic(value: object) -> bool:

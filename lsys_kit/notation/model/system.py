@@ -12,7 +12,7 @@ from functools import cached_property
 from importlib import import_module
 from typing import Any
 
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.arithmetic import Value, shortest_decimal
 from lsys_kit.notation.model.expressions import Expression, TextSpan
 from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, flat, joined
 
@@ -183,6 +183,11 @@ class LSystem:
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
     def __post_init__(self) -> None:
+        """Settings are exact: a double is taken as the decimal that it is printed as. Where no production depends on what
+        contexts do with branches, that makes no difference between systems."""
+        for name in ("angle", "heading", "length"):
+            if isinstance(getattr(self, name), float):
+                object.__setattr__(self, name, shortest_decimal(getattr(self, name)))
         if self.branches != ANY_BRANCH and not any(_depends_on_branches(rule, self.branches) for rule in self.productions):
             object.__setattr__(self, "branches", ANY_BRANCH)
 

@@ -16,7 +16,7 @@ from lark import Token, Transformer, v_args
 from lsys_kit.budget import current
 from lsys_kit.notation.analysis.checks import closest
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.model.arithmetic import normalised
+from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
@@ -26,6 +26,8 @@ _SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "�
               "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}
 _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
+_LONGEST_NUMBER = 1_000
+"""So many characters a number may have."""
 
 
 class ActionError(Exception):
@@ -61,13 +63,20 @@ def _symbol(token: Token) -> str:
 
 
 def _number(token: Token) -> Number:
-    exponent = re.search(r"[eE]([+-]?\d+)$", token)
-    if len(token) > 1000 or (exponent and (len(exponent[1]) > 5 or abs(int(exponent[1])) > current().exponent)):
+    """A literal number, unless it is too long, as it was typed or as it will be written."""
+    value = normalised(Fraction(str(token))) if _is_short(token) else None
+    if value is None or ((len(token) > PLAIN or "e" in token.lower()) and not _is_short(literal_text(value))):
         raise problem("number too long", place_of(token))
-    value = normalised(Fraction(str(token)))
     if value > float_info.max:
         raise problem("number too large", place_of(token))
     return Number(value, place_of(token))
+
+
+def _is_short(number: str) -> bool:
+    """Whether a number has neither too many digits nor too large an exponent."""
+    exponent = re.search(r"[eE][+-]?(\d+)$", number)
+    small = exponent is None or (len(exponent[1]) <= 5 and int(exponent[1]) <= current().exponent)
+    return small and len(number) <= _LONGEST_NUMBER
 
 
 def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> None:

@@ -78,8 +78,8 @@ class Dialect(Grammar):
         The texts of modules, as one word.
     write
         The text of a system that lacks nothing in the notation.
-    lacking
-        The first thing that a system has and the notation lacks, in words.
+    missing_feature
+        The first feature that a system has and the notation lacks, in words; symbols are looked at apart.
     entry
         The text with the system of a name in it alone; without a name, with the only one.
     transcribe
@@ -95,24 +95,11 @@ class Dialect(Grammar):
     module: Callable[[Module | Pattern], str]
     joined: Callable[[Iterable[str]], str]
     write: Callable[[LSystem], str]
-    lacking: Callable[[LSystem], str | None]
+    missing_feature: Callable[[LSystem], str | None]
     likely: Callable[[str], int]
     entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"
     transcribe: Callable[[str], Transcript] = as_typed
-
-    def text(self, system: LSystem) -> str:
-        """The text of a system.
-
-        Raises
-        ------
-        ModelValueError
-            The notation lacks something that the system needs.
-        """
-        lacking = self.lacking(system)
-        if lacking:
-            raise ModelValueError(f"The notation {self.name} has no {lacking}, which this system needs")
-        return self.write(system)
 
     def word(self, modules: Iterable[Module | Pattern]) -> str:
         """The text of a word."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import literal_text
 from lsys_kit.notation.model.modules import OPENING, Repeat
 from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
 
@@ -19,11 +19,11 @@ def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
     if system.turtle != turtle:
         yield f"turtle: {system.turtle}"
     if system.angle != 90:
-        yield f"angle: {number_text(system.angle)}"
+        yield f"angle: {literal_text(system.angle)}"
     if system.heading != 90:
-        yield f"heading: {number_text(system.heading)}"
+        yield f"heading: {literal_text(system.heading)}"
     if system.length is not None:
-        yield f"length: {number_text(system.length)}"
+        yield f"length: {literal_text(system.length)}"
     for keyword, number in (("steps", system.steps), ("seed", system.seed),
                             ("decomposition depth", system.decomposition_depth)):
         if number is not None:

@@ -8,6 +8,7 @@ whole.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 from typing import Any
@@ -16,6 +17,7 @@ from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
 from lsys_kit.notation.model.system import LSystem, Production
 
+_NAME = re.compile(r"[A-Za-z_]\w+")
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
 
@@ -94,7 +96,7 @@ def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, .
 
 def _glued(modules: Iterable[Pattern], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
     """The glued names among some modules, and the symbols of which each is made."""
-    names = dict.fromkeys(module.symbol for module in modules if len(module.symbol) > 1 and module.symbol not in whole)
+    names = dict.fromkeys(module.symbol for module in modules if module.symbol not in whole and _NAME.fullmatch(module.symbol))
     return {name: pieces for name in names if (pieces := _symbols_of_name(name, whole, parts))}
 
 

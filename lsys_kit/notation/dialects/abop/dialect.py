@@ -23,8 +23,6 @@ from lsys_kit.notation.syntax.text.printed import IN_A_SET, printed_statements
 from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.text.transcription import likely, transcribe
 
-_SYMBOL = re.compile(r"[A-Za-z_]\w*|\d|[-+&^\\/|\[\]{}$!'#~;.%@ε]|@(?:T[a-z]|[A-Za-z])|\?[A-Z]", re.ASCII)
-"""What a symbol may be."""
 _EDGE = re.compile(r"F_\w+")
 
 
@@ -70,7 +68,8 @@ def _with_edges(system: LSystem) -> LSystem:
 
 
 def _write(system: LSystem) -> str:
-    digits = {module.symbol for module in system.modules if module.symbol.isdigit()}.difference(system.alphabet)
+    symbols = {*(module.symbol for module in system.modules), *system.ignored, *system.considered}
+    digits = {symbol for symbol in symbols if symbol.isdigit()}.difference(system.alphabet)
     system = replace(system, alphabet=(*system.alphabet, *sorted(digits)))
     while mistaken := segment_system(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
@@ -80,12 +79,9 @@ def _write(system: LSystem) -> str:
 
 
 def _lacking(system: LSystem) -> str | None:
-    """What the notation cannot write: round branches, and symbols such as a comma."""
-    strange = (module.symbol for module in system.modules if not _SYMBOL.fullmatch(module.symbol))
-    found = next(strange, None)
-    return first_missing(system, "round brackets as branches") or (None if found is None else f'symbol "{found}"')
+    return first_missing(system, "round brackets as branches")
 
 
 ABOP = Dialect(
     name="abop", statements=printed_statements, transformer=_transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=str,
-    joined=joined, write=_write, lacking=_lacking, likely=likely, transcribe=transcribe)
+    joined=joined, write=_write, missing_feature=_lacking, likely=likely, transcribe=transcribe)

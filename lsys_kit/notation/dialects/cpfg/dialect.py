@@ -158,4 +158,4 @@ def _likely(text: str) -> int:
 
 CPFG = Dialect(
     name="cpfg", statements=statements, transformer=CpfgStatements, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, lacking=missing_feature, likely=_likely, spelling=SPELLING)
+    joined=joined_word, write=system_text, missing_feature=missing_feature, likely=_likely, spelling=SPELLING)

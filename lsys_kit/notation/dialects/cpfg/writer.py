@@ -6,9 +6,8 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import chain
 
-from lsys_kit.notation.dialects.cpfg.actions import SYMBOL_PATTERN
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import literal_text, number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.modules import END, Module, Pattern, flat
 from lsys_kit.notation.model.system import FLAT, Constant, LSystem, Production
@@ -54,7 +53,7 @@ def _lines(system: LSystem) -> Iterator[str]:
     for keyword, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90),
                                   ("length", system.length, None)):
         if value != usual and value is not None:
-            yield f"/* {keyword}: {number_text(value)} */"
+            yield f"/* {keyword}: {literal_text(value)} */"
     yield f"Axiom: {joined_word(map(module_text, system.axiom))}"
     yield from map(_rule, system.productions)
     yield from _section("decomposition", system.decomposition, system.decomposition_depth)
@@ -113,25 +112,9 @@ def missing_feature(system: LSystem) -> str | None:
         return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
     found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules",
                                  "right contexts that name any branch"),),
-                  map(_lacking_symbol, _symbols(system)), map(missing_function, _expressions(system)),
+                  map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))
     return next(filter(None, found), None)
-
-
-def _symbols(system: LSystem) -> Iterator[str]:
-    yield from (*system.ignored, *system.considered)
-    for module in system.axiom:
-        yield module.symbol
-    for rule in system.rules:
-        ends = {at for at, module in enumerate(rule.right[1:]) if module.symbol == "]" and rule.right[at].symbol == END}
-        seen = (module for at, module in enumerate(rule.right) if at not in ends)
-        yield from (module.symbol for module in (*rule.left, *rule.predecessors, *seen, *flat(rule.successor)))
-
-
-def _lacking_symbol(symbol: str) -> str | None:
-    if SYMBOL_PATTERN.fullmatch(symbol) and symbol != "−":
-        return None
-    return "symbols of several letters" if len(symbol) > 1 else f'symbol "{symbol}"'
 
 
 def _expressions(system: LSystem) -> Iterator[Expression]:

@@ -86,5 +86,5 @@ def _likely(text: str) -> int:
 
 FRACTINT = Dialect(
     name=NAME, statements=statement_lines, transformer=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined="".join, write=system_text, lacking=lacking, likely=_likely, turtle=NAME,
+    joined="".join, write=system_text, missing_feature=lacking, likely=_likely, turtle=NAME,
     entry=selected_entry, starts=("statement", "word"))

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError
+from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.dialects.grogra.actions import RELATIONS, statements, transformer
 from lsys_kit.notation.dialects.grogra.diagnostics import DIAGNOSTICS
@@ -18,12 +18,11 @@ from lsys_kit.notation.dialects.grogra.probabilities import complete_probabiliti
 from lsys_kit.notation.dialects.grogra.spelling import SPELLING
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
 from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
-from lsys_kit.notation.model.expressions import Expression, Name, Number, names_in
+from lsys_kit.notation.model.expressions import Expression, Number, names_in
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
-from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.wording import reporting
 
@@ -166,22 +165,11 @@ def _lacking(system: LSystem) -> str | None:
         missing = missing_feature(system)
     if missing:
         return missing
-    for symbol, count in dict.fromkeys((module.symbol, len(module.arguments)) for module in system.modules):
-        if not _reads_back(Pattern(symbol, (Name("t"),) * count)):
-            return f'symbol "{symbol}"' + (f" with {count} values" if count else "")
     changed = with_ones(system)[1]
     return f"such difference between 1 and l ({changed[0][:-1]})" if changed else None
 
 
-def _reads_back(module: Pattern) -> bool:
-    text = module_text(module)
-    try:
-        return bool(parse(GROGRA, "word", text, 0, len(text)) == (module,))
-    except LSystemError:
-        return False
-
-
 GROGRA = Dialect(
     name="grogra", statements=statements, transformer=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, lacking=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)), turtle="grogra",
-    spelling=SPELLING)
+    joined=joined_word, write=system_text, missing_feature=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)),
+    turtle="grogra", spelling=SPELLING)

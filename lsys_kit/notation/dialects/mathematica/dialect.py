@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from lsys_kit.notation.dialects.mathematica.actions import SYMBOL_PATTERN, transformer
+from lsys_kit.notation.dialects.mathematica.actions import transformer
 from lsys_kit.notation.dialects.mathematica.builder import finish
 from lsys_kit.notation.dialects.mathematica.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
@@ -43,7 +43,6 @@ def _own_lacks(system: LSystem) -> Iterator[str]:
         yield "considered symbols"
     if system.depth != 1 or system.decomposition_depth is not None:
         yield "depth"
-    yield from (f'symbol "{module.symbol}"' for module in system.modules if not SYMBOL_PATTERN.fullmatch(module.symbol))
     names, functions = _names_and_functions(system)
     taken = {constant.name for constant in system.constants if constant.name.lower() in _SETTING_NAMES} | {"Degree"}
     yield from (f'other meaning of the name "{name}"' for name in sorted(names & taken))
@@ -69,5 +68,6 @@ def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
 
 MATHEMATICA = Dialect(
     name="mathematica", statements=statements, transformer=transformer, finish=finish, diagnostics=DIAGNOSTICS,
-    module=module_text, joined=" ".join, write=system_text, lacking=_lacking, likely=lambda text: 3 * len(_MARKS.findall(text)),
-    spelling=SPELLING, transcribe=lambda text: edited(text, subscripts(without_nested_comments(text), "", "[]")))
+    module=module_text, joined=" ".join, write=system_text, missing_feature=_lacking,
+    likely=lambda text: 3 * len(_MARKS.findall(text)), spelling=SPELLING,
+    transcribe=lambda text: edited(text, subscripts(without_nested_comments(text), "", "[]")))

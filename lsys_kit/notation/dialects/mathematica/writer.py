@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from lsys_kit.notation.dialects.mathematica.actions import condition_of
 from lsys_kit.notation.dialects.mathematica.expressions import expression_text
-from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.arithmetic import Value, literal_text, number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
 from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
@@ -75,7 +75,7 @@ def _settings(system: LSystem) -> Iterator[str]:
     for name, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90), ("length", system.length, None),
                                ("seed", system.seed, None)):
         if value is not None and value != usual:
-            yield f"{name} = {number_text(value)};"
+            yield f"{name} = {literal_text(value)};"
 
 
 def _word_text(modules: Iterable[Pattern]) -> str:

@@ -22,7 +22,7 @@ _WORD = r"[A-Za-z\[\]()+\-\s]*+"
 _LINE = re.compile(rf"""\s*+(?:
       axiom\s*[:=](?P<axiom>{_WORD})
     | (?P<rule>[A-Za-z]\s*(?:->|→)(?:{_WORD}|\s*[ε*]\s*))
-    | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*[\d.]+\s*
+    | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*-?[\d.]+(?:e[+-]?\d+|/\d+)?\s*
     | turtle\s*:\s*[a-z-]+\s*
     | productions\s*:\s*
     | {HEADING}
@@ -97,5 +97,5 @@ def _branches(words: Iterable[str]) -> int:
 
 PLANT_STRING = Dialect(
     name=NAME, statements=statements, transformer=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
-    module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), lacking=_lacking, likely=_likely, turtle=NAME,
-    starts=("statement", "word"), transcribe=without_headings)
+    module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), missing_feature=_lacking, likely=_likely,
+    turtle=NAME, starts=("statement", "word"), transcribe=without_headings)
