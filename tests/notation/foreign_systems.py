@@ -152,7 +152,8 @@ class Systems:
             "angle": random.choice((90, *ANGLES)), "heading": random.choice((90, 0, *ANGLES)),
             "length": random.choice((None, 1, 100, Fraction(1, 3), 5e-300)), "steps": random.choice((0, 3, 10**7, 10**30)),
             "seed": random.choice((3, -2, 10**25)), "depth": random.choice((0, 2)),
-            "decomposition_depth": random.choice((0, 2)), "ignored": self.symbols(), "turtle": random.choice(("abop", "grogra", "plant-string", "fractint"))}
+            "decomposition_depth": random.choice((0, 2)), "ignored": self.symbols(),
+            "turtle": random.choice(("abop", "grogra", "plant-string", "fractint"))}
         chosen = {name: value for name, value in settings.items() if self.chance(15)}
         sections = {name: (self.production(name),) for name in ("decomposition", "interpretation") if rich and self.chance(15)}
         if sections.get("decomposition"):
