@@ -122,8 +122,9 @@ class Systems:
     def production(self, section: str = "productions") -> Production:
         pool = [name for name in self.random.sample(PARAMETERS, 14) if name not in self.constants]
         around = section == "productions" and self.chance(30)
-        left, (own,), right = self.row(pool, 0, 2 * around), self.row(pool, 1, 1), self.row(pool, 0, 2 * around)
-        parameters = [argument.name for module in (*left, own, *right) for argument in module.arguments
+        several = 1 + (section == "productions" and self.chance(10))
+        left, own, right = self.row(pool, 0, 2 * around), self.row(pool, 1, several), self.row(pool, 0, 2 * around)
+        parameters = [argument.name for module in (*left, *own, *right) for argument in module.arguments
                       if isinstance(argument, Name)]
         names = list(dict.fromkeys((*parameters, *self.constants)))
         if right and self.chance(30):
@@ -131,7 +132,7 @@ class Systems:
             right = [Pattern("["), *right[:1], *ends, Pattern("]"), *right[1:]]
         weight = self.random.choice((Number(1), Number(Fraction(33, 100)), Apply("/", (Number(1), Number(3)))))
         condition = self.condition(names) if self.chance(30) else None
-        return Production(own, self.word(names, section != "interpretation"), condition, tuple(left), tuple(right),
+        return Production(tuple(own), self.word(names, section != "interpretation"), condition, tuple(left), tuple(right),
                           weight if section != "interpretation" and self.chance(20) else None)
 
     def constant(self, name: str) -> Constant:

@@ -68,7 +68,7 @@ def test_a_symbol_is_written_where_it_can_be_read_and_named_where_it_cannot(nota
     written = set()
     for symbol in {symbol for symbols in SYMBOLS for symbol in symbols}:
         one, rules = Pattern(symbol), (Production((Pattern("A"),), (Pattern(symbol), Pattern("A"), Pattern(symbol))),)
-        heads = Production(one, (Pattern("F"),)),
+        heads = Production((one,), (Pattern("F"),)),
         for system in (LSystem((one,), rules), LSystem((one, one), heads), LSystem((one,), rules, ignored=(symbol,))):
             angled = LSystem(system.axiom, system.productions, ignored=system.ignored, turtle=turtle, heading=heading, angle=60)
             if reads_back(angled, notation):
