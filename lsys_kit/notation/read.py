@@ -14,6 +14,7 @@ from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
+from lsys_kit.notation.foreign import foreign_format, mistakable_format
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
 from lsys_kit.notation.model.modules import Module, flat
@@ -74,10 +75,13 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
-        return system_in(dialect_named(notation), text, name)
+        return _read_or_claimed(dialect_named(notation), text, name)
     chosen = recognise(text)
     try:
-        system = system_in(chosen, text, name)
+        mistakable = mistakable_format(text)
+        if mistakable:
+            raise mistakable
+        system = _read_or_claimed(chosen, text, name)
     except LSystemError as error:
         other = next((other.name for other in _others(chosen, text) if _reads(other, text, name)), None)
         if other:
@@ -99,6 +103,17 @@ def _reads(notation: Dialect, text: str, name: str | None) -> bool:
     except LSystemError:
         return False
     return True
+
+
+def _read_or_claimed(notation: Dialect, text: str, name: str | None) -> LSystem:
+    """Read a system in a notation; what cannot be read may be in the format of another program."""
+    try:
+        return system_in(notation, text, name)
+    except LSystemError:
+        claim = foreign_format(text)
+        if claim:
+            raise claim from None
+        raise
 
 
 def read_word(text: str, notation: str = "abop", system: LSystem | None = None) -> tuple[Module, ...]:

@@ -1,0 +1,158 @@
+"""Short texts in formats of other programs, with the line that gives each away."""
+
+from __future__ import annotations
+
+RACKET = "a model in Racket's language lindenmayer"
+RACKET_PROGRAM = "a program in Racket"
+JFLAP = "an L-system of JFLAP"
+AUTOMATON = "an automaton or a grammar of JFLAP, and no L-system"
+XL = "a model in XL, the language of GroIMP"
+LPFG = "a model of lpfg, in the language L+C"
+L_PY = "a model of L-Py"
+EXPLORER = "a model of the L-system Explorer by Lowclouds"
+VIEW = "a file that goes with a model of cpfg, and says how it is seen or animated"
+PGF = "an L-system of PGF, for TikZ"
+HOUDINI = "an L-system of Houdini"
+NOTEBOOK = "a Jupyter notebook"
+SVG = "a picture as SVG"
+HTML = "a page as HTML"
+XML = "XML"
+RTF = "a document as RTF"
+PROGRAM = "a program, as in JavaScript, Processing, Java or C++"
+PYTHON = "a program in Python"
+JSON = "data as JSON, or a dictionary"
+
+FOREIGN: dict[str, list[tuple[str, int]]] = {
+    RACKET: [
+        ("#lang lindenmayer racket\n\n## axiom ##\nF\n\n## rules ##\nF -> F+F\n\n## variables ##\nn=3\n", 1),
+        ("#lang lindenmayer racket\n## axiom ##\nA(1)\n## rules ##\nA(x) : x < 3 -> F(x) A(x+1)\n## variables ##\nn=5\n", 1),
+        ("\n\n#lang lindenmayer\n## axiom ##\nTS\n## rules ##\nT → F\nS → [+S]T\n", 3),
+        ("#lang  lindenmayer racket\n## axiom ##\nX\n## rules ##\nX -> F-[[X]+X]\n========\n(provide (all-defined-out))\n", 1),
+        ("/* a tree */\n#lang lindenmayer racket\n## axiom ##\nF\n", 2),
+    ],
+    RACKET_PROGRAM: [
+        ("#lang racket\n(define (F x) (list x x))\n", 1), ("#lang racket/base\n(require graphics/turtles)\n", 1),
+        ("#lang typed/racket\n(: axiom String)\n", 1), ("\n#lang slideshow\n(circle 10)\n", 2),
+        ("#lang scheme\n(define axiom 'F)\n", 1),
+    ],
+    JFLAP: [
+        ('<?xml version="1.0" encoding="UTF-8" standalone="no"?>\n<structure>\n\t<type>lsystem</type>\n\t<axiom>X</axiom>\n'
+         "\t<production>\n\t\t<left>X</left>\n\t\t<right>g + X</right>\n\t</production>\n</structure>", 3),
+        ("<structure><type>lsystem</type><axiom>F</axiom></structure>", 1),
+        ("<?xml version='1.0'?><!--Created with JFLAP 6.4.--><structure>&#13;\n  <type>lsystem</type>&#13;\n</structure>", 2),
+        ("<structure>\n<type> lsystem </type>\n<parameter><name>angle</name><value>30</value></parameter>\n</structure>", 2),
+        ("<structure>\n<axiom>A B</axiom>\n<production><left>A</left><right>A B</right></production>\n<type>lsystem</type>", 4),
+    ],
+    AUTOMATON: [
+        ('<?xml version="1.0"?>\n<structure>\n<type>fa</type>\n<automaton>\n<state id="0"/>\n</automaton>\n</structure>', 3),
+        ("<structure><type>grammar</type><production><left>S</left><right>aS</right></production></structure>", 1),
+        ("<structure>\n  <type>pda</type>\n</structure>", 2), ("<structure>\n  <type>turing</type>\n</structure>", 2),
+        ("<structure>\n\t<type>re</type>\n\t<expression>(a+b)*</expression>\n</structure>", 2),
+    ],
+    XL: [
+        ("module A(float len) extends Sphere(0.1);\nprotected void init ()\n[\n\tAxiom ==> A(1);\n]\n", 1),
+        ("protected void init() [\n  Axiom ==> F(1) L;\n]\npublic void run() [\n  L ==> F(0.5) [RU(30) L] L;\n]\n", 1),
+        ("import de.grogra.rgg.*;\nmodule Bud;\n", 1),
+        ("/* trees */\nmodule Tree(super.length) extends F;\npublic void grow()\n[\n  t:Tree ==>> t F(1);\n]\n", 2),
+        ("public void run ()\n[\n  x:F(l), (l > 1) ==> F(l/2) F(l/2);\n]\n", 1),
+        ("const float ANGLE = 30;\nmodule Meristem(int order) extends Sphere;\nprivate void grow() {\n}\n", 2),
+    ],
+    LPFG: [
+        ("#include <lpfgall.h>\nderivation length: 7;\nmodule A(float);\nAxiom: A(1);\nA(x) :\n{\n produce A(x+1);\n}\n", 1),
+        ("#define N 3\nmodule B(int);\nderivation length: N;\nAxiom: B(0);\n", 2),
+        ("derivation length: 20;\nStart: { n = 0; }\nAxiom: SetWidth(1) A();\n", 1),
+        ("Axiom: A(1);\nA(x) :\n{\n  if (x < 3) produce F(x) A(x+1);\n}\nmodule A(float);\n", 6),
+        ('#include "lpfgall.h"\nconst int n = 5;\nmodule Apex();\n', 1),
+        ("module S(struct_data);\nignore: Right Left;\ninterpretation:\nS(d) :\n{\n  nproduce F(d.l);\n}\n", 1),
+    ],
+    L_PY: [
+        ("Axiom: A\nderivation length: 3\nproduction:\nA --> F[+A]A\nendlsystem\n", 3),
+        ("Axiom: -(90)U(1)\nproduction:\nU(x) < U(y) > U(z) --> U(x+y)\ninterpretation:\nU(x) --> f(1)\n", 2),
+        ("n = 20\nAxiom: A(0)\nderivation length: n\nproduction:\nA(i) :\n    if i < n:\n        produce B(0)A(i+1)\n", 7),
+        ("derivation length: 0\nAxiom: -(30)F(1)-(120)F(1)\n###### INITIALISATION ######\n\n__authors__ = 'a student'\n", 3),
+        ("from openalea.plantgl.all import *\n\nmodule Apex(age)\nAxiom: Apex(0)\nderivation length: 5\n", 1),
+        ("def Start():\n  print('begun')\n\nAxiom: A\nA : produce AB\n", 1),
+        ("Axiom: F(50.)\nF(x) : produce F(x/3.)+(60)F(x/3.)-(120)F(x/3.)+(60)F(x/3.)\nendlsystem\n", 2),
+        ("import random\nAxiom: A\nA --> B\n", 1),
+        ("Axiom: Apex\nproduction:\nApex --> Internode Apex\n", 2),
+        ("extern(length = 3)\nAxiom: F(length)\nF(x) --> F(x+1)\n", 1),
+    ],
+    EXPLORER: [
+        ("/* a leaf */\nD=0\nR=2\nstemsize=1.5\nderivation length: 8\naxiom: A(0)\nP1: A(d) : d>0 -> A(d-1)\n", 4),
+        ("derivation length: 4\ndelta=22.5\naxiom: F\np1: F -> FF-[-F+F+F]\n", 2),
+        ("lsystem: 1\nderivation length: 5\naxiom: A\np1: A -> B(a1[1])\np2: B(x) -> *\n", 4),
+        ("#define R 1.5\nstemsize=0.1\nderivation length: 12\naxiom: A\nF(s) -> F(s*R)\n", 2),
+        ("step=2\nderivation length: 3\naxiom: A\nA -> B{C}\n", 1),
+    ],
+    VIEW: [
+        ("angle factor: 14\nscale factor: 0.8\nprojection: parallel\n", 1),
+        ("initial color: 2\nz range: -10 10\n", 1), ("swap interval: 5\nfirst frame: 0\nlast frame: 20\n", 1),
+        ("/* how it is seen */\nfront distance: -1000\nback distance: 1000\n", 2),
+        ("projection: parallel\nline style: polygon\ninitial line width: 3 pixels\n", 2),
+    ],
+    PGF: [
+        ("\\pgfdeclarelindenmayersystem{Koch}{\n  \\rule{F -> F-F++F-F}\n}\n", 1),
+        ("\\documentclass{article}\n\\begin{document}\n\\tikz \\draw [lindenmayer system={Koch, axiom=F, order=3}];", 3),
+        ("\\usetikzlibrary{lindenmayersystems}\n\\pgfdeclarelindenmayersystem{Tree}{\\rule{A -> F[+A]}}\n", 2),
+        ("\\begin{tikzpicture}\n\\draw [l-system={rule set={F -> FF}, axiom=F}, lindenmayer system={order=2}] l-system;\n", 2),
+        ("  \\pgfdeclarelindenmayersystem{Cantor}{\\symbol{f}{\\pgflsystemmoveforward}\\rule{F -> FfF}}\n", 1),
+    ],
+    HOUDINI: [
+        ("Premise: A\nRule 1: A = F[+A]A\n", 1), ("premise = FX\nX = F[+X]\n", 1), ("Angle 30\nrule1: A=\"F[-A][+A]:0.5\n", 2),
+        ("Generations: 7\nPremise: F\nRule 1: F = FF\n", 2), ("Rule 1 = A(i) : i<3 = F(i)A(i+1)\n", 1),
+    ],
+    NOTEBOOK: [
+        ('{\n "cells": [\n  {\n   "cell_type": "code"\n  }\n ]\n}', 2), ('{"cells": [], "nbformat": 4}', 1),
+        ('{\n "metadata": {},\n "nbformat": 4,\n "nbformat_minor": 5,\n "cells": []\n}', 3),
+        ('{\n\t"cells" : []\n}', 2), ('{ "cells": [{"source": ["axiom: A\\n", "A -> A B"]}]}', 1),
+    ],
+    SVG: [
+        ('<svg xmlns="http://www.w3.org/2000/svg">\n</svg>', 1), ('<?xml version="1.0"?>\n<svg width="3"></svg>', 2),
+        ('<?xml version="1.0"?><svg></svg>', 1), ("\n\n<svg>", 3), ("<!-- a tree -->\n  <svg\n  viewBox='0 0 1 1'/>", 2),
+    ],
+    HTML: [
+        ("<!DOCTYPE html>\n<html><body>axiom: A</body></html>", 1), ("<html>\n<pre>axiom: F</pre>\n</html>", 1),
+        ("<div class='x'>axiom: F</div>", 1), ("<p>axiom: A</p>\n<p>A -> A B</p>", 1),
+        ("<!doctype html>\n<script>let a = 3;</script>", 1),
+    ],
+    XML: [
+        ('<?xml version="1.0"?>\n<lsystem axiom="F"/>', 1), ('<?xml version="1.0" encoding="UTF-8"?>\n<pnml></pnml>', 1),
+        ("<?xml version='1.1'?>\n<rules><rule>F</rule></rules>", 1), ('\n<?xml version="1.0"?>\n<a/>', 2),
+        ('<?xml version="1.0"?><inkscape-extension><param name="axiom">F</param></inkscape-extension>', 1),
+    ],
+    RTF: [
+        ("{\\rtf1\\ansi axiom: A\\par A -> AB}", 1), ("{\\rtf1 axiom: F}", 1), ("{\\rtf1\\mac\n\\f0 axiom: A\\\n}", 1),
+        ("\n{\\rtf1\\deff0 A -> B}", 2), (" {\\rtf1{\\fonttbl}axiom: A}", 1),
+    ],
+    PROGRAM: [
+        ('const axiom = "F";\nconst rules = {F: "F+F"};\n', 1), ('var axiom = "A";\nfunction setup() {\n}\n', 1),
+        ('String axiom = "F";\nvoid setup() {\n  size(400, 400);\n}\n', 1),
+        ("#include <iostream>\nusing namespace std;\nint main() {\n}\n", 2),
+        ("public class Tree extends Plant {\n  word = 3;\n}\n", 1), ("function draw() {\n  turtle(word);\n}\n", 1),
+    ],
+    PYTHON: [
+        ('import turtle\naxiom = "F"\n', 1), ('rules = {"F": "F+F--F+F"}\n', 1), ("def rewrite(word):\n    return word\n", 1),
+        ("from lsys_kit import read\nread('axiom: A')\n", 1), ("#!/usr/bin/env python3\nprint('F')\n", 1),
+        ('axiom = "A"\nclass Plant:\n    pass\n', 2),
+    ],
+    JSON: [
+        ('{"axiom": "F", "rules": {"F": "F+F"}}', 1), ('[\n {"angle": 60}\n]', 2), ("{\n  'F': 'F+F',\n}", 2),
+        ('{\n  "name": "Koch"\n}', 2), ('"axiom": "F",\n"rules": ["F -> F+F"]', 1),
+    ],
+}
+"""At least five texts in each format, and the line at which each is recognised."""
+
+MENTIONS = [
+    "/* from openalea import lpy */\naxiom: A\nA -> A B", "/* <!DOCTYPE html> */\naxiom: A\nA -> B C",
+    "axiom: import\nimport -> import def",
+    "axiom: produce\nproduce -> produce(1)\nproduce(n) -> module", "axiom: class\nclass -> def",
+    "axiom: A\nA -> print\nprint -> A",
+    "delta = 3\nstep = 2\naxiom: A(delta)\nA(x) -> A(x + step)", "var = 2\naxiom: A(var)\nA(x) -> F(x)",
+    "axiom: premise\npremise -> premise A",
+    "Axiom: A\n/*\nproduction:\n*/\nA --> A[+A]B",
+    "Lsystem: 1\nderivation length: 3\nproduction:\nAxiom: A\nA --> AB\nendlsystem",
+    "Axiom: A\nendlsystem", "derivation length: 3\nAxiom: F\nF --> F[+F]F", "#define import 3\nAxiom: A(import)\nA(x) --> B(x)",
+    'axiom = AXIOM[a[1]];\nskipPattern = {"b", "c"};\nlrules = LRULES[LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[i+1]]]];',
+    "From: a friend\nimport it\ncomment {\nclass {\n}\nKoch {\nAngle 6\nAxiom F\nF=F+F\n}",
+]
+"""Texts of the kit's notations that speak of such things, or look like them."""

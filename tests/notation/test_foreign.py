@@ -1,0 +1,164 @@
+"""Texts in formats of other programs are called what they are; those that the kit reads, or nearly, never are."""
+
+from __future__ import annotations
+
+import re
+import time
+import tomllib
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit.classroom.catalogue import system, systems
+from lsys_kit.errors import LSystemError, ModelSyntaxError
+from lsys_kit.notation.foreign import FORMATS, GLANCE, foreign_format, mistakable_format, name_hint
+from lsys_kit.notation.read import read
+from lsys_kit.notation.registry import DIALECTS
+from lsys_kit.notation.write import write
+from tests.notation.foreign_texts import FOREIGN, L_PY, MENTIONS
+from tests.notation.test_any_text import MODELS
+from tests.notation.test_recognised import LISTINGS, SHORT
+
+TESTS = Path(__file__).parents[1]
+EXAMPLES = tomllib.loads((TESTS / "notebooks" / "examples.toml").read_text(encoding="utf-8"))["notations"]
+OWN = sorted({
+    *(write(system(id), notation) for id in systems() for notation in DIALECTS if not DIALECTS[notation].lacking(system(id))),
+    *(system(id).source for id in systems()), *(text for texts in SHORT.values() for text in texts),
+    *((TESTS / "listings" / file).read_text(encoding="utf-8") for file, _ in LISTINGS),
+    *(example["listing"] for example in EXAMPLES.values()), *MODELS})
+"""Texts in the kit's notations."""
+TEXTS = [(name, text, line) for name, texts in FOREIGN.items() for text, line in texts]
+ALL_DIALECTS = [None, *DIALECTS]
+
+
+def claim(text: str, notation: str | None = None) -> ModelSyntaxError:
+    """The error of a text in a format of another program."""
+    with pytest.raises(ModelSyntaxError) as found:
+        read(text, notation)
+    return found.value
+
+
+@pytest.mark.parametrize(("name", "text", "line"), TEXTS)
+def test_the_message_says_whose_format_it_is_and_where_that_is_seen(name: str, text: str, line: int) -> None:
+    found = claim(text)
+    assert found.message == f"This is {name}, which the kit does not read"
+    assert found.line == line
+    assert (found.column or 0) <= len(text.split("\n")[line - 1])
+    assert not text.split("\n")[line - 1][(found.column or 1) - 1].isspace()
+
+
+@pytest.mark.parametrize(("name", "text", "line"), [row for row in TEXTS if row[0] != L_PY])
+@pytest.mark.parametrize("notation", DIALECTS)
+def test_it_says_so_too_where_a_notation_was_asked_for(notation: str, name: str, text: str, line: int) -> None:
+    assert claim(text, notation).message.startswith(f"This is {name},")
+
+
+def test_each_format_has_five_texts() -> None:
+    assert {row.name for row in FORMATS} == set(FOREIGN)
+    assert all(len(texts) >= 5 for texts in FOREIGN.values())
+
+
+@pytest.mark.parametrize("row", FORMATS, ids=lambda row: row.name)
+def test_a_message_says_what_the_kit_lacks_and_what_to_try(row) -> None:
+    found = claim(next(text for text, _ in FOREIGN[row.name] if foreign_format(text) and row.sign_in(text)))
+    assert found.hint == f"{row.lacks}. {row.advice}" or row.name == L_PY
+    assert re.fullmatch(r"[A-Z].*[^.]\. [A-Z].*\.", f"{row.lacks}. {row.advice}")
+
+
+@pytest.mark.parametrize("text", [
+    "axiom: A(1)\nA(t) : t < 5 -> B(t+1)", "#define n 5\nAxiom: A(0)\nA(t) : t < 5 --> F(1)A(t+1)", "axiom: X\nX -> F + X",
+    "axiom: A(1)\nA(x) : x < 5 -> F(1) A(x+1)", "* # A(1),\nA(x) # F(x) RU30 A(x*0.8)", "axiom: F\nF -> F-F++F-F",
+    "axiom: A\nA -> F[+A]A", "steps: 3\naxiom: F\nF -> F+F", "angle: 45\nsteps: 8\naxiom: A\np1: A -> F[+A]A",
+])
+def test_what_is_advised_is_read(text: str) -> None:
+    assert read(text).axiom
+
+
+# --- never the kit's own ----------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("text", [*OWN, *MENTIONS])
+def test_no_text_in_a_notation_of_the_kit_is_called_foreign(text: str) -> None:
+    assert foreign_format(text) is None
+    assert mistakable_format(text) is None
+
+
+@st.composite
+def spoilt(draw: st.DrawFn) -> str:
+    """A text of the kit's in which characters or lines were lost, moved, repeated or put in."""
+    text = draw(st.sampled_from(OWN))
+    for _ in range(draw(st.integers(1, 4))):
+        parts = text.split("\n") if draw(st.booleans()) else list(text)
+        glue = "\n" if len(parts) < len(text) else ""
+        start, end = sorted((draw(st.integers(0, len(parts))), draw(st.integers(0, len(parts)))))
+        end = min(end, start + draw(st.integers(0, 3)))
+        put = draw(st.one_of(st.just([]), st.just(parts[:2]), st.lists(st.characters(max_codepoint=126), max_size=3)))
+        text = glue.join((*parts[:start], *put, *parts[end:]))
+    return text
+
+
+@given(spoilt())
+def test_no_text_with_a_slip_is_called_foreign(text: str) -> None:
+    assert foreign_format(text) is None
+    assert mistakable_format(text) is None
+
+
+@pytest.mark.parametrize("text", [text for text in MENTIONS if not text.startswith("From")])
+def test_what_only_mentions_another_program_is_read(text: str) -> None:
+    assert read(text).axiom
+
+
+# --- L-Py and cpfg ----------------------------------------------------------------------------------------------------------
+
+RULES = st.lists(st.sampled_from(["A --> F[+A]A", "F --> FF", "B(x) --> F(x)B(x+1)", "A < B --> C", "A(t) : t > 1 --> F(t)"]),
+                 min_size=1, max_size=4).map("\n".join)
+
+
+@given(RULES, st.permutations(["Axiom: A", "derivation length: 3", "/* a plant */", ""]), st.sampled_from(["", "\nendlsystem"]))
+def test_no_model_of_l_py_is_taken_for_one_of_cpfg(rules: str, heading: list[str], end: str) -> None:
+    model = "\n".join(heading) + f"\nproduction:\n{rules}{end}\n"
+    assert claim(model).message.startswith("This is a model of L-Py,")
+    for python in (f"import math\n{model}", f"{model}\n###### INITIALISATION ######\n", f"{model}\nC(x) :\n  produce F"):
+        assert claim(python).message.startswith("This is a model of L-Py,")
+
+
+@given(RULES)
+def test_the_same_rules_in_cpfgs_frame_are_cpfgs(rules: str) -> None:
+    model = f"Lsystem: 1\nderivation length: 3\nAxiom: A\n{rules}\nendlsystem"
+    assert read(model).notation == "cpfg"
+
+
+def test_it_can_be_read_as_cpfgs_all_the_same() -> None:
+    model = "Axiom: A\nproduction:\nA --> F[+A]A\nendlsystem"
+    assert 'read(text, "cpfg")' in (claim(model).hint or "")
+    assert read(model, "cpfg") == read("Axiom: A\nA --> F[+A]A", "cpfg")
+
+
+# --- names and time ---------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize(("name", "told"), [
+    ("tree.lpy", "a model of L-Py"), ("a/b/TREE.RGG", "a model in XL"), ("x.jff", "an L-system of JFLAP"),
+    ("x.rkt", "a model in Racket"), ("x.ipynb", "a Jupyter notebook"), ("x.py", "a program in Python"),
+    ("x.l", None), ("x.txt", None), ("lpy", None), ("", None),
+])
+def test_the_name_of_a_file_is_a_hint(name: str, told: str | None) -> None:
+    assert told in name_hint(name) if told else name_hint(name) is None
+
+
+@pytest.mark.parametrize("text", [
+    "\n", " ", "a", "Axiom:", "production:\n", "<", "{", "import ", "#", "A = ", "__a", "x:", "'a", '"a', "Axiom:\n", "#lang\n",
+    "(", "module ", "void a(", "p1:", "\t\n", "Axiom: A\nderivation length: 1\n", "private ", "<type> ", "[{", "==", "# ",
+])
+def test_a_glance_is_short(text: str) -> None:
+    long = (text * GLANCE)[:20 * GLANCE]
+    started = time.process_time()
+    foreign_format(long)
+    mistakable_format(long)
+    assert time.process_time() - started < 0.5 * 3  # half a second on a quick machine
+
+
+def test_a_text_too_long_to_be_read_is_recognised() -> None:
+    page = "<!DOCTYPE html>\n" + "<p>A plant</p>\n" * 20_000
+    with pytest.raises(LSystemError, match="This is a page as HTML"):
+        read(page)
