@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from lsys_kit.budget import current
+from lsys_kit.decoding import decoded
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file
 
@@ -167,13 +168,28 @@ def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem
     try:
         found = system(name)
     except ModelNameError:
-        return read(_file(name), notation, entry)
+        return _system_in(name, notation, entry)
     if entry is not None:
         raise ModelValueError(f"{name} is one system of the catalogue", hint="Leave out --name.")
     if notation is not None:
         write(found, notation)  # raises an error that says what the notation lacks
         return replace(found, notation=notation)
     return found
+
+
+def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
+    """The system in a file; where none can be read, the file's name may hint at another format."""
+    from lsys_kit.notation.foreign import name_hint
+    from lsys_kit.notation.read import read
+
+    text = _file(name)
+    try:
+        return read(text, notation, entry)
+    except LSystemError as error:
+        hint = name_hint(name)
+        if hint and "which the kit does not read" not in error.message:
+            error.with_hint(f"{error.hint or ''} {hint}".strip())
+        raise
 
 
 def _file(name: str) -> str:
@@ -201,11 +217,8 @@ def _keep(text: str, name: str) -> None:
 
 def _decoded(file: BinaryIO, name: str) -> str:
     """The text of a file, up to a little more than a model may have."""
-    content = file.read(4 * current().text + 1)
-    try:
-        return content.decode("utf-8").replace("\r\n", "\n")
-    except UnicodeDecodeError as fault:
-        raise ModelFileError(f"{name[0].upper()}{name[1:]} is not valid UTF-8 text: byte {fault.start + 1} is wrong") from None
+    most = 4 * current().text + 4
+    return decoded(file.read(most), name, most)
 
 
 def _likely_name(name: str) -> str:

@@ -391,6 +391,21 @@ def test_a_file_that_is_not_text_is_refused(shell, model):
     refused(shell("derive", model(b"axiom: A\nA -> \xff\n"), "-n", "1"), "UTF-8", "byte 15")
 
 
+def test_what_another_program_wrote_is_called_so_and_the_name_of_a_file_is_a_hint(shell, model):
+    refused(shell("derive", model("#lang lindenmayer racket\n## axiom ##\nF\n", "plant.txt"), "-n", "1"),
+            "This is a model in Racket's language lindenmayer, which the kit does not read (line 1, column 1).", '"axiom:"')
+    refused(shell("derive", model("A = B\n", "tree.lpy"), "-n", "1"), "line 1",
+            'The name ends in ".lpy": perhaps the file is a model of L-Py, which the kit does not read.')
+    assert shell("derive", model("axiom: A\nA -> A B\n", "fine.lpy"), "-n", "1").out == "A\nA B\n"
+    said = shell("derive", model("import turtle\n", "tree.py"), "-n", "1").err
+    assert said.count("which the kit does not read") == 1
+
+
+def test_a_file_in_utf_16_with_its_mark_is_read(shell, model):
+    assert shell("derive", model("axiom: A\nA -> A B\n".encode("utf-16")), "-n", "1").out == "A\nA B\n"
+    refused(shell("derive", model("axiom: A\nA -> A B\n".encode("utf-16-le")), "-n", "1"), "zero bytes", "UTF-8")
+
+
 def test_a_file_that_never_ends_is_refused(shell):
     refused(shell("derive", "/dev/zero", "-n", "1"), "limit is 1,000,000")
 

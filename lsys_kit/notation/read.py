@@ -7,7 +7,7 @@ in `dialects`, one for each notation; they share `expressions.lark` in `syntax`.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
 from lsys_kit.budget import current
@@ -47,8 +47,8 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     Raises
     ------
     ModelSyntaxError, ModelNameError, ModelValueError
-        The text makes no sense; the error gives the place and a hint, perhaps that another notation fits. Or the text holds
-        several systems, and none is named.
+        The text makes no sense; the error gives the place and a hint, perhaps that another notation fits, or that the text is
+        in the format of another program. Or it holds several systems, and none is named.
     ModelLimitError
         The text is too long.
 
@@ -71,22 +71,16 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
       }
     """
     check_text(text)
+    text = text.removeprefix("\ufeff")  # the byte order mark, with which some editors begin a file
     if _MAP.match(text):
         raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
     if notation:
         return _read_or_claimed(dialect_named(notation), text, name)
-    chosen = recognise(text)
-    try:
-        mistakable = mistakable_format(text)
-        if mistakable:
-            raise mistakable
-        system = _read_or_claimed(chosen, text, name)
-    except LSystemError as error:
-        other = next((other.name for other in _others(chosen, text) if _reads(other, text, name)), None)
-        if other:
-            error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
-        raise
+    chosen, mistakable = recognise(text), mistakable_format(text)
+    if mistakable:
+        raise mistakable
+    system = _read_or_claimed(chosen, text, name, _others(chosen, text))
     return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
 
 
@@ -105,14 +99,15 @@ def _reads(notation: Dialect, text: str, name: str | None) -> bool:
     return True
 
 
-def _read_or_claimed(notation: Dialect, text: str, name: str | None) -> LSystem:
-    """Read a system in a notation; what cannot be read may be in the format of another program."""
+def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Iterable[Dialect] = ()) -> LSystem:
+    """Read a system in a notation; what cannot be read may be in another, or in the format of another program."""
     try:
-        return system_in(notation, text, name)
-    except LSystemError:
-        claim = foreign_format(text)
-        if claim:
-            raise claim from None
+        return system_in(chosen, text, name)
+    except LSystemError as error:
+        other = next((other.name for other in others if _reads(other, text, name)), None)
+        if other is None:
+            raise foreign_format(text) or error from None
+        error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
         raise
 
 
