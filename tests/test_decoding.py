@@ -14,8 +14,8 @@ from lsys_kit.errors import LSystemError, ModelFileError
 from lsys_kit.notation.read import read
 
 MOST = 10_000
-MARKED = {"utf-8-sig": b"", "utf-16-le": codecs.BOM_UTF16_LE, "utf-16-be": codecs.BOM_UTF16_BE, "utf-32-le": codecs.BOM_UTF32_LE,
-          "utf-32-be": codecs.BOM_UTF32_BE}
+MARKED = {"utf-8-sig": b"", "utf-16-le": codecs.BOM_UTF16_LE, "utf-16-be": codecs.BOM_UTF16_BE,
+          "utf-32-le": codecs.BOM_UTF32_LE, "utf-32-be": codecs.BOM_UTF32_BE}
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0\r\ufeff"), max_size=60)
 """Texts that are no other file by their first letters."""
 KINDS = {

@@ -10,7 +10,8 @@ a dynamic language", Frontiers in Plant Science 3:76 (2012); R. Karwowski, P. Pr
 L+C modeling language", ENTCS 86 (2003); O. Kniemeyer, "Design and implementation of a graph grammar based language for
 functional-structural plant modelling" (2008), on XL; S. Rodger, T. Finley, "JFLAP: an interactive formal languages and
 automata package" (2006), chapter 10; the documentation of Racket's package lindenmayer, of PGF (section 55, Lindenmayer
-systems), Houdini (the node L-System) and Lowclouds' L-system Explorer; the manual of cpfg for its other files.
+systems), Houdini (the node L-System) and Lowclouds' L-system Explorer; L. Lapré, lparser.txt (1994, 2006); the manual of cpfg
+for its other files.
 """
 
 from __future__ import annotations
@@ -75,6 +76,9 @@ _PAGE = "Copy the text of the model out of it, without its tags."
 _MODULES = r"(?:turtle|math|random|re|sys|os|json|numpy|matplotlib[\w.]*|tkinter|pygame|bpy|openalea[\w.]*|lsys_kit)"
 
 
+_NUMBER = r"\d+(?:\.\d*)? (?:#[^\n]*)?\n(?: (?:#[^\n]*)?\n)*+"
+
+
 def _with_line(pattern: str) -> str:
     """A pattern for texts in which a line begins so."""
     return rf"(?=(?s:.*?)^ {pattern})"
@@ -85,6 +89,9 @@ def _without_line(pattern: str) -> str:
     return rf"(?!(?s:.*?)^ {pattern})"
 
 
+_TURTLE_OF_LPARSER = "The kit's turtle has no random turns (~), and no step and angle that others would multiply (' \" ; :)"
+_FROM_LPARSER = ("Write \"steps:\", \"angle:\" and \"axiom:\" before its numbers and its axiom, a rule as A -> F[+A]A, "
+                 "and \\ and / for < and >.")
 _L_PY = ForeignFormat(
     "a model of L-Py",
     [r"#{4,} INITIALISATION\b", r"__\w+__ =", r"(?:[^\s:][^:\n]*+: )?n?produce\b(?![^\n]*;)",
@@ -127,6 +134,12 @@ FORMATS: Sequence[ForeignFormat] = (
         lacks="Its turtle begins otherwise than that of cpfg, which has such rules, too",
         advice='If it has no Python code, read(text, "cpfg") reads it, or --notation cpfg in a shell: then give the angle.'),
     _L_PY,
+    ForeignFormat(
+        "a model of LParser", [r"\d+(?:\.\d*)? (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
+        rf"(?: (?:#[^\n]*)?\n)*+(?: {_NUMBER}){{3}} [^\s=#][^\s=]* (?:#[^\n]*)?\n(?: (?:#[^\n]*)?\n)*+ (?:\S =|@)"),
+    ForeignFormat(
+        "a model of LParser", [r"recursion\b \d+ (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
+        _with_line(r"axiom\b [^:=\s][^:=\n]*$") + _with_line(r"(?:rule\b \S =|angle\b \d)")),
     ForeignFormat(
         "a model of the L-system Explorer by Lowclouds", [r"(?:delta|stemsize|step) =", r"p\d+ :[^\n]*?->"],
         "The kit has no formulas of JavaScript, and no L-systems within others",

@@ -9,6 +9,7 @@ AUTOMATON = "an automaton or a grammar of JFLAP, and no L-system"
 XL = "a model in XL, the language of GroIMP"
 LPFG = "a model of lpfg, in the language L+C"
 L_PY = "a model of L-Py"
+LPARSER = "a model of LParser"
 EXPLORER = "a model of the L-system Explorer by Lowclouds"
 VIEW = "a file that goes with a model of cpfg, and says how it is seen or animated"
 PGF = "an L-system of PGF, for TikZ"
@@ -76,6 +77,14 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ("import random\nAxiom: A\nA --> B\n", 1),
         ("Axiom: Apex\nproduction:\nApex --> Internode Apex\n", 2),
         ("extern(length = 3)\nAxiom: F(length)\nF(x) --> F(x+1)\n", 1),
+    ],
+    LPARSER: [
+        ("# --- a bush\n5 # recursion\n20 # basic angle\n10 # thickness\nA # axiom\nA=F[+A]A\n@\n", 2),
+        ("3\n22.5\n100\n#\n&(90)F\n#\nF=F[+F]'(.8)F\n", 1), ("7\t\t# depth\n90\t# angle\n142.857\nX\n@\n", 1),
+        ("#\n# a plant\n\n12\n25\n50 # %\n\n[A]c[B]\nA = +FA\nB = -FB\n@", 4),
+        ("8\n25\n50\nc(12)b:>(60)b:>(60)b\nb=[&(30)F]\n", 1),
+        ("# Lparser example file\nrecursion 8\nangle 10\nthickness 80\naxiom FFFF[C]>>>[C]\nrule C = F!^+F[C]C\n", 2),
+        ("recursion 3\nshape 1\naxiom F\nrule F = F+F\n", 1),
     ],
     EXPLORER: [
         ("/* a leaf */\nD=0\nR=2\nstemsize=1.5\nderivation length: 8\naxiom: A(0)\nP1: A(d) : d>0 -> A(d-1)\n", 4),
@@ -153,6 +162,7 @@ MENTIONS = [
     "Lsystem: 1\nderivation length: 3\nproduction:\nAxiom: A\nA --> AB\nendlsystem",
     "Axiom: A\nendlsystem", "derivation length: 3\nAxiom: F\nF --> F[+F]F", "#define import 3\nAxiom: A(import)\nA(x) --> B(x)",
     'axiom = AXIOM[a[1]];\nskipPattern = {"b", "c"};\nlrules = LRULES[LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[i+1]]]];',
+    "angle: 30\nsteps: 5\nrecursion = 3\naxiom: A(recursion)\nA(x) -> F(x)", "alphabet: 1 2 3\naxiom: 1\n1 -> 2\n2 -> 3",
     "From: a friend\nimport it\ncomment {\nclass {\n}\nKoch {\nAngle 6\nAxiom F\nF=F+F\n}",
 ]
 """Texts of the kit's notations that speak of such things, or look like them."""

@@ -62,8 +62,9 @@ def test_each_format_has_five_texts() -> None:
 
 @pytest.mark.parametrize("row", FORMATS, ids=lambda row: row.name)
 def test_a_message_says_what_the_kit_lacks_and_what_to_try(row) -> None:
-    found = claim(next(text for text, _ in FOREIGN[row.name] if foreign_format(text) and row.sign_in(text)))
-    assert found.hint == f"{row.lacks}. {row.advice}" or row.name == L_PY
+    found = claim(next(text for text, _ in FOREIGN[row.name] if next(each for each in FORMATS if each.sign_in(text)) is row))
+    assert row.name in found.message
+    assert found.hint == f"{row.lacks}. {row.advice}"
     assert re.fullmatch(r"[A-Z].*[^.]\. [A-Z].*\.", f"{row.lacks}. {row.advice}")
 
 
@@ -71,6 +72,7 @@ def test_a_message_says_what_the_kit_lacks_and_what_to_try(row) -> None:
     "axiom: A(1)\nA(t) : t < 5 -> B(t+1)", "#define n 5\nAxiom: A(0)\nA(t) : t < 5 --> F(1)A(t+1)", "axiom: X\nX -> F + X",
     "axiom: A(1)\nA(x) : x < 5 -> F(1) A(x+1)", "* # A(1),\nA(x) # F(x) RU30 A(x*0.8)", "axiom: F\nF -> F-F++F-F",
     "axiom: A\nA -> F[+A]A", "steps: 3\naxiom: F\nF -> F+F", "angle: 45\nsteps: 8\naxiom: A\np1: A -> F[+A]A",
+    "steps: 5\nangle: 20\naxiom: A\nA -> F[+A]\\/A",
 ])
 def test_what_is_advised_is_read(text: str) -> None:
     assert read(text).axiom
@@ -149,6 +151,7 @@ def test_the_name_of_a_file_is_a_hint(name: str, told: str | None) -> None:
 @pytest.mark.parametrize("text", [
     "\n", " ", "a", "Axiom:", "production:\n", "<", "{", "import ", "#", "A = ", "__a", "x:", "'a", '"a', "Axiom:\n", "#lang\n",
     "(", "module ", "void a(", "p1:", "\t\n", "Axiom: A\nderivation length: 1\n", "private ", "<type> ", "[{", "==", "# ",
+    "1\n", "# a\n", "1 # a\n", "axiom a\n", "recursion 3\n",
 ])
 def test_a_glance_is_short(text: str) -> None:
     long = (text * GLANCE)[:20 * GLANCE]
