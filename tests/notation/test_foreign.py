@@ -16,6 +16,7 @@ from lsys_kit.errors import LSystemError, ModelSyntaxError
 from lsys_kit.notation.foreign import FORMATS, GLANCE, foreign_format, mistakable_format, name_hint
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
+from lsys_kit.notation.syntax.systems import lacking
 from lsys_kit.notation.write import write
 from tests.notation.foreign_texts import FOREIGN, L_PY, MENTIONS
 from tests.notation.test_any_text import MODELS
@@ -24,7 +25,7 @@ from tests.notation.test_recognised import LISTINGS, SHORT
 TESTS = Path(__file__).parents[1]
 EXAMPLES = tomllib.loads((TESTS / "notebooks" / "examples.toml").read_text(encoding="utf-8"))["notations"]
 OWN = sorted({
-    *(write(system(id), notation) for id in systems() for notation in DIALECTS if not DIALECTS[notation].lacking(system(id))),
+    *(write(system(id), notation) for id in systems() for notation in DIALECTS if not lacking(DIALECTS[notation], system(id))),
     *(system(id).source for id in systems()), *(text for texts in SHORT.values() for text in texts),
     *((TESTS / "listings" / file).read_text(encoding="utf-8") for file, _ in LISTINGS),
     *(example["listing"] for example in EXAMPLES.values()), *MODELS})

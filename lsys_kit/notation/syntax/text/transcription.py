@@ -46,7 +46,7 @@ _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
 _ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
 _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 
-_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t])[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
+_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
 """A line that may be an axiom without its name, and is no name of an axiom without its colon."""
 
 _TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}ωδ°•]")
