@@ -15,8 +15,9 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
+from lsys_kit.pictures.display_list import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
-from lsys_kit.pictures.svg import HEIGHT, MARGIN, WIDTH, FilamentRow
+from lsys_kit.pictures.svg import FilamentRow
 
 LOOKS = ("rectangles", "ellipses")
 """The shapes in which cells can be drawn."""

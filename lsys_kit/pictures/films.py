@@ -21,11 +21,11 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.pictures.display_list import MARGIN, ViewFrame, frame_of
 from lsys_kit.pictures.draw import derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.raster import turtle_image
 from lsys_kit.pictures.style.palette import PAPER
-from lsys_kit.pictures.svg import MARGIN, ViewFrame, frame_of
 from lsys_kit.pictures.view import project
 
 if TYPE_CHECKING:

@@ -24,10 +24,11 @@ from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.pictures.display_list import MARGIN, ViewFrame
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
-from lsys_kit.pictures.svg import MARGIN, ViewFrame, background, described, document
+from lsys_kit.pictures.svg import background, described, document
 
 WIDTH, HIGHEST = 760, 400
 """The greatest width of a line of maps and height of a map, in pixels."""

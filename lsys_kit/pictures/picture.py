@@ -18,13 +18,14 @@ from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.pictures.display_list import WIDTH, frame_of
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
 from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.nets.diagram import drawn_stages
-from lsys_kit.pictures.svg import WIDTH, FilamentRow, background, described, document, frame_of, turtle_svg
+from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

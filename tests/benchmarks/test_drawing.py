@@ -12,8 +12,9 @@ import pytest
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.pictures.display_list import frame_of
 from lsys_kit.pictures.formats.raster import turtle_png
-from lsys_kit.pictures.svg import frame_of, turtle_svg
+from lsys_kit.pictures.svg import turtle_svg
 
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")
 IN_SPACE = read("angle: 25.7\naxiom: F\nF -> F[+F]/(90)F[-F]F")

@@ -15,8 +15,8 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import CIRCLE
 from lsys_kit.geometry.turtle.mode import in_plane
 from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.pictures.display_list import shape_colours
 from lsys_kit.pictures.draw import state_colours
-from lsys_kit.pictures.svg import shape_colours
 
 PLANE = st.text("Ff+-[]|{}.", min_size=1, max_size=40)
 SPACE = st.text("Ff+-&^/[]$!;{}.", min_size=1, max_size=40)

@@ -21,8 +21,8 @@ from numpy.typing import ArrayLike
 
 from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene, Segments
 from lsys_kit.geometry.turtle.plane import Path
+from lsys_kit.pictures.display_list import numbered_colours
 from lsys_kit.pictures.style.palette import MARK_EDGE
-from lsys_kit.pictures.svg import numbered_colours
 
 HOW_TO_TURN = ("Turn it with the arrow keys or by dragging; plus and minus bring it nearer or farther, Shift and an arrow key "
                "move along it, Home puts it back.")

@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from lsys_kit.geometry.scene import CIRCLE, Scene
+from lsys_kit.pictures.display_list import MARGIN, frame_of, groups, shape_colours
 from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import MARGIN, FilamentRow, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

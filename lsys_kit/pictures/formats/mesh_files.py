@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lsys_kit.geometry.meshes import Mesh, Numbers, Singles
-from lsys_kit.pictures.svg import numbered_colours
+from lsys_kit.pictures.display_list import numbered_colours
 
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963

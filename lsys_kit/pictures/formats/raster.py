@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import CIRCLE, Scene
+from lsys_kit.pictures.display_list import MARGIN, WIDTH, ViewFrame, frame_of, groups, shape_colours
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import MARGIN, WIDTH, FilamentRow, ViewFrame, frame_of, groups, shape_colours
+from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
     from PIL.Image import Image

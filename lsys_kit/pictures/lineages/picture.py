@@ -21,12 +21,13 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.files import marked_xml
 from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.pictures.display_list import MARGIN, WIDTH
 from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.style.labels import svg_label, values_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
-from lsys_kit.pictures.svg import MARGIN, WIDTH, background, document
+from lsys_kit.pictures.svg import background, document
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""

@@ -15,9 +15,9 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.pictures import filaments
+from lsys_kit.pictures.display_list import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label
 from lsys_kit.pictures.style.palette import SERIES, colours
-from lsys_kit.pictures.svg import MARGIN, WIDTH
 
 AXIS, HEAD, TREE = 54, 22, 300
 """Room for the axis of time, its heading and the tree, in pixels."""
