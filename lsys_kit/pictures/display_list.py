@@ -5,13 +5,13 @@ Every format paints the shapes of a scene in the same order, and so does the can
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lsys_kit.geometry.scene import OWN, Discs, Floats, Integers, Polygons, Segments
+from lsys_kit.geometry.scene import OWN, Discs, Floats, Integers, Polygons, Scene, Segments
 from lsys_kit.pictures.style.palette import CHOSEN, GREEN
 
 WIDTH, HEIGHT = 600, 400
@@ -53,11 +53,95 @@ def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, heigh
     return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
-def groups(segments: Segments, scale: float, colour_of: Mapping[int, str]) -> Iterator[tuple[str, int, NDArray[np.bool_]]]:
-    """Groups of strokes with the same look: colour, width in tenths of a pixel, and a mask of the strokes; broad ones first.
+@dataclass(frozen=True)
+class Faces:
+    """Polygons, by their numbers."""
 
-    A width that the turtle has set is scaled with the drawing; other widths depend on the branch order.
+    numbers: Integers
+
+
+@dataclass(frozen=True)
+class Strokes:
+    """Strokes of one colour and width, in tenths of a pixel, by their numbers."""
+
+    numbers: Integers
+    colour: str
+    width: int
+
+
+@dataclass(frozen=True)
+class Rounds:
+    """Circles, discs and spheres, by their numbers."""
+
+    numbers: Integers
+
+
+Run: TypeAlias = Faces | Strokes | Rounds
+"""Shapes that are painted one after another."""
+
+
+def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Iterator[Run]:
+    """The shapes of a scene in the order in which they are painted: what comes later covers what came before.
+
+    In space that is from far to near. In the plane first polygons, then strokes, by colours and of one colour the broad ones
+    first, then circles, discs and spheres.
+
+    Parameters
+    ----------
+    scene
+        A scene in the plane, or projected onto it.
+    scale
+        The pixels of a unit of length.
+    colour_of
+        For each state its colour.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit.pictures.view import project
+    >>> scene = project(scene_of(derive(read("axiom: [^(90)f@O(1)][&(90)f@O(2)]FF"), 0)))  # towards the viewer, away
+    >>> [(type(run).__name__, run.numbers.tolist()) for run in display_list(scene, 1, {})]
+    [('Rounds', [1]), ('Strokes', [0, 1]), ('Rounds', [0])]
     """
+    looks = stroke_looks(scene.segments, scale, colour_of)
+    if scene.order is not None:
+        yield from _from_far_to_near(scene, scene.order, looks)
+        return
+    yield Faces(np.arange(len(scene.polygons)))
+    for key in np.flatnonzero(np.bincount(looks.keys)).tolist():
+        yield Strokes(np.flatnonzero(looks.keys == key), *looks.colour_and_width(key))
+    yield Rounds(np.arange(len(scene.discs)))
+
+
+def _from_far_to_near(scene: Scene, order: Integers, looks: StrokeLooks) -> Iterator[Run]:
+    faces, strokes = len(scene.polygons), len(scene.segments)
+    keys = np.concatenate([np.full(faces, -2), looks.keys, np.full(len(scene.discs), -1)])[order]
+    for numbers in np.split(order, np.flatnonzero(np.diff(keys)) + 1) if len(order) else ():
+        first = int(numbers[0])
+        if first < faces:
+            yield Faces(numbers)
+        elif first < faces + strokes:
+            yield Strokes(numbers - faces, *looks.colour_and_width(int(looks.keys[first - faces])))
+        else:
+            yield Rounds(numbers - faces - strokes)
+
+
+@dataclass(frozen=True)
+class StrokeLooks:
+    """The looks of strokes: for each a key that stands for its colour and its width; keys grow as broad strokes get thinner."""
+
+    keys: Integers
+    names: Sequence[str]
+
+    def colour_and_width(self, key: int) -> tuple[str, int]:
+        """The colour of a key, and its width in tenths of a pixel."""
+        return self.names[key // (BROADEST + 1)], BROADEST - key % (BROADEST + 1)
+
+
+def stroke_looks(segments: Segments, scale: float, colour_of: Mapping[int, str]) -> StrokeLooks:
+    """The looks of strokes: a width that the turtle has set is scaled with the drawing; others depend on the branch order."""
     thin = stroke_scale(segments, scale)
     by_order = np.array([round(10 * width * thin) for width in STROKES])
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
@@ -65,9 +149,7 @@ def groups(segments: Segments, scale: float, colour_of: Mapping[int, str]) -> It
         given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)
         widths = np.where(segments.widths == OWN, widths, given)
     names, numbers = numbered_colours(segments.states, segments.colours, colour_of)
-    both = numbers * (BROADEST + 1) + (BROADEST - widths)
-    for key in np.flatnonzero(np.bincount(both)).tolist():
-        yield names[key // (BROADEST + 1)], BROADEST - key % (BROADEST + 1), both == key
+    return StrokeLooks(numbers * (BROADEST + 1) + (BROADEST - widths), names)
 
 
 def numbered_colours(states: Integers, colours: Integers, colour_of: Mapping[int, str]) -> tuple[list[str], Integers]:

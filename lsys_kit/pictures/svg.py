@@ -5,14 +5,15 @@ Coordinates are whole tenths of a pixel, so that the text of a picture is the sa
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from itertools import groupby
 
 import numpy as np
 
 from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene, Segments
-from lsys_kit.pictures.display_list import ViewFrame, groups, shape_colours, stroke_scale
+from lsys_kit.pictures.display_list import Faces, Strokes, ViewFrame, display_list, shape_colours, stroke_scale
 from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER, tinted
 
 
@@ -25,23 +26,32 @@ def document(body: str, width: int, height: int, description: str) -> str:
 
 
 def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
-    """A scene of a turtle as SVG: surfaces, then strokes, then discs."""
-    parts = (polygons_svg(scene.polygons, frame, colour_of) if len(scene.polygons) else "",
-             strokes_svg(scene.segments, frame, colour_of, marked),
-             discs_svg(scene.discs, frame, colour_of) if len(scene.discs) else "")
+    """A scene of a turtle as SVG, in the order in which it is painted."""
+    faces, rounds = _polygons(scene.polygons, frame, colour_of), _discs(scene.discs, frame, colour_of)
+    points, parts = frame.points(scene.segments.ends), []
+    for kind, runs in groupby(display_list(scene, frame.scale, colour_of), type):
+        if kind is Strokes:
+            parts.append(_strokes_svg(scene.segments, points, [run for run in runs if isinstance(run, Strokes)], frame, marked))
+        else:
+            shapes, look = (faces, _FACES) if kind is Faces else (rounds, _ROUNDS)
+            body = "".join(shapes[number] for run in runs for number in run.numbers.tolist())
+            parts.append(f"<g {look}>{body}</g>" if body else "")
     return "".join(parts)
 
 
-def polygons_svg(polygons: Polygons, frame: ViewFrame, colour_of: Mapping[int, str]) -> str:
+_FACES, _ROUNDS = 'stroke-width="6" stroke-linejoin="round"', 'stroke-width="10"'
+
+
+def _polygons(polygons: Polygons, frame: ViewFrame, colour_of: Mapping[int, str]) -> list[str]:
     """Surfaces, filled, with an outline of the same colour."""
     shapes = []
     for corners, colour in zip(polygons, shape_colours(polygons, colour_of), strict=True):
         points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
         shapes.append(f'<polygon points="{points}" fill="{tinted(colour, 0.7)}" stroke="{colour}"/>')
-    return f'<g stroke-width="6" stroke-linejoin="round">{"".join(shapes)}</g>'
+    return shapes
 
 
-def discs_svg(discs: Discs, frame: ViewFrame, colour_of: Mapping[int, str]) -> str:
+def _discs(discs: Discs, frame: ViewFrame, colour_of: Mapping[int, str]) -> list[str]:
     """Circles, and discs and spheres, which are filled."""
     shapes = []
     for (x, y), radius, kind, colour in zip(frame.points(discs.centres).tolist(), discs.radii.tolist(), discs.kinds.tolist(),
@@ -49,20 +59,21 @@ def discs_svg(discs: Discs, frame: ViewFrame, colour_of: Mapping[int, str]) -> s
         fill = PAPER if kind == CIRCLE else tinted(colour, 0.7)
         reach = max(8, round(radius * frame.scale * 10))
         shapes.append(f'<circle cx="{x}" cy="{y}" r="{reach}" fill="{fill}" stroke="{colour}"/>')
-    return f'<g stroke-width="10">{"".join(shapes)}</g>'
+    return shapes
 
 
-def strokes_svg(segments: Segments, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
-    """The strokes of a turtle: a path for each colour and width; marked strokes lie on a broad band."""
-    points = frame.points(segments.ends)
+def _strokes_svg(segments: Segments, points: Integers, runs: Sequence[Strokes], frame: ViewFrame,
+                 marked: Collection[int]) -> str:
+    """Strokes that nothing lies between: a path for each colour and width; marked strokes lie on a broad band."""
     body = []
     if marked:
-        chosen = points[np.isin(segments.states, list(marked))]
+        numbers = np.concatenate([run.numbers for run in runs])
+        chosen = points[numbers[np.isin(segments.states[numbers], list(marked))]]
         broad = max(50, 90 * stroke_scale(segments, frame.scale))
-        body.append(f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad:.0f}" '
-                    'stroke-opacity="0.45"/>')
-    for colour, width, ours in groups(segments, frame.scale, colour_of):
-        body.append(f'<path d="{_path(points[ours])}" stroke="{colour}" stroke-width="{width}"/>')
+        body += [f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad:.0f}" '
+                 'stroke-opacity="0.45"/>'] * bool(len(chosen))
+    for run in runs:
+        body.append(f'<path d="{_path(points[run.numbers])}" stroke="{run.colour}" stroke-width="{run.width}"/>')
     return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'
 
 

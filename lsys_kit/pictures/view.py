@@ -1,12 +1,16 @@
-"""Orthographic projection of a scene in space onto the plane of the picture, sorted from back to front."""
+"""Orthographic projection of a scene in space onto the plane of the picture, and the order of its shapes from far to near."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
+from lsys_kit.geometry.scene import Floats, Integers, Scene
+
+LEVELS = 2**15
+"""Depths are compared as so many levels over the extent of a scene, so that rounding errors bring nothing forward."""
 
 
 def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene:
@@ -34,15 +38,38 @@ def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene
     right, up, towards = _axes(math.radians(azimuth), math.radians(elevation))
     plane = np.stack([right, up], axis=1)
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    middles = (segments.ends[:, :3] + segments.ends[:, 3:]) / 2
-    order = np.argsort(np.round(_mapped(middles, towards[:, None])[:, 0], 9), kind="stable")
-    ends = np.concatenate([_mapped(segments.ends[order, :3], plane), _mapped(segments.ends[order, 3:], plane)], axis=1)
-    widths = segments.widths if len(segments.widths) == 1 else segments.widths[order]
-    chosen = segments.colours if len(segments.colours) == 1 else segments.colours[order]
-    return Scene(Segments(ends, segments.orders[order], segments.states[order], widths, chosen),
-                 polygons=_polygons(polygons, plane, towards),
-                 discs=Discs(_mapped(discs.centres, plane), discs.radii, discs.kinds, discs.states, discs.colours),
-                 unknown=scene.unknown)
+    ends = np.concatenate([_mapped(segments.ends[:, :3], plane), _mapped(segments.ends[:, 3:], plane)], axis=1)
+    return Scene(replace(segments, ends=ends), polygons=replace(polygons, points=_mapped(polygons.points, plane)),
+                 discs=replace(discs, centres=_mapped(discs.centres, plane)), unknown=scene.unknown,
+                 order=_far_to_near(scene, towards))
+
+
+def _far_to_near(scene: Scene, towards: Floats) -> Integers:
+    """The numbers of polygons, strokes and discs from far to near; what is as far away stays in this order.
+
+    A shape is as near as its middle: the mean of its corners, the middle of a stroke, a centre.
+    """
+    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
+    places = [each for each in (polygons.points, segments.points, discs.centres) if len(each)]
+    if not places:
+        return np.empty(0, np.int64)
+    extent = max(max(each[:, axis].max() for each in places) - min(each[:, axis].min() for each in places) for axis in range(3))
+    depths = np.concatenate([_means(_depths(polygons.points, towards), polygons.starts),
+                             (_depths(segments.ends[:, :3], towards) + _depths(segments.ends[:, 3:], towards)) / 2,
+                             _depths(discs.centres, towards)])
+    levels = np.rint(depths * (LEVELS / (extent or 1.0)))
+    return np.argsort((levels - levels.min()).astype(np.uint16), kind="stable")
+
+
+def _depths(points: Floats, towards: Floats) -> Floats:
+    """How far points lie towards the viewer."""
+    depths: Floats = _mapped(points, towards[:, None])[:, 0]
+    return depths
+
+
+def _means(numbers: Floats, starts: Integers) -> Floats:
+    """The means of the numbers of each polygon."""
+    return np.add.reduceat(numbers, starts[:-1]) / np.diff(starts) if len(starts) > 1 else np.empty(0)
 
 
 def _axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
@@ -58,15 +85,3 @@ def _mapped(points: Floats, matrix: Floats) -> Floats:
     """The product of points and a small matrix, bit for bit the same on every machine."""
     x, y, z = points.T
     return np.stack([x * column[0] + y * column[1] + z * column[2] for column in matrix.T], axis=1)
-
-
-def _polygons(polygons: Polygons, plane: Floats, towards: Floats) -> Polygons:
-    """The projected polygons, the farthest first."""
-    if not len(polygons):
-        return Polygons(np.empty((0, 2)), polygons.starts, polygons.states, polygons.colours)
-    sizes = np.diff(polygons.starts)
-    depths = np.add.reduceat(_mapped(polygons.points, towards[:, None])[:, 0], polygons.starts[:-1]) / sizes
-    order = np.argsort(np.round(depths, 9), kind="stable")
-    places = np.concatenate([np.arange(polygons.starts[one], polygons.starts[one + 1]) for one in order])
-    return Polygons(_mapped(polygons.points[places], plane), np.cumsum([0, *sizes[order]]), polygons.states[order],
-                    polygons.colours[order])

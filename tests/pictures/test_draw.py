@@ -122,7 +122,7 @@ def test_a_drawing_goes_into_a_teachers_own_figure():
 
     ax = Figure().add_subplot()
     assert figure(system("K5"), ax, n=3) is ax
-    assert sum(len(strokes.get_segments()) for strokes in ax.collections) == 125
+    assert sum(len(shapes.get_paths()) for shapes in ax.collections) == 125
     assert len(figure(system("J1"), n=2).patches) == 2 * (1 + 2 + 3)
 
 

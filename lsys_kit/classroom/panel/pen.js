@@ -7,7 +7,10 @@ const THINNEST = 0.3; // how much thinner strokes become where they stand close
 const THINNEST_IN_SPACE = 0.6;
 const MARGIN = 14;
 const LARGEST = 120; // pixels a unit
-const LAYERS = 32; // of a drawing in space, from far to near
+const SLIMMEST = 3, BROADEST = 4000; // the least and the greatest width that a turtle sets, in tenths of a pixel
+const LEVELS = 2 ** 15; // of depth, over the extent of a drawing in space
+const MOST = 2 ** 31; // more shapes there cannot be
+const LAYERS = 32; // of a drawing in space, by which it fades
 const FADING = 0.45; // how much paler the farthest layer is than the nearest
 
 // All numbers in one buffer of four bytes each: how many there are, strokes, faces, rounds, and what says where points are.
@@ -26,8 +29,10 @@ function unpacked(model) {
     strokes: { n: s, from: whole(s), to: whole(s), looks: whole(s), widths: real(s) },
     faces: { n: f, starts: whole(f && f + 1), looks: whole(f), corners: whole(c) },
     rounds: { n: r, centres: whole(r), looks: whole(r), radii: real(r) },
+    // How far shapes reach beyond their points, in the units of the model.
     get bulge() {
-      return this.rounds.radii.reduce((most, radius) => Math.max(most, radius), 0);
+      const reach = this.strokes.widths.reduce((most, width) => Math.max(most, width / 2), 0);
+      return this.rounds.radii.reduce((most, radius) => Math.max(most, radius), reach);
     },
     n,
     whole: () => whole(n),
@@ -54,68 +59,54 @@ function facing(corners, { x, y, z }) {
   return Math.abs(towards) / (Math.hypot(across, up, towards) || 1);
 }
 
-// Shapes by their layers; strokes that look alike in one line.
-function sorted({ strokes, faces, rounds }, points, scale, thin) {
-  const { x, y, z, reach } = points;
-  const count = z ? LAYERS : 1;
-  const layers = Array.from({ length: count }, () => ({ faces: [], lines: new Map(), rounds: [] }));
-  const layer = (depth) => layers[z ? Math.max(0, Math.min(count - 1, Math.floor((depth / reach + 1) * 0.5 * count))) : 0];
-  for (let i = 0; i < strokes.n; i++) {
-    const a = strokes.from[i], b = strokes.to[i], look = strokes.looks[i], given = strokes.widths[i];
-    const width = given < 0 ? STROKES[(look >> 2) & 3] * thin : Math.max(0.3, Math.round(given * scale * 10) / 10);
-    const { lines } = layer(z ? (z[a] + z[b]) / 2 : 0);
-    const key = look * 65536 + Math.min(65535, Math.round(width * 100));
-    let line = lines.get(key);
-    if (!line) lines.set(key, (line = { look, width, path: new Path2D() }));
-    line.path.moveTo(x[a], y[a]);
-    line.path.lineTo(x[b], y[b]);
-  }
+// The width of each stroke, in tenths of a pixel: as the turtle has set it, or by its branch order.
+function widthsOf({ n, looks, widths }, scale, thin) {
+  return Int32Array.from({ length: n }, (_, i) => widths[i] < 0
+    ? Math.round(10 * STROKES[(looks[i] >> 2) & 3] * thin)
+    : Math.max(SLIMMEST, Math.min(BROADEST, Math.round(10 * widths[i] * scale))));
+}
+
+// How near each shape is, faces first, then strokes, then rounds: its middle, in levels over the extent of the drawing.
+function levelsOf({ strokes, faces, rounds }, { z, extent }) {
+  const levels = new Int32Array(faces.n + strokes.n + rounds.n), unit = LEVELS / (extent || 1);
   for (let i = 0; i < faces.n; i++) {
-    const corners = faces.corners.subarray(faces.starts[i], faces.starts[i + 1]);
-    if (!corners.length) continue;
-    const depth = z ? corners.reduce((sum, one) => sum + z[one], 0) / corners.length : 0;
-    layer(depth).faces.push({ look: faces.looks[i], corners, depth });
+    let sum = 0;
+    for (let at = faces.starts[i]; at < faces.starts[i + 1]; at++) sum += z[faces.corners[at]];
+    levels[i] = Math.round((sum / (faces.starts[i + 1] - faces.starts[i])) * unit);
   }
-  for (let i = 0; i < rounds.n; i++) {
-    const centre = rounds.centres[i];
-    layer(z ? z[centre] : 0).rounds.push({ look: rounds.looks[i], centre, radius: rounds.radii[i] });
-  }
-  return layers;
+  for (let i = 0; i < strokes.n; i++) levels[faces.n + i] = Math.round(((z[strokes.from[i]] + z[strokes.to[i]]) / 2) * unit);
+  for (let i = 0; i < rounds.n; i++) levels[faces.n + strokes.n + i] = Math.round(z[rounds.centres[i]] * unit);
+  return levels;
+}
+
+// The numbers of faces, strokes and rounds, counted in this order, as they are painted: in space from far to near; in the plane
+// strokes by colours, and of one colour the broad ones first. The pictures that stay are painted in the same order.
+function paintingOrder(shapes, points, widths) {
+  const { strokes, faces, rounds } = shapes, many = faces.n + strokes.n + rounds.n, last = faces.n + strokes.n;
+  const levels = points.z && levelsOf(shapes, points);
+  const rank = (i) => {
+    if (levels) return levels[i];
+    if (i < faces.n) return -1;
+    return i < last ? (strokes.looks[i - faces.n] >> 4) * (BROADEST + 1) + BROADEST - widths[i - faces.n] : 2 ** 21;
+  };
+  const keys = Float64Array.from({ length: many }, (_, i) => rank(i) * MOST + i);
+  return keys.sort().map((key) => ((key % MOST) + MOST) % MOST);
 }
 
 function paint(pen, model, shapes, points, scale) {
   const thin = Math.min(1, Math.max(points.z ? THINNEST_IN_SPACE : THINNEST, (model.get("typical") * scale) / 12));
   const colours = model.get("colours"), mark = model.get("mark");
-  const layers = sorted(shapes, points, scale, thin);
+  const { x, y, z, reach } = points, { strokes, faces, rounds } = shapes;
+  const widths = widthsOf(strokes, scale, thin);
   pen.lineCap = pen.lineJoin = "round";
-  layers.forEach(({ faces, lines, rounds }, number) => {
-    const strength = layers.length === 1 ? 1 : 1 - FADING * (1 - number / (layers.length - 1));
-    faces.sort((one, other) => one.depth - other.depth);
-    for (const { look, corners } of faces) {
-      const outline = new Path2D();
-      for (const corner of corners) outline.lineTo(points.x[corner], points.y[corner]);
-      outline.closePath();
-      fill(outline, look, strength, (0.45 + 0.5 * facing(corners, points)) * strength, 0.6);
-    }
-    for (const { look, width, path } of lines.values()) {
-      if (!(look & 2)) continue;
-      pen.strokeStyle = mark;
-      pen.globalAlpha = 0.45;
-      pen.lineWidth = Math.max(5, 9 * thin, width + 4);
-      pen.stroke(path);
-      pen.globalAlpha = 1;
-    }
-    for (const { look, width, path } of lines.values()) {
-      pen.strokeStyle = tinted(colours[look >> 4], strength);
-      pen.lineWidth = width;
-      pen.stroke(path);
-    }
-    for (const { look, centre, radius } of rounds) {
-      const circle = new Path2D();
-      circle.arc(points.x[centre], points.y[centre], Math.max(0.8, radius * scale), 0, 2 * Math.PI);
-      fill(circle, look, strength, look & 1 ? 0 : 0.7 * strength, 1);
-    }
-  });
+  let runs = [], run; // strokes that nothing lies between; those of a run look alike
+
+  // How strong colours are: the farther, the paler.
+  function strengthAt(depth) {
+    if (!z) return 1;
+    const layer = Math.max(0, Math.min(LAYERS - 1, Math.floor((depth / reach + 1) * 0.5 * LAYERS)));
+    return 1 - FADING * (1 - layer / (LAYERS - 1));
+  }
 
   function fill(outline, look, strength, inside, edge) {
     pen.fillStyle = tinted(colours[look >> 4], inside);
@@ -124,6 +115,61 @@ function paint(pen, model, shapes, points, scale) {
     pen.lineWidth = look & 2 ? 3 : edge;
     pen.stroke(outline);
   }
+
+  function addStroke(i) {
+    const a = strokes.from[i], b = strokes.to[i], look = strokes.looks[i], width = widths[i] / 10;
+    const strength = strengthAt(z ? (z[a] + z[b]) / 2 : 0);
+    if (!run || run.look !== look || run.width !== width || run.strength !== strength)
+      runs.push((run = { look, width, strength, path: new Path2D() }));
+    run.path.moveTo(x[a], y[a]);
+    run.path.lineTo(x[b], y[b]);
+  }
+
+  function paintStrokes() {
+    for (const { look, width, path } of runs) {
+      if (!(look & 2)) continue;
+      pen.strokeStyle = mark;
+      pen.globalAlpha = 0.45;
+      pen.lineWidth = Math.max(5, 9 * thin, width + 4);
+      pen.stroke(path);
+      pen.globalAlpha = 1;
+    }
+    for (const { look, width, strength, path } of runs) {
+      pen.strokeStyle = tinted(colours[look >> 4], strength);
+      pen.lineWidth = width;
+      pen.stroke(path);
+    }
+    runs = [];
+    run = undefined;
+  }
+
+  function paintFace(i) {
+    const corners = faces.corners.subarray(faces.starts[i], faces.starts[i + 1]);
+    const strength = strengthAt(z ? corners.reduce((sum, one) => sum + z[one], 0) / corners.length : 0);
+    const outline = new Path2D();
+    for (const corner of corners) outline.lineTo(x[corner], y[corner]);
+    outline.closePath();
+    fill(outline, faces.looks[i], strength, (0.45 + 0.5 * facing(corners, points)) * strength, 0.6);
+  }
+
+  function paintRound(i) {
+    const centre = rounds.centres[i], look = rounds.looks[i], strength = strengthAt(z ? z[centre] : 0);
+    const circle = new Path2D();
+    circle.arc(x[centre], y[centre], Math.max(0.8, rounds.radii[i] * scale), 0, 2 * Math.PI);
+    fill(circle, look, strength, look & 1 ? 0 : 0.7 * strength, 1);
+  }
+
+  for (const number of paintingOrder(shapes, points, widths)) {
+    const stroke = number - faces.n;
+    if (stroke >= 0 && stroke < strokes.n) {
+      addStroke(stroke);
+      continue;
+    }
+    paintStrokes();
+    if (stroke < 0) paintFace(number);
+    else paintRound(stroke - strokes.n);
+  }
+  paintStrokes();
 }
 
 const atOnce = (draw) => draw;

@@ -14,7 +14,8 @@ const HINT = "drag or arrow keys: turn \u00b7 + \u2212: nearer, farther \u00b7 H
 const ARROWS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM, _: 1 / ZOOM };
 
-// The upright cylinder around a plant: its middle, half its width and half its height; no turn leads out of it.
+// The upright cylinder around a plant: its middle, half its width and half its height; no turn leads out of it. And the
+// extent of the plant, the greatest of its three.
 function cylinder({ x, y, z, n }, bulge) {
   const ends = [x, y, z].map((places) => {
     let least = n ? Infinity : 0, most = n ? -Infinity : 0;
@@ -27,12 +28,13 @@ function cylinder({ x, y, z, n }, bulge) {
   const middle = ends.map(([least, most]) => (least + most) / 2);
   let across = 1e-9;
   for (let i = 0; i < n; i++) across = Math.max(across, Math.hypot(x[i] - middle[0], y[i] - middle[1]));
-  return { middle, across: across + bulge, up: Math.max(1e-9, (ends[2][1] - ends[2][0]) / 2) + bulge };
+  const extent = Math.max(...ends.map(([least, most]) => most - least));
+  return { middle, extent, across: across + bulge, up: Math.max(1e-9, (ends[2][1] - ends[2][0]) / 2) + bulge };
 }
 
 // The points as they are seen: x to the right and y down in pixels, z towards the viewer.
 function projected(solid, around, above, fit, points) {
-  const { x, y, z, n, across, up, middle: [cx, cy, cz] } = solid;
+  const { x, y, z, n, extent, across, up, middle: [cx, cy, cz] } = solid;
   const cos = Math.cos(around * DEGREES), sin = Math.sin(around * DEGREES);
   const level = Math.cos(above * DEGREES), steep = Math.sin(above * DEGREES);
   const { scale, x0, y0 } = fit(across, up * level + across * Math.abs(steep));
@@ -43,6 +45,7 @@ function projected(solid, around, above, fit, points) {
     points.y[i] = y0 - (pz * level - towards * steep) * scale;
     points.z[i] = (towards * level + pz * steep) * scale;
   }
+  points.extent = extent * scale;
   points.reach = (across * level + up * Math.abs(steep)) * scale;
   return scale;
 }

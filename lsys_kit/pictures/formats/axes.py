@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from lsys_kit.geometry.scene import CIRCLE, Scene
-from lsys_kit.pictures.display_list import MARGIN, frame_of, groups, shape_colours
+from lsys_kit.pictures.display_list import MARGIN, Faces, Strokes, display_list, frame_of, shape_colours
 from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
 from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.path import Path
 
 
 def new_axes() -> Axes:
@@ -24,22 +27,31 @@ def new_axes() -> Axes:
 
 
 def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
-    """What a turtle has drawn: surfaces, strokes, discs."""
-    from matplotlib.collections import LineCollection, PolyCollection
-    from matplotlib.patches import Circle
+    """What a turtle has drawn, as one collection, whose paths are painted in their order."""
+    from matplotlib.collections import PathCollection
+    from matplotlib.colors import to_rgba_array
 
-    if len(scene.polygons):
-        edges = shape_colours(scene.polygons, colour_of)
-        ax.add_collection(PolyCollection(list(scene.polygons), edgecolors=edges, linewidths=0.5,
-                                         facecolors=[tinted(colour, 0.7) for colour in edges]))
-    for colour, width, chosen in groups(scene.segments, _points_per_unit(ax, scene), colour_of):
-        strokes = scene.segments.ends[chosen].reshape(-1, 2, 2).tolist()
-        ax.add_collection(LineCollection(strokes, capstyle="round", colors=colour, linewidths=width / 10))
-    discs = scene.discs
-    for centre, radius, kind, colour in zip(discs.centres.tolist(), discs.radii.tolist(), discs.kinds.tolist(),
-                                            shape_colours(discs, colour_of), strict=True):
-        ax.add_patch(Circle(centre, radius, edgecolor=colour, linewidth=0.8,
-                            facecolor=PAPER if kind == CIRCLE else tinted(colour, 0.7)))
+    paths, insides, edges, widths = zip(*_painted(scene, _points_per_unit(ax, scene), colour_of), strict=True) or [()] * 4
+    ax.add_collection(PathCollection(paths, facecolors=to_rgba_array(insides), edgecolors=to_rgba_array(edges),
+                                     linewidths=widths, capstyle="round", joinstyle="round", transform=ax.transData))
+
+
+def _painted(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Iterator[tuple[Path, str, str, float]]:
+    """For each shape of the display list its path, the colours inside and of its edge, and the width of the edge in points."""
+    from matplotlib.path import Path
+
+    strokes, faces, discs = scene.segments.ends.reshape(-1, 2, 2), list(scene.polygons), scene.discs
+    of_faces, of_discs = shape_colours(scene.polygons, colour_of), shape_colours(discs, colour_of)
+    for run in display_list(scene, scale, colour_of):
+        for one in run.numbers.tolist():
+            if isinstance(run, Strokes):
+                yield Path(strokes[one]), "none", run.colour, run.width / 10
+            elif isinstance(run, Faces):
+                outline = Path(np.vstack([faces[one], faces[one][:1]]), closed=True)
+                yield outline, tinted(of_faces[one], 0.7), of_faces[one], 0.5
+            else:
+                inside = PAPER if discs.kinds[one] == CIRCLE else tinted(of_discs[one], 0.7)
+                yield Path.circle(discs.centres[one].tolist(), float(discs.radii[one])), inside, of_discs[one], 0.8
 
 
 def _points_per_unit(ax: Axes, scene: Scene) -> float:

@@ -7,14 +7,24 @@ everywhere.
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.geometry.scene import CIRCLE, Scene
-from lsys_kit.pictures.display_list import MARGIN, WIDTH, ViewFrame, frame_of, groups, shape_colours
+from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene
+from lsys_kit.pictures.display_list import (
+    MARGIN,
+    WIDTH,
+    Faces,
+    Rounds,
+    Strokes,
+    ViewFrame,
+    display_list,
+    frame_of,
+    shape_colours,
+)
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
 from lsys_kit.pictures.svg import FilamentRow
@@ -24,6 +34,9 @@ if TYPE_CHECKING:
     from PIL.ImageDraw import ImageDraw
 
 Coordinates: TypeAlias = NDArray[np.floating[Any]]
+Grid: TypeAlias = NDArray[np.int32]
+RunsByWidth: TypeAlias = dict[int, list[tuple[int, Integers]]]
+ShapePainter: TypeAlias = Callable[[int, int], tuple[str, str]]
 FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
 FLOAT32_RANGE = 1e30
@@ -40,42 +53,96 @@ def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
 def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> Image:
     """A scene of a turtle as an image, in a frame that contains it.
 
-    Strokes of one colour and width are rasterised on a fine grid and then dilated to their width all at once, so that the time
-    depends on the number of their points.
+    Each point of a fine grid gets the number of what is seen there. Numbers grow along the display list: of two shapes the one
+    with the greater number covers the other.
     """
+    from PIL import Image
+
+    seen, strokes, colours = _painted_shapes(scene, colour_of, frame)
+    across, down = _pixels(scene, frame)
+    for width, runs in strokes.items():
+        _paint_strokes(seen, width * FINE / 20, runs, across, down)
+    shades = np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
+    return Image.fromarray(shades[seen]).resize((frame.width, frame.height), Image.Resampling.BOX)
+
+
+def _painted_shapes(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> tuple[Grid, RunsByWidth, list[str]]:
+    """The grid with polygons and discs, for each width the strokes with their numbers, and the colour of each number."""
     from PIL import Image, ImageDraw
 
-    sheet = Image.new("RGB", (frame.width * FINE, frame.height * FINE), PAPER)
+    sheet = Image.new("I", (frame.width * FINE, frame.height * FINE), 0)
     pen = ImageDraw.Draw(sheet)
-    for corners, colour in zip(scene.polygons, shape_colours(scene.polygons, colour_of), strict=True):
-        pen.polygon((frame.points(corners) * (FINE / 10)).ravel().tolist(), fill=tinted(colour, 0.7), outline=colour, width=2)
-    image = np.array(sheet)
-    fine = frame.scale * FINE
+    painters = {Faces: _face_painter(scene.polygons, colour_of, frame, pen),
+                Rounds: _round_painter(scene.discs, colour_of, frame, pen)}
+    strokes: RunsByWidth = {}
+    colours = [PAPER]
+    for run in display_list(scene, frame.scale, colour_of):
+        if isinstance(run, Strokes):
+            strokes.setdefault(run.width, []).append((len(colours), run.numbers))
+            colours.append(run.colour)
+        else:
+            for number in run.numbers.tolist():
+                colours += painters[type(run)](number, len(colours))
+    return np.array(sheet), strokes, colours
+
+
+def _face_painter(polygons: Polygons, colour_of: Mapping[int, str], frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+    """A function that paints a polygon, inside with a number and its edge with the next one, and returns their colours."""
+    corners, colours = list(polygons), shape_colours(polygons, colour_of)
+
+    def paint(which: int, number: int) -> tuple[str, str]:
+        points = (frame.points(corners[which]) * (FINE / 10)).ravel().tolist()
+        pen.polygon(points, fill=number)
+        pen.line(points + points[:2], fill=number + 1, width=2)
+        return tinted(colours[which], 0.7), colours[which]
+    return paint
+
+
+def _round_painter(discs: Discs, colour_of: Mapping[int, str], frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+    """The same for circles, discs and spheres."""
+    middles, colours = (frame.points(discs.centres) * (FINE / 10)).tolist(), shape_colours(discs, colour_of)
+
+    def paint(which: int, number: int) -> tuple[str, str]:
+        (x, y), reach = middles[which], max(2.0, float(discs.radii[which]) * frame.scale * FINE)
+        pen.ellipse((x - reach, y - reach, x + reach, y + reach), fill=number, outline=number + 1, width=FINE)
+        return PAPER if discs.kinds[which] == CIRCLE else tinted(colours[which], 0.7), colours[which]
+    return paint
+
+
+def _pixels(scene: Scene, frame: ViewFrame) -> tuple[Coordinates, Coordinates]:
+    """The columns and rows of the ends of strokes in the fine grid."""
     precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
     ends, (left, top, factor, margin) = scene.segments.ends.astype(precision), np.array(
-        [frame.left, frame.top, fine, MARGIN * FINE], precision)
-    across, down = (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
-    for colour, width, chosen in groups(scene.segments, frame.scale, colour_of):
-        found = touched(across[chosen], down[chosen], image.shape[:2])
-        image[spread(found, width * FINE / 20)] = tuple(bytes.fromhex(colour[1:]))
-    sheet = Image.fromarray(image)
-    pen = ImageDraw.Draw(sheet)
-    discs, middles = scene.discs, frame.points(scene.discs.centres) * (FINE / 10)
-    for (x, y), radius, kind, colour in zip(middles.tolist(), discs.radii.tolist(), discs.kinds.tolist(),
-                                            shape_colours(discs, colour_of), strict=True):
-        reach = max(2.0, radius * fine)
-        pen.ellipse((x - reach, y - reach, x + reach, y + reach), fill=PAPER if kind == CIRCLE else tinted(colour, 0.7),
-                    outline=colour, width=FINE)
-    return sheet.resize((frame.width, frame.height), Image.Resampling.BOX)
+        [frame.left, frame.top, frame.scale * FINE, MARGIN * FINE], precision)
+    return (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
 
 
-def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> NDArray[np.bool_]:
+def _paint_strokes(seen: Grid, radius: float, runs: Sequence[tuple[int, Integers]], across: Coordinates,
+                   down: Coordinates) -> None:
+    """Paint strokes of one width over what has smaller numbers.
+
+    They are rasterised and then dilated all at once, so that the time depends on the number of their points.
+    """
+    chosen = np.concatenate([numbers for _, numbers in runs])
+    if len(runs) == 1:  # then it is enough to know where they are
+        np.maximum(seen, runs[0][0], out=seen, where=spread(touched(across[chosen], down[chosen], seen.shape), radius))
+        return
+    covering = np.repeat(np.array([number for number, _ in runs], np.int32), [len(numbers) for _, numbers in runs])
+    np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
+
+
+def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
     """The points of a grid that lie on strokes, given the columns and rows of their ends.
 
-    >>> touched(np.array([[0.5, 2.5]], dtype=np.float32), np.array([[0.5, 0.5]], dtype=np.float32), (2, 4)).astype(int).tolist()
+    If each stroke has a number, in ascending order, a point gets that of the last stroke on which it lies.
+
+    >>> across, down = np.array([[0.5, 2.5], [1.5, 1.5]], np.float32), np.array([[0.5, 0.5], [0.5, 1.5]], np.float32)
+    >>> touched(across[:1], down[:1], (2, 4)).astype(int).tolist()
     [[1, 1, 1, 0], [0, 0, 0, 0]]
+    >>> touched(across, down, (2, 4), np.array([5, 7])).tolist()
+    [[5, 7, 5, 0], [0, 7, 0, 0]]
     """
-    found = np.zeros(shape[0] * shape[1], dtype=bool)
+    found = np.zeros(shape[0] * shape[1], dtype=bool if numbers is None else np.int32)
     for first in range(0, len(across), STROKES_AT_A_TIME):
         x, y = across[first:first + STROKES_AT_A_TIME], down[first:first + STROKES_AT_A_TIME]
         wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
@@ -85,29 +152,28 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, int]) -> N
         along = np.arange(int(counts.sum()), dtype=np.int32) - np.repeat(np.cumsum(counts) - counts, counts)
         column = (np.repeat(x[:, 0], counts) + np.repeat(wide / steps, counts) * along).astype(np.int32)
         row = (np.repeat(y[:, 0], counts) + np.repeat(high / steps, counts) * along).astype(np.int32)
-        found[row * shape[1] + column] = True
+        here = True if numbers is None else np.repeat(numbers[first:first + STROKES_AT_A_TIME], counts)
+        found[row * shape[1] + column] = here
     return found.reshape(shape)
 
 
-def spread(found: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
-    """The dilation of a set of points of a grid by a disc of a given radius.
+def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
+    """The dilation of a set of points of a grid by a disc of a given radius; of numbers, the greatest in each disc.
 
     >>> spread(np.array([[0, 0, 0], [0, 1, 0], [0, 0, 0]], dtype=bool), 1).astype(int).tolist()
     [[0, 1, 0], [1, 1, 1], [0, 1, 0]]
+    >>> spread(np.array([[0, 0, 5, 7]]), 1).tolist()
+    [[0, 5, 7, 7]]
     """
-    reach = int(radius)
-    wide = {0: found}  # dilated to the left and right by this number of points
-    for side in range(1, reach + 1):
-        wider = wide[side - 1].copy()
-        wider[:, side:] |= found[:, :-side]
-        wider[:, :-side] |= found[:, side:]
-        wide[side] = wider
-    all_ = wide[reach].copy()
-    for up in range(1, reach + 1):
-        row = wide[int((radius * radius - up * up) ** 0.5)]
-        all_[up:] |= row[:-up]
-        all_[:-up] |= row[up:]
-    return all_
+    row, side, whole, height = found.copy(), 0, np.zeros_like(found), len(found)  # the row is dilated to both sides
+    for up in range(int(radius), -1, -1):
+        while side < int((radius * radius - up * up) ** 0.5):
+            side += 1
+            np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])
+            np.maximum(row[:, :-side], found[:, side:], out=row[:, :-side])
+        np.maximum(whole[up:], row[:height - up], out=whole[up:])
+        np.maximum(whole[:height - up], row[up:], out=whole[:height - up])
+    return whole
 
 
 def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str]) -> bytes:
