@@ -45,6 +45,30 @@ class ViewFrame:
         return tenths
 
 
+def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
+    """The frame that fits all that is painted of some scenes into a picture, with the round ends of broad strokes.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.notation.read import read
+    >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
+    ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204)
+    """
+    left, bottom, right, top = zip(*map(_painted_box, scenes), strict=True)
+    return frame_of((min(left), min(bottom), max(right), max(top)), width, height)
+
+
+def _painted_box(scene: Scene) -> tuple[float, float, float, float]:
+    """Least x, least y, greatest x, greatest y of what is painted."""
+    ends, reach = scene.segments.ends, np.maximum(scene.segments.widths, 0) / 2
+    if not (len(ends) and reach.any()):
+        return scene.box
+    x, y = ends[:, ::2], ends[:, 1::2]
+    left, bottom, right, top = scene.box
+    return (min(left, float((x.min(axis=1) - reach).min())), min(bottom, float((y.min(axis=1) - reach).min())),
+            max(right, float((x.max(axis=1) + reach).max())), max(top, float((y.max(axis=1) + reach).max())))
+
+
 def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
     """The frame that fits a box into a picture, no larger than needed."""
     left, bottom, right, top = box

@@ -21,6 +21,7 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes
+from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
@@ -116,7 +117,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
     if drawing_mode(what.states.system) is DrawingMode.FILAMENT:
         return _sequence(what, marked, cells)
     turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
-    step, scene = what.steps if isinstance(what, Derivation) else 0, scene_of(what, turn)
+    step, [scene] = what.steps if isinstance(what, Derivation) else 0, in_units([scene_of(what, turn)], what.states.system)
     return Picture((FilamentRow(step, project(scene)),), state_colours(what), None, marked,
                    scene if scene.dimension == 3 else None)
 

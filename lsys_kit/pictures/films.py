@@ -21,10 +21,11 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.display_list import MARGIN, ViewFrame, frame_of
+from lsys_kit.pictures.display_list import MARGIN, frame_around
 from lsys_kit.pictures.draw import derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.view import project
 
@@ -131,19 +132,14 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
         return _sequence_film(derivation, pace)
     turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
-    scenes = [project(scene_of(derivation.to(step), turn)) for step in range(derivation.steps + 1)]
-    frame, colour_of = _common_frame(scenes), state_colours(derivation)
+    steps = [scene_of(derivation.to(step), turn) for step in range(derivation.steps + 1)]
+    scenes = [project(scene) for scene in in_units(steps, derivation.states.system)]
+    frame, colour_of = frame_around(scenes), state_colours(derivation)
     return Film(_caption(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
 
 
 def _caption(derivation: Derivation, last: Scene) -> str:
     return f"steps 0 to {derivation.steps}; the last: {last}"
-
-
-def _common_frame(scenes: list[Scene]) -> ViewFrame:
-    """A frame that contains all scenes."""
-    left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
-    return frame_of((min(left), min(bottom), max(right), max(top)))
 
 
 def _sequence_film(derivation: Derivation, pace: float) -> Film:

@@ -18,7 +18,7 @@ from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.display_list import WIDTH, frame_of
+from lsys_kit.pictures.display_list import WIDTH, frame_around
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
 from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
@@ -79,7 +79,7 @@ class Picture:
             sheet = filament_layout(self.rows, self.current is not None, self.time)
             body, width, height = rows_svg(sheet, self.look, self.colour_of, self.current, self.marked), WIDTH, sheet.height
         else:
-            frame = frame_of(self.scene.box)
+            frame = frame_around([self.scene])
             width, height = frame.width, frame.height
             if len(self.scene.segments) > current().segments:
                 data = base64.b64encode(self.png).decode()

@@ -20,6 +20,7 @@ from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
+from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.style.labels import place_text
 from lsys_kit.pictures.svg import FilamentRow
@@ -136,6 +137,7 @@ class ViewModel:
             picture = filament_picture(derivation, rows, step, marked)
         else:
             scene = place_path(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
+            [scene] = in_units([scene], self.system)
             picture = Picture((FilamentRow(step, project(scene, around, above)),), state_colours(derivation), None, marked)
         return StepView(step, word, net, net.tokens(word), marked, scene, picture, path)
 

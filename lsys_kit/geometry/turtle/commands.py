@@ -192,7 +192,7 @@ COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
 FIRST_COLOUR = 14
 """The default colour of strokes in the numbering of GROGRA: yellow."""
 WIDTH = 0.1
-"""The width of a stroke for commands that depend on it, where none has been set."""
+"""The width of circles, discs and spheres without an argument, where no width of strokes has been set."""
 
 
 def initial_step(system: LSystem) -> float:

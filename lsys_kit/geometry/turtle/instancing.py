@@ -25,6 +25,7 @@ from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
@@ -116,9 +117,14 @@ class Prototypes:
         self._prototypes: dict[Key, Prototype] = {}
         self._instructions: dict[int, list[Instruction]] = {}
 
+    def _turtle(self) -> SpaceTurtle:
+        """A turtle at its start."""
+        system = self.states.system
+        return SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
+
     def of_row(self, row: Sequence[int], steps: int) -> Prototype:
         """The prototype of a row of states after a number of steps."""
-        turtle = SpaceTurtle(self._initial_frame, initial_step(self.states.system))
+        turtle = self._turtle()
         return self._run(self._of_row(row, steps, _carried_by(turtle)))
 
     def _run(self, task: Generator[Key, Prototype, Prototype]) -> Prototype:
@@ -167,7 +173,7 @@ class Prototypes:
 
     def _of_module(self, state: int, carried: tuple[Any, ...]) -> Prototype:
         """The prototype of a module that is not rewritten."""
-        turtle = SpaceTurtle(self._initial_frame, initial_step(self.states.system))
+        turtle = self._turtle()
         for name, value in zip(_CARRIED_ATTRIBUTES, carried, strict=True):
             setattr(turtle, name, value)
         if state not in self._instructions:

@@ -38,21 +38,23 @@ class Turtle(ABC):
         The number of the last stroke (in the plane, of its path step); None before the first.
     restored
         The names of the attributes that the next stroke restores, with their values.
+    first_width
+        The width from which commands start that change it, where none has been set.
     initial
         The values of the attributes that can be reset.
     state
         The state of the module that is being interpreted.
     """
 
-    __slots__ = ("bracket_limit", "colour", "expects_surface", "gravitropism", "initial", "last", "length", "mirror",
-                 "open_polygons", "orientation", "outlines", "position", "restored", "rounds", "second_heading", "stack",
-                 "state", "tropisms", "unknown", "width")
+    __slots__ = ("bracket_limit", "colour", "expects_surface", "first_width", "gravitropism", "initial", "last", "length",
+                 "mirror", "open_polygons", "orientation", "outlines", "position", "restored", "rounds", "second_heading",
+                 "stack", "state", "tropisms", "unknown", "width")
 
-    def __init__(self, position: Any, orientation: Any, step: float) -> None:
+    def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation
         self.last: Any = None
         self.length, self.width, self.colour, self.gravitropism = step, float(OWN), OWN, 0.0
-        self.mirror, self.second_heading = 1, 0.0
+        self.first_width, self.mirror, self.second_heading = first_width, 1, 0.0
         self.tropisms: Mapping[float, tuple[float, float, float]] = {}
         self.restored: tuple[tuple[str, float], ...] = ()
         self.initial = {name: getattr(self, name) for name in ("length", "width", "colour", "gravitropism")}
@@ -75,10 +77,6 @@ class Turtle(ABC):
     @abstractmethod
     def local_point(self, ahead: float, left: float, up: float) -> Any:
         """A point given by its coordinates in the frame of the turtle."""
-
-    def stroke_width(self) -> float:
-        """The width of a stroke, in the units of the model."""
-        return WIDTH if self.width == OWN else self.width
 
     def draw_surface(self, surface: Surface, size: float) -> None:
         """Draw a surface at the position of the turtle."""
@@ -120,7 +118,8 @@ def _set_gravitropism(turtle: Turtle, instruction: Instruction) -> None:
 
 
 def _set_width(turtle: Turtle, instruction: Instruction) -> None:
-    turtle.width = max(0.0, _bounded("width", instruction.factor * turtle.stroke_width() + instruction.addend))
+    before = turtle.first_width if turtle.width == OWN else turtle.width
+    turtle.width = max(0.0, _bounded("width", instruction.factor * before + instruction.addend))
 
 
 def _bounded(what: str, value: float) -> float:
@@ -194,7 +193,7 @@ def _draw_surface(turtle: Turtle, instruction: Instruction) -> None:
 
 def _draw_round(kind: int) -> Handler:
     def handler(turtle: Turtle, instruction: Instruction) -> None:
-        width = instruction.factor * turtle.stroke_width() + instruction.addend
+        width = instruction.factor * (WIDTH if turtle.width == OWN else turtle.width) + instruction.addend
         turtle.rounds.append(RoundShape(turtle.position, abs(width) / 2, kind, turtle.state, turtle.colour))
     return handler
 

@@ -77,8 +77,8 @@ class PlaneTurtle(Turtle):
 
     __slots__ = ("steps",)
 
-    def __init__(self, side: int, step: float) -> None:
-        super().__init__(-1, (0.0, 0.0, side), step)
+    def __init__(self, side: int, step: float, first_width: float) -> None:
+        super().__init__(-1, (0.0, 0.0, side), step, first_width)
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
     def forward(self, length: float, drawn: bool) -> None:
@@ -151,7 +151,8 @@ def trace(word: Word) -> Path:
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
     system = word.states.system
-    turtle = PlaneTurtle(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
+    dialect = TURTLE_DIALECTS[system.turtle]
+    turtle = PlaneTurtle(dialect.left, initial_step(system), dialect.width)
     run_turtle(turtle, word, PLANE_HANDLERS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
     steps: dict[str, Any] = {name: np.array(column, kind)

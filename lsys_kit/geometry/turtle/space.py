@@ -19,7 +19,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.commands import WIDTH, initial_step
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
@@ -43,8 +43,8 @@ class SpaceTurtle(Turtle):
 
     __slots__ = ("start", "strokes")
 
-    def __init__(self, frame: TurtleFrame, step: float) -> None:
-        super().__init__((0.0, 0.0, 0.0), frame, step)
+    def __init__(self, frame: TurtleFrame, step: float, first_width: float = WIDTH) -> None:
+        super().__init__((0.0, 0.0, 0.0), frame, step, first_width)
         self.start = frame
         self.strokes = array("d")
 
@@ -252,7 +252,8 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     """
     system = word.states.system
     turn = float(system.angle) if angle is None else angle
-    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
+    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system),
+                         TURTLE_DIALECTS[system.turtle].width)
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))

@@ -153,6 +153,9 @@ class LSystem:
         Names of several letters that could be taken for a row of symbols. Equality ignores it.
     cells
         How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses". Equality ignores it.
+    widths
+        The unit of the widths of strokes: "pixels" or "units", those of lengths; "" where that is left to the turtle. Equality
+        ignores it.
     notation
         The notation in which it was read and prints itself. Equality ignores it.
     source, notes
@@ -178,6 +181,7 @@ class LSystem:
     turtle: str = "abop"
     branches: str = ANY_BRANCH
     cells: str = field(default="rectangles", compare=False)
+    widths: str = field(default="", compare=False)
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)

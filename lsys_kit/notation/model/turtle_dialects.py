@@ -25,6 +25,9 @@ class TurtleDialect:
         How far one step goes, where the system does not say.
     left
         Where the left of the turtle points in the picture at the start: 1 to the left of its heading, -1 to the right.
+    width, pixels
+        The width of strokes for commands that change it, where none has been set; whether widths are in pixels, where the
+        system does not say.
     any_sign
         Whether any sign may be a symbol without a meaning, like a letter.
     """
@@ -33,6 +36,8 @@ class TurtleDialect:
     title: str
     length: float = 1.0
     left: int = 1
+    width: float = 0.1
+    pixels: bool = False
     any_sign: bool = False
 
     @property
@@ -46,7 +51,7 @@ class TurtleDialect:
 
 
 TURTLE_DIALECTS: Mapping[str, TurtleDialect] = {dialect.name: dialect for dialect in (
-    TurtleDialect("abop", "The Algorithmic Beauty of Plants"),
+    TurtleDialect("abop", "The Algorithmic Beauty of Plants", width=2.4, pixels=True),
     TurtleDialect("grogra", "GROGRA", length=100.0, left=-1),
     TurtleDialect("plant-string", "plant strings"),
     TurtleDialect("fractint", "Fractint", any_sign=True),

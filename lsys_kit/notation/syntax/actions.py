@@ -221,6 +221,9 @@ class Statements(Transformer[Any, Any]):
     def branches(self, _: Token, which: Token) -> tuple[str, str]:
         return "branches", str(which)
 
+    def widths(self, _: Token, unit: Token) -> tuple[str, str]:
+        return "widths", str(unit)
+
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))
 

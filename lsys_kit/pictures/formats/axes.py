@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lsys_kit.geometry.scene import CIRCLE, Scene
-from lsys_kit.pictures.display_list import MARGIN, Faces, Strokes, display_list, frame_of, shape_colours
+from lsys_kit.pictures.display_list import MARGIN, Faces, Strokes, ViewFrame, display_list, frame_around, shape_colours
 from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
 from lsys_kit.pictures.svg import FilamentRow
@@ -27,13 +27,17 @@ def new_axes() -> Axes:
 
 
 def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
-    """What a turtle has drawn, as one collection, whose paths are painted in their order."""
+    """What a turtle has drawn, as one collection, whose paths are painted in their order; the axes hold all of it."""
     from matplotlib.collections import PathCollection
     from matplotlib.colors import to_rgba_array
 
-    paths, insides, edges, widths = zip(*_painted(scene, _points_per_unit(ax, scene), colour_of), strict=True) or [()] * 4
+    frame = _frame(ax, scene)
+    shapes = list(_painted(scene, frame.scale, colour_of))
+    paths, insides, edges, widths = zip(*shapes, strict=True) if shapes else [()] * 4
     ax.add_collection(PathCollection(paths, facecolors=to_rgba_array(insides), edgecolors=to_rgba_array(edges),
                                      linewidths=widths, capstyle="round", joinstyle="round", transform=ax.transData))
+    left, top = frame.left - MARGIN / frame.scale, frame.top + MARGIN / frame.scale
+    ax.update_datalim([(left, top), (left + frame.width / frame.scale, top - frame.height / frame.scale)])
 
 
 def _painted(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Iterator[tuple[Path, str, str, float]]:
@@ -54,12 +58,12 @@ def _painted(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Iterat
                 yield Path.circle(discs.centres[one].tolist(), float(discs.radii[one])), inside, of_discs[one], 0.8
 
 
-def _points_per_unit(ax: Axes, scene: Scene) -> float:
-    """The length of a unit of the model in points, if the drawing fills the axes."""
+def _frame(ax: Axes, scene: Scene) -> ViewFrame:
+    """The frame of a scene that fills the axes, in points."""
     sheet = ax.get_figure(root=True)
     assert sheet is not None
     width, height = 72 * sheet.get_size_inches() * ax.get_position().size
-    return frame_of(scene.box, max(width, 4 * MARGIN), max(height, 4 * MARGIN)).scale
+    return frame_around([scene], max(width, 4 * MARGIN), max(height, 4 * MARGIN))
 
 
 def plot_rows(ax: Axes, rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str]) -> None:

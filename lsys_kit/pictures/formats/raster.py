@@ -22,7 +22,7 @@ from lsys_kit.pictures.display_list import (
     Strokes,
     ViewFrame,
     display_list,
-    frame_of,
+    frame_around,
     shape_colours,
 )
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
@@ -47,7 +47,7 @@ STROKES_AT_A_TIME = 2**16
 
 def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
     """A scene of a turtle as PNG."""
-    return _png(turtle_image(scene, colour_of, frame_of(scene.box)))
+    return _png(turtle_image(scene, colour_of, frame_around([scene])))
 
 
 def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> Image:

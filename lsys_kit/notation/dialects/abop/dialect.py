@@ -73,7 +73,8 @@ def _write(system: LSystem) -> str:
     system = replace(system, alphabet=(*system.alphabet, *sorted(digits)))
     while mistaken := segment_system(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
-    look = [] if system.cells == LSystem.cells else [f"cells: {system.cells}"]
+    look = [f"{name}: {getattr(system, name)}" for name in ("cells", "widths")
+            if getattr(system, name) != getattr(LSystem, name)]
     return "\n".join([*map(str, system.constants), *settings(system), *look, f"axiom: {joined(map(str, system.axiom))}",
                       *sections(system, str)])
 

@@ -1,0 +1,136 @@
+"""What is painted lies within the picture: broad strokes with their round ends, discs, text; in every format."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.figure import Figure
+from PIL import Image
+
+from lsys_kit import animate, derive, draw, figure, read
+from lsys_kit.geometry.scene import OWN
+from lsys_kit.pictures.style.palette import PAPER
+
+BOOK = Path(__file__).parents[1] / "listings" / "abop"
+COMMANDS = st.sampled_from(["F", "F(3)", "F(40)", "+", "-(50)", "#(0.3)", "!(2)", "!(9)", "#(30)", "[F]", "[+F]", "[+(90)F]",
+                            "@c(2)", "@o(1)", "{+F+F+F}", "~L(3)"])
+WORDS = st.lists(COMMANDS, min_size=1, max_size=12).map("".join)
+MODELS = st.builds("{}angle: 60\naxiom: {}{}".format, st.sampled_from(["", "widths: units\n", "widths: pixels\n"]), WORDS,
+                   st.sampled_from(["", "&(30)F", "&(90)!(5)F"]))
+WIDTHS = re.compile(r'stroke-width="(\d+)"')
+
+
+def drawn(text):
+    return draw(derive(read(text, "abop"), 0))
+
+
+@settings(max_examples=50)
+@given(MODELS)
+def test_svg_holds_what_is_painted(text):
+    picture = drawn(text)
+    width, height = map(int, re.search(r'viewBox="0 0 (\d+) (\d+)"', picture.svg).groups())
+    for group, broad in re.findall(r'<path d="([^"]*)" stroke="[^"]*" stroke-width="(\d+)"', picture.svg):
+        places = np.array(re.findall(r"[ML](-?\d+) (-?\d+)", group), int)
+        reach = int(broad) / 2
+        assert (places >= reach - 1).all(), broad
+        assert (places <= np.array([width, height]) - reach + 11).all(), broad  # sizes are whole pixels
+    for x, y, radius in re.findall(r'cx="(-?\d+)" cy="(-?\d+)" r="(\d+)"', picture.svg):
+        assert all(int(at) - int(radius) >= 0 and int(at) + int(radius) <= size for at, size in ((x, width), (y, height)))
+
+
+@pytest.mark.slow
+@settings(max_examples=25)
+@given(MODELS)
+def test_png_holds_what_is_painted(text):
+    image = np.array(Image.open(io.BytesIO(drawn(text).png)).convert("RGB"))
+    edge = np.concatenate([image[:3].reshape(-1, 3), image[-3:].reshape(-1, 3), image[:, :3].reshape(-1, 3),
+                           image[:, -3:].reshape(-1, 3)])
+    assert (edge == tuple(bytes.fromhex(PAPER[1:]))).all()
+
+
+@pytest.mark.slow
+@settings(max_examples=25)
+@given(MODELS, st.sampled_from([(6, 4), (3, 5), (12, 2)]))
+def test_a_figure_holds_what_is_painted(text, size):
+    ax = Figure(figsize=size).add_subplot()
+    figure(drawn(text), ax)
+    ax.apply_aspect()
+    room = ax.get_window_extent()
+    [shapes] = ax.collections
+    for path, width in zip(shapes.get_paths(), shapes.get_linewidths(), strict=True):
+        places = ax.transData.transform(path.vertices)
+        reach = width / 2 * ax.figure.dpi / 72
+        assert (places.min(axis=0) - reach >= room.min - 0.5).all()
+        assert (places.max(axis=0) + reach <= room.max + 0.5).all()
+
+
+def test_a_film_of_thick_strokes_holds_them():
+    film = animate(read("axiom: !(20)F\nF -> FF"), 3)
+    for image in film.images:
+        pixels = np.array(image.convert("L"))
+        assert (pixels[[0, -1]] == 255).all()
+        assert (pixels[:, [0, -1]] == 255).all()
+        assert (pixels < 200).any(axis=0).sum() == pytest.approx(20, abs=1)
+
+
+# --- widths -----------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("width", [1, 2, 5.5, 10, 40])
+@pytest.mark.parametrize("length", [1, 10, 100])
+def test_widths_of_the_book_are_pixels(width, length):
+    found = [int(each) for each in WIDTHS.findall(drawn(f"axiom: F({length})!({width})F({length})+F({length})").svg)]
+    assert sorted(found) == pytest.approx(sorted([24, 10 * width]), rel=0.06)  # round ends at the edge take some room
+
+
+@pytest.mark.parametrize("text", ["axiom: !(0.25)F(2)", "axiom: !(0.5)F(4)", "widths: units\naxiom: !(2)F(16)"])
+def test_widths_below_one_and_those_that_a_model_calls_so_are_units(text):
+    svg = drawn(text).svg
+    width, (_, y, _, to_y) = WIDTHS.findall(svg)[-1], re.search(r"M(\d+) (\d+)L(\d+) (\d+)", svg).groups()
+    assert abs(int(to_y) - int(y)) / int(width) == pytest.approx(8, rel=0.02)
+
+
+def test_a_drawing_that_is_larger_than_the_picture_is_made_smaller_with_its_strokes():
+    widths = [int(WIDTHS.findall(drawn(f"axiom: !(20)F({length})").svg)[-1]) for length in (1, 100, 340, 680, 1360)]
+    assert widths[:3] == [200, 200, 200]
+    assert widths[3:] == [pytest.approx(107, abs=1), pytest.approx(55, abs=1)]
+
+
+def test_widths_of_grogra_are_units():
+    svg = draw(derive(read("\\axiom L10 D5 F,", "grogra"), 0)).svg
+    assert int(WIDTHS.findall(svg)[-1]) == pytest.approx(376 / 15 * 50, rel=0.02)
+
+
+def test_a_mesh_has_stems_as_broad_as_those_of_the_picture():
+    picture = draw(derive(read("axiom: !(10)F&(0)F"), 0))
+    least, greatest = picture.mesh.corners
+    assert (greatest[2] - least[2]) / (greatest[0] - least[0]) == pytest.approx(2 * 120 / 10, rel=0.01)
+
+
+@pytest.mark.parametrize(("number", "trunk"), [("2.6", 100), ("2.7", 100), ("2.8", 89)])
+def test_the_trees_of_the_book_are_drawn_with_stems_and_twigs(number, trunk):
+    """Figures 2.6 to 2.8: stems ten pixels wide at most, twigs as fine as hairs, and paper between them."""
+    picture = draw(read((BOOK / f"{number}.txt").read_text(encoding="utf-8")), arithmetic="float")
+    widths = [int(width) for width in WIDTHS.findall(picture.svg)]
+    assert max(widths) == pytest.approx(trunk, abs=2)
+    assert min(widths) <= 6
+    image = np.array(Image.open(io.BytesIO(picture.png)).convert("L"))
+    assert 0.02 < (image < 250).mean() < 0.3
+
+
+def test_a_width_is_thinned_from_where_strokes_are_by_themselves():
+    widths = derive(read("axiom: F[!F[!F]]"), 0)
+    found = sorted(int(width) for width in WIDTHS.findall(draw(widths).svg))
+    assert found == [12, 17, 24]
+
+
+def test_the_unit_of_widths_is_kept_in_what_is_written():
+    assert "widths: units" in str(read("widths: units\naxiom: F"))
+    assert read(str(read("widths: units\naxiom: F"))).widths == "units"
+    assert read("axiom: F").widths == ""
+    assert (drawn("axiom: F!(3)F").scene.segments.widths == OWN).tolist() == [True, False]
