@@ -25,7 +25,7 @@ from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
-from lsys_kit.pictures.style.palette import GREEN, colours
+from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project
 from lsys_kit.worlds.derive import derive
@@ -151,8 +151,7 @@ def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], cur
 
 def state_colours(what: Derivation | Word) -> Mapping[int, str]:
     """For each state met so far the colour of its symbol."""
-    palette = colours(what.states.system)
-    return {state: palette.get(module.symbol, GREEN) for state, module in enumerate(what.states.modules)}
+    return {state: colour_of(module.symbol, what.states.system) for state, module in enumerate(what.states.modules)}
 
 
 def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, **choices: Any) -> Axes:

@@ -13,6 +13,7 @@ import pytest
 from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, figure, lineage, read, system, timed
 from lsys_kit.pictures.lineages.picture import LineagePicture
 from lsys_kit.pictures.lineages.tree import tree_of
+from lsys_kit.pictures.style.palette import colour_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"))
@@ -66,12 +67,12 @@ def test_the_axis_has_the_times_of_the_steps() -> None:
     assert len([text for text in texts(draw(lineage(system("J4"), 40, lifeTimeA=6, lifeTimeB=6))) if text.isdigit()]) <= 15
 
 
-def test_short_and_long_cells_are_told_apart_by_dashes_too() -> None:
+def test_short_and_long_cells_have_the_colour_of_their_symbol_and_are_told_apart_by_dashes() -> None:
     picture = draw(P6)
     assert {"M(0)", "M(0.2)", "within a step"} <= set(texts(picture))
-    assert paths(picture, stroke="#E69F00")
-    assert not [path for path in ET.fromstring(picture.svg).iter(f"{SVG}path")
-                if path.get("stroke") == "#E69F00" and not path.get("stroke-dasharray")]
+    dashes = {path.get("stroke-dasharray") for path in ET.fromstring(picture.svg).iter(f"{SVG}path")
+              if path.get("stroke") == colour_of("M", P6.states.system)}
+    assert dashes == {None, "80 45"}
 
 
 def test_a_legend_stands_only_where_there_is_something_to_tell() -> None:

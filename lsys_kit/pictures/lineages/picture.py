@@ -2,9 +2,9 @@
 figures 5 and 6).
 
 Time runs down. A line is a cell from its birth to its division, thin until the first word that has it, so that what happens
-within a step is told from what the words show. Cells that began alike have the same colour and the same dashes; a flag shows
-where a cell points. Where a cell divides late, a broad band begins at the time at which it should have divided. Below the tree
-stands the last word, each cell at the end of its line.
+within a step is told from what the words show. Cells have the colour of their symbol, as in the filament; those that began
+alike have the same dashes. A flag shows where a cell points. Where a cell divides late, a broad band begins at the time at
+which it should have divided. Below the tree stands the last word, each cell at the end of its line.
 """
 
 from __future__ import annotations

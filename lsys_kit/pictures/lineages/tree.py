@@ -17,7 +17,7 @@ from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.pictures import filaments
 from lsys_kit.pictures.display_list import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label
-from lsys_kit.pictures.style.palette import SERIES, colours
+from lsys_kit.pictures.style.palette import colour_of
 
 AXIS, HEAD, TREE = 54, 22, 300
 """Room for the axis of time, its heading and the tree, in pixels."""
@@ -139,8 +139,8 @@ def _filament(lineage: Lineage, right: int) -> list[filaments.DrawnCell]:
 def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
     """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
 
-    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. If each kind has its
-    own symbol, its colour is that of the symbol.
+    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. The colour of a kind
+    is that of its symbol, as in every other picture; dashes distinguish the kinds of one symbol.
     """
     births = [cell.at_birth for cell in lineage.cells]
     keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
@@ -150,19 +150,18 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     members: list[dict[Module, None]] = [{} for _ in numbers]
     for key, module in zip(keys, births, strict=True):
         members[numbers[key]][module] = None
-    palette = colours(lineage.states.system) if len({base for base, _ in numbers}) == len(numbers) else {}
-    kinds = [_cell_kind(lineage, list(modules), number, palette) for number, modules in enumerate(members)]
-    kind_of = [numbers[key] for key in keys]
-    return kinds, kind_of, {cell: palette.get(lineage.cells[cell].modules[-1][1].symbol, kinds[kind_of[cell]].colour)
-                            for cell in lineage.words[-1]}
+    kinds = [_cell_kind(lineage, list(modules), number) for number, modules in enumerate(members)]
+    system = lineage.states.system
+    return kinds, [numbers[key] for key in keys], {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system)
+                                                   for cell in lineage.words[-1]}
 
 
-def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int, palette: Mapping[str, str]) -> CellKind:
+def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int) -> CellKind:
     system, symbol = lineage.states.system, modules[0].symbol
     letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
     name = f"{letter}_{subscript}" if subscript else letter
-    return CellKind(svg_label(name, system, values), len(name + values), palette.get(symbol, SERIES[number % len(SERIES)]),
-                DASHES[number % len(DASHES)])
+    return CellKind(svg_label(name, system, values), len(name + values), colour_of(symbol, system),
+                    DASHES[number % len(DASHES)])
 
 
 def _base(lineage: Lineage, module: Module) -> str:

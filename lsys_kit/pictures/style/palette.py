@@ -33,7 +33,7 @@ MARK_EDGE = "#B8860B"
 
 @lru_cache(maxsize=64)
 def colours(system: LSystem) -> Mapping[str, str]:
-    """A colour for each symbol that is a letter or a name; both polarities of a cell share theirs, and leaves are green.
+    """A colour for each letter, digit or name that is a symbol; both polarities of a cell share theirs, and leaves are green.
 
     >>> from lsys_kit.notation.read import read
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
@@ -44,10 +44,20 @@ def colours(system: LSystem) -> Mapping[str, str]:
     free = [colour for colour in SERIES if colour not in found.values()]
     bases: dict[str, str] = {}
     for symbol in symbols(system):
-        if symbol[0].isalpha() and symbol not in found:
+        if symbol[0].isalnum() and symbol not in found:
             base = pairs[symbol][0] if symbol in pairs else symbol
             found[symbol] = bases.setdefault(base, free[len(bases) % len(free)])
     return found
+
+
+def colour_of(symbol: str, system: LSystem) -> str:
+    """The colour in which what a symbol stands for is drawn; where a sign draws, green.
+
+    >>> from lsys_kit.notation.read import read
+    >>> colour_of("B", read("axiom: A B {F}")) == ORANGE, colour_of("{", read("axiom: A B {F}")) == GREEN
+    (True, True)
+    """
+    return colours(system).get(symbol, GREEN)
 
 
 def tinted(colour: str, strength: float) -> str:
