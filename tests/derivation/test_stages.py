@@ -398,10 +398,11 @@ def test_the_paper_s_net_has_two_stages_with_durations() -> None:
 def test_the_rule_that_is_the_first_to_apply_ends_a_life() -> None:
     text = "axiom: a(0) b(0,1)\na(t) -> a(t+1)\nb(t,p) -> b(t+1,p)\ndecomposition:\n"
     rules = "a(t) : t >= 3 -> b(0,0)\na(t) : t > 2 -> b(0,1)\nb(t,p) : t > 1 && p == 1 -> a(0)\nb(t,p) : t > 4 -> a(0) a(0)"
-    assert repr(stages(read(text + rules), durations=True)) == "a(0) -> b(0,1) after 2\nb(0,1) -> a(0) after 1"
+    assert repr(stages(read(text + rules), durations=True)) == \
+        "a(0) -> b(0,0) after 3\nb(0,0) -> 2 a(0) after 5\nb(0,1) -> a(0) after 2"
 
 
-@pytest.mark.parametrize("name", ["J1", "J4", "P5", "K8", "K19"])
+@pytest.mark.parametrize("name", ["J1", "K8"])
 def test_durations_that_no_rule_tells(name: str) -> None:
     with pytest.raises(ModelValueError, match="How long a module lives cannot be told, since"):
         stages(catalogued(name), durations=True)

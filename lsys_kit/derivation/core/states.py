@@ -157,6 +157,10 @@ class States(RuleApplication):
             return self.applied_states(rule, module, values, chance)
         return tuple(state for made in self._modules(rule, module, values, chance) for state in self.decompose(made, chance))
 
+    def made(self, rule: Rule, module: Module) -> list[Module]:
+        """The modules that a rule makes of a module, before any decomposition."""
+        return self._modules(rule, module, None, None)
+
     def _modules(self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None) -> list[Module]:
         """The modules that a rule makes; no more of them than a word may have."""
         found, most = [], current().modules

@@ -8,53 +8,15 @@ one stage, whatever its age.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from graphlib import CycleError, TopologicalSorter
 
-from lsys_kit.derivation.core.rules import Rule, kind_of
-from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.outcomes import Outcome
-from lsys_kit.derivation.timed.ages import AgelessModule, AgeModel, age_model
-from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.modules import Module, Pattern
-from lsys_kit.notation.write import as_written
-
-
-def ages_in_steps(states: States) -> AgeModel:
-    """The ages of a system whose productions let time pass, and whose decomposition rules say at which age a module divides.
-
-    Raises
-    ------
-    ModelValueError
-        A production does anything else.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
-    >>> cells = read("axiom: M(0)\\nM(t) -> M(t+1)\\ndecomposition:\\nM(t) : t >= 3 -> M(t-3) M(t-2)")
-    >>> list(map(str, ages_in_steps(States(cells)).daughters(Module("M", (0,)))))
-    ['M(0)', 'M(1)']
-    """
-    ages = age_model(states)
-    for rules in states.rules.values():
-        for rule in rules:
-            if not _lets_time_pass(rule, ages):
-                start, end = rule.production.at or (None, None)
-                shown = as_written(states.system, rule.production)
-                raise ModelValueError(f"How long a module lives cannot be told, since {shown} does more than let time pass",
-                                      states.system.source or None, start, end,
-                                      'Productions such as "a(t) -> a(t+dt)" with decomposition rules such as '
-                                      '"a(t) : t > 1 -> b(t-1)" tell it; so do the productions of timed(system).')
-    return ages
-
-
-def _lets_time_pass(rule: Rule, ages: AgeModel) -> bool:
-    """Whether all that a rule does is make a module of some kind older."""
-    made = rule.production.successor
-    return (rule.d0l and rule.condition is None and not rule.equalities and len(made) == 1 and isinstance(made[0], Pattern)
-            and kind_of(made[0]) == kind_of(rule.production.predecessor) and ages.parameter(kind_of(made[0])) is not None)
+from lsys_kit.derivation.timed.ages import AgelessModule, AgeModel, births
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.modules import Module
 
 
 @dataclass(frozen=True)
@@ -74,19 +36,31 @@ class LifeStages:
     ages: AgeModel
     modules: tuple[Module, ...]
     outcomes: tuple[tuple[Outcome, ...], ...]
-    _first: Mapping[AgelessModule, tuple[int, Sequence[Value]]] = field(repr=False)
+    _first: Mapping[AgelessModule, Mapping[Value, tuple[int, Sequence[Value]]]] = field(repr=False)
 
     def stage(self, module: Module) -> int | None:
-        """The number of the stage in which a module is at its age."""
-        kind, age = self.ages.ageless(module), self.ages.age(module) or 0
-        if kind not in self._first:
-            return None
-        number, row = self._first[kind]
-        return number + max(0, bisect_right(row, age) - 1)
+        """The number of the stage in which a module is at its age; None where it cannot be at that age."""
+        phases, age = self._first.get(self.ages.ageless(module), {}), self.ages.age(module) or 0
+        found = next(iter(phases.values())) if len(phases) == 1 else phases.get(self.ages.phase(age))
+        return None if found is None else found[0] + max(0, bisect_right(found[1], age) - 1)
+
+    @property
+    def is_late(self) -> bool:
+        """Whether lives are shorter than the steps in which they are derived, so that they end later there."""
+        return any(map(self.ages.is_late, self.modules))
 
 
-def life_stages(ages: AgeModel, limit: int) -> LifeStages:
+def life_stages(ages: AgeModel, limit: int, look: Callable[[Module], Hashable] = lambda module: module) -> LifeStages:
     """The stages of all lives.
+
+    Parameters
+    ----------
+    ages
+        How the modules grow older.
+    limit
+        How many stages there may be.
+    look
+        What a module looks like: lives of modules that look alike are divided at the same ages.
 
     Raises
     ------
@@ -106,51 +80,69 @@ def life_stages(ages: AgeModel, limit: int) -> LifeStages:
     M(0.2) 4/5 M(0) M(0.2)
     """
     try:
-        return _divided_lives(ages, _first_ages(ages, limit))
+        first = births(ages, limit)
+        _divide_alike(ages, first, look)
+        return _divided_lives(ages, first)
     except TypeError:
         raise ModelValueError("How long a module lives depends on a constant that is not known",
                               hint="Choose a value for it.") from None
 
 
-def _first_ages(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, Module]]:
-    """For each kind of module those that are born, by their age."""
-    found: dict[AgelessModule, dict[Value, Module]] = {}
-    todo = [ages.states.modules[state] for state in ages.states.axiom][::-1]
-    while todo:
-        module = todo.pop()
-        kind, age = ages.ageless(module), ages.age(module) or 0
-        if age in found.setdefault(kind, {}):
-            continue
-        found[kind][age] = module
-        if sum(map(len, found.values())) > limit:
-            raise ModelLimitError(f"Modules are born at more than {limit} different ages", limit=limit,
-                                  hint="Let the ages of daughters at birth not depend on the age of their mother.")
-        todo += ages.daughters(module)[::-1]
-    return found
+def _divide_alike(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, dict[Value, Module]]],
+                  look: Callable[[Module], Hashable]) -> None:
+    """Let lives begin a stage where those of modules that look alike do."""
+    rows = [born for phases in first.values() for born in phases.values()]
+    begun = [(age, module, look(module)) for born in rows for age, module in born.items()]
+    for born in rows:
+        youngest = born[min(born)]
+        for age, module, seen in begun:
+            end, other = ages.end(youngest), ages.aged(youngest, age)
+            if (age not in born and min(born) < age and ages.phase(age) == ages.phase(min(born)) and other != module
+                    and end is not None and end.rule is not None and age < end.age and look(other) == seen):
+                born[age] = other
 
 
-def _divided_lives(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, Module]]) -> LifeStages:
-    rows: dict[AgelessModule, tuple[int, Sequence[Value]]] = {}
+def _divided_lives(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, Mapping[Value, Module]]]) -> LifeStages:
+    rows: dict[AgelessModule, dict[Value, tuple[int, Sequence[Value]]]] = {}
     modules: list[Module] = []
-    for kind, begun in first.items():
-        mortal = ages.end(next(iter(begun.values()))) is not None
-        rows[kind] = len(modules), sorted(begun)[:None if mortal else 1]
-        modules += [begun[age] for age in rows[kind][1]]
+    for kind, phases in first.items():
+        for phase, born in phases.items():
+            mortal = any(_is_mortal(ages, module) for module in born.values())
+            rows.setdefault(kind, {})[phase] = len(modules), sorted(born)[:None if mortal else 1]
+            modules += [born[age] for age in rows[kind][phase][1]]
     found = LifeStages(ages, tuple(modules), (), rows)
     outcomes: list[tuple[Outcome, ...]] = []
-    for number, row in rows.values():
-        outcomes += [(Outcome(None, (later,), 1, after - age),)
-                     for later, (age, after) in enumerate(pairwise(row), number + 1)]
-        outcomes.append(_last(found, modules[len(outcomes)], row[-1]))
+    for number, row in (part for phases in rows.values() for part in phases.values()):
+        outcomes += [_outcomes(found, number + at, age, row[at + 1] if at + 1 < len(row) else None)
+                     for at, age in enumerate(row)]
+    _check_time_passes(modules, outcomes)
     return LifeStages(ages, found.modules, tuple(outcomes), rows)
 
 
-def _last(found: LifeStages, module: Module, age: Value) -> tuple[Outcome, ...]:
-    """What becomes of a module in its last stage."""
+def _check_time_passes(modules: Sequence[Module], outcomes: Sequence[Sequence[Outcome]]) -> None:
+    """Refuse modules that lead back to themselves in no time."""
+    at_once = {number: [state for outcome in ways if outcome.span == 0 for state in outcome.successor]
+               for number, ways in enumerate(outcomes)}
+    try:
+        TopologicalSorter(at_once).prepare()
+    except CycleError as found:
+        raise ModelValueError(f"{modules[found.args[1][0]]} divides endlessly within one instant",
+                              hint="Let a daughter begin younger than the age at which she divides.") from None
+
+
+def _is_mortal(ages: AgeModel, module: Module) -> bool:
+    end = ages.end(module)
+    return end is not None and end.rule is not None
+
+
+def _outcomes(found: LifeStages, number: int, age: Value, later: Value | None) -> tuple[Outcome, ...]:
+    """What becomes of a stage: the next one, which begins at a later age, if its life lasts so long; else the daughters."""
+    module = found.modules[number]
+    found.ages.check_birth(module)
     end = found.ages.end(module)
-    if end is None:
+    if end is None or end.rule is None:
         return ()
-    if end[1] < age:
-        raise ModelValueError(f"{module} is born older than it divides, at the age {number_text(end[1])}")
+    if later is not None and later < end.age:
+        return (Outcome(None, (number + 1,), 1, normalised(later - age)),)
     daughters = (found.stage(daughter) for daughter in found.ages.daughters(module))
-    return (Outcome(end[0].number, tuple(row for row in daughters if row is not None), 1, end[1] - age),)
+    return (Outcome(end.rule.number, tuple(row for row in daughters if row is not None), 1, normalised(end.age - age)),)

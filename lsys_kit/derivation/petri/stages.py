@@ -21,16 +21,16 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
 from lsys_kit.derivation.petri.by_symbol import by_symbol
-from lsys_kit.derivation.petri.life_stages import ages_in_steps, life_stages
+from lsys_kit.derivation.petri.life_stages import life_stages
 from lsys_kit.derivation.petri.net import Arc as Arc
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
 from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
-from lsys_kit.derivation.timed.ages import AgeModel
+from lsys_kit.derivation.timed.ages import AgeModel, age_model
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.notation.model.system import LSystem
 
@@ -61,7 +61,8 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     polarity
         Whether cells that point left and right have places of their own.
     durations
-        Whether transitions take the time for which a module lives, whatever a step is. A timed system's always do.
+        Whether transitions take the time for which a module lives, which may be many steps or part of one. A timed system's
+        always do.
     **constants
         New values for declared constants.
 
@@ -69,7 +70,7 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     ------
     ModelValueError
         A value cannot be computed, a timed system is given new constants, or the productions of a system whose durations are
-        asked for do more than let time pass.
+        asked for do not tell how long modules live.
     ModelLimitError
         The modules of a timed system are born at too many different ages.
 
@@ -95,7 +96,7 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         return _timed_net(system.ages, polarity)
     states = States(system, constants)
     if durations:
-        return _timed_net(ages_in_steps(states), polarity)
+        return _timed_net(age_model(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
     return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
                 None) or by_symbol(states)
@@ -103,8 +104,11 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
 
 def _timed_net(ages: AgeModel, polarity: bool) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
-    found = life_stages(ages, MOST_PLACES)
-    return _net(_Table(ages.states, found.modules, found.outcomes, found.stage), ages.states, polarity)
+    found = life_stages(ages, MOST_PLACES) if polarity else life_stages(ages, MOST_PLACES, partial(_appearance, ages.states))
+    net = _net(_Table(ages.states, found.modules, found.outcomes, found.stage), ages.states, polarity)
+    late = f"derived in steps of {number_text(ages.step or 1)}, lives shorter than that end late"
+    besides = (late,) if found.is_late else ()
+    return replace(net, besides=besides)
 
 
 def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:

@@ -81,8 +81,9 @@ class CellDivisions:
 
     def _replaced(self, module: Module, at_birth: Module, rule: Rule, depth: int) -> CellPart:
         """A module with the parts by which a rule replaces it, as they are now and as they were at first."""
-        age, threshold = self.ages.age(module), self.ages.applies_from(rule, module)
         made = self.ages.made(rule, module)
+        age = self.ages.age(module)
+        threshold = self.ages.applies_from(rule, module) if age is not None and self.ages.carries(rule) else None
         if age is None or threshold is None:
             return CellPart(module, at_birth, tuple(self._decomposed(part, part, depth) for part in made))
         first = self.ages.made(rule, self.ages.aged(module, threshold))

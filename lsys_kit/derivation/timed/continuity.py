@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from lsys_kit.derivation.core.rules import real_from, unknown_constant
+from lsys_kit.derivation.timed.ages import AgeModel, births
 from lsys_kit.derivation.timed.equations import roots
 from lsys_kit.derivation.timed.length_changes import Division, equal_lengths, unknown_names
 from lsys_kit.derivation.timed.length_functions import (
@@ -37,8 +38,8 @@ from lsys_kit.notation.model.system import LSystem, Production
 if TYPE_CHECKING:
     import sympy
 
-MOST_ORDER = 9
-"""The highest derivative."""
+MOST_ORDER, MOST_LETTERS = 9, 1_000
+"""The highest derivative; the most ages at which modules may be born in a system of steps."""
 
 
 @dataclass(frozen=True)
@@ -203,7 +204,8 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     functions = length_functions(growing, texts, given, lives)
     undecided = tuple(letter for letter, life in lives.items()
                       if not is_decided(letter, texts[letter], functions[letter], life, order))
-    divisions = tuple(Division(production, k, _total_length([mother], functions, k), _total_length(daughters, functions, k))
+    divisions = tuple(Division(production, k, *(_total_length(growing.ages, modules, functions, k)
+                                                for modules in ([mother], daughters)))
                       for k in range(order + 1) for production, mother, daughters in productions)
     return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
 
@@ -227,12 +229,20 @@ def _solved_value(value: object) -> object:
 
 def _divisions(growing: Timed) -> Iterator[tuple[Production, Module, list[Module]]]:
     """Each production, its mother at her terminal age, her daughters at their first ages."""
-    for (symbol, _), (rule, *_) in growing.states.rules.items():
-        letter = Module(symbol, (0, *(unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])))
+    for letter in _letters(growing):
         end = growing.ages.end(letter)
-        if end is not None:
-            mother = growing.ages.aged(letter, end[1])
-            yield end[0].production, mother, growing.ages.daughters(mother)
+        if end is not None and end.rule is not None:
+            yield end.rule.production, growing.ages.aged(letter, end.age), growing.ages.daughters(letter)
+
+
+def _letters(growing: Timed) -> Iterator[Module]:
+    """A module of each kind whose lives end: of a timed system with values that are not known, of steps those that are born."""
+    if growing.ages.step is not None:
+        for phases in births(growing.ages, MOST_LETTERS).values():
+            for born in phases.values():
+                yield born[min(born)]
+    for (symbol, _), (rule, *_) in growing.states.rules.items() if growing.ages.step is None else ():
+        yield Module(symbol, (0, *(unknown_constant(str(name)) for name in rule.production.predecessor.arguments[1:])))
 
 
 def _life_spans(growing: Timed, divisions: Iterable[tuple[Production, Module, list[Module]]]) -> dict[str, sympy.Set]:
@@ -243,18 +253,19 @@ def _life_spans(growing: Timed, divisions: Iterable[tuple[Production, Module, li
     ended = [mother for _, mother, _ in divisions]
     for module in (*(growing.states.modules[state] for state in growing.states.axiom), *ended,
                    *(made for _, _, daughters in divisions for made in daughters)):
-        if module.arguments:
-            ages.setdefault(module.symbol, []).append(in_sympy(module.arguments[0]))
+        age = growing.ages.age(module)
+        if age is not None:
+            ages.setdefault(module.symbol, []).append(in_sympy(age))
     endless = ages.keys() - {module.symbol for module in ended}
     return {symbol: sympy.Interval(sympy.Min(*found), sympy.oo if symbol in endless else sympy.Max(*found))
             for symbol, found in ages.items()}
 
 
-def _total_length(modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
+def _total_length(ages: AgeModel, modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
     """The length of some modules together, or a derivative of it."""
     import sympy
 
-    cells = Counter((module.symbol, in_sympy(module.arguments[0])) for module in modules if module.arguments)
+    cells = Counter((module.symbol, in_sympy(age)) for module in modules if (age := ages.age(module)) is not None)
     try:
         return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
                            for (symbol, age), number in cells.items()))

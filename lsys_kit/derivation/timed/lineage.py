@@ -186,12 +186,11 @@ def _timed_lineage(system: Timed, end: Value) -> Lineage:
     first, growth.places = tuple(range(len(axiom))), []
     while todo:
         module, since, cell = todo.pop()
-        last = system.ages.end(module)
-        moment: Value = end if last is None else since + (last[1] - (system.ages.age(module) or 0))
-        if last is None or moment >= end:
+        left, daughters = system.division(module, end - since)
+        if daughters is None:
             growth.found(cell, 1, word[len(growth.places)])
             continue
-        daughters = system.ages.daughters(module)
+        moment = normalised(end - left)
         if len(daughters) != 1:
             growth.cells[cell] = replace(growth.cells[cell], ended=moment)
         numbers = [cell] if len(daughters) == 1 else [growth.born(cell, moment, daughter) for daughter in daughters]

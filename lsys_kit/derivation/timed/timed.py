@@ -14,18 +14,18 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import repeat
 
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.closure import check_d0l
-from lsys_kit.derivation.core.rules import ModuleKind, kind_of, number_from
+from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL
-from lsys_kit.derivation.timed.ages import AgeModel, RuleAndAge, timed_age_model, undecided_age
+from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model
+from lsys_kit.derivation.timed.lives import undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import as_written
@@ -37,21 +37,16 @@ class Timed:
 
     Attributes
     ----------
-    states
-        The table of its modules.
+    ages
+        How its modules grow older, and how their lives end.
     """
 
-    states: States
+    ages: AgeModel
 
-    @cached_property
-    def ages(self) -> AgeModel:
-        """How its modules grow older, and how their lives end."""
-        return timed_age_model(self.states)
-
-    @cached_property
-    def _ends(self) -> dict[ModuleKind, RuleAndAge | None]:
-        """How each kind of module ends: its terminal age depends on nothing else."""
-        return {}
+    @property
+    def states(self) -> States:
+        """The table of its modules."""
+        return self.ages.states
 
     def word(self, at: object) -> Word:
         """The word at a time.
@@ -90,10 +85,9 @@ class Timed:
         visited = 0
         while todo:
             module, left, instant = todo.pop()
-            rest, daughters = self._division(module, left)
+            rest, daughters = self.division(module, left)
             if daughters is None:
-                older = self.ages.aged(module, (self.ages.age(module) or 0) + left)
-                found.append(self.states.number(older.symbol, older.arguments))
+                found.append(self.states.number(*self._older(module, left)))
             elif instant > deepest:
                 raise ModelValueError(f"{module} divides endlessly within one instant",
                                       hint="Let a daughter begin younger than the age at which she divides.")
@@ -109,44 +103,64 @@ class Timed:
                                       hint="Take an earlier time, or set limits(seconds=...).")
         return Word(self.states, found)
 
-    def _division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
+    def division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
         """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
-        kind = kind_of(module)
-        if kind not in self._ends:
-            self._ends[kind] = self.ages.end(module)
-        end = self._ends[kind]
-        if end is None:
+        end = self.ages.end(module)
+        if end is None or end.rule is None:
             return left, None
-        rule, terminal = end
-        rest: Value = left - (terminal - module.arguments[0])
+        self.ages.check_birth(module)
+        rest: Value = normalised(left - (end.age - (self.ages.age(module) or 0)))
         try:
-            return (left, None) if rest <= 0 else (rest, self.ages.made(rule, self.ages.aged(module, terminal)))
+            divides = rest > 0 or (end.already and rest == 0)
         except TypeError:
-            raise undecided_age(self.states, module, rule.production) from None
+            raise undecided_age(self.states, module, end.rule.production) from None
+        return (rest, self.ages.daughters(module)) if divides else (left, None)
+
+    def _older(self, module: Module, passed: Value) -> tuple[str, tuple[Value, ...]]:
+        """The symbol and the values of a module that does not divide, when some time has passed."""
+        end, age = self.ages.end(module), (self.ages.age(module) or 0) + passed
+        stays = end is not None and end.rule is None and age > end.age
+        older = self.ages.aged(module, normalised(end.age if end is not None and stays else age))
+        return older.symbol, older.arguments
 
 
 def timed(system: LSystem, **constants: object) -> Timed:
-    """A timed system, in which the one parameter of each module is its age.
+    """A system as it is at any time, not only after whole steps.
 
     Parameters
     ----------
     system
-        A context-free system whose productions give the age at which a module is replaced: `a(1) -> b(0) a(0)`.
+        A context-free system without chance, in which the one parameter of each module is its age and productions give the age
+        at which it is replaced: `a(1) -> b(0) a(0)`. Or one whose productions let time pass in steps, `a(t) -> a(t+dt)`, and
+        whose other rules tell how long a module lives: `a(t) : t >= 1 -> b(t-1) a(t-1)`.
     **constants
         New values for declared constants.
 
     Raises
     ------
     ModelValueError
-        A production does not say at which age it applies, or depends on neighbours or chance.
+        The productions do not say how long modules live, or depend on neighbours or chance.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> print(timed(read("axiom: a(1)\\na(t) : t < 3 -> a(t+1)\\na(3) -> a(1) b(1)\\nb(t) -> b(t+1)")).word("7/2"))
+    a(1.5)b(1.5)
     """
     states = States(system, constants)
     check_d0l(states, "The word at any time")
+    stepwise = age_model(states)
+    if stepwise.tells_ends:
+        for state in states.axiom:
+            stepwise.end(states.modules[state])
+        return Timed(stepwise)
     for rules in states.rules.values():
         for rule in rules:
             if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:
                 start, end = rule.production.at or (None, None)
                 shown = as_written(system, rule.production)
                 raise ModelValueError(f"The production {shown} does not say at which age it applies",
-                                      system.source or None, start, end, 'A timed production reads "a(1) -> b(0) a(0)".')
-    return Timed(states)
+                                      system.source or None, start, end,
+                                      'A timed production reads "a(1) -> b(0) a(0)"; in steps of time it reads '
+                                      '"a(t) : t >= 1 -> b(t-1) a(t-1)", beside "a(t) -> a(t+dt)".')
+    return Timed(timed_age_model(states))
