@@ -179,3 +179,8 @@ def test_a_step_that_would_be_too_large_is_refused() -> None:
     with limits(modules=1_000), pytest.raises(ModelLimitError, match="1,000") as error:
         derive(read("axiom: A A\nA A -> A A A A"), 20)
     assert error.value.partial.lengths == [2**n for n in range(1, 10)]
+
+
+def test_equal_values_of_different_kinds_are_not_mistaken_for_each_other() -> None:
+    word = derive(read("axiom: A B(1) A B(exp(0))\nA B(y) -> C(y)"), 1)[1]
+    assert [type(module.arguments[0]) for module in word] == [int, float]

@@ -191,7 +191,7 @@ def match_predecessor(rule: Rule, word: Sequence[Module], position: int) -> tupl
     size = len(rule.predecessors)
     if size > 1 and tuple(map(kind_of, word[position + 1:position + size])) != rule.predecessors[1:]:
         return None
-    return (position,) if size == 1 else tuple(range(position, position + size))
+    return tuple(range(position, position + size))
 
 
 def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,

@@ -93,7 +93,7 @@ class Stepper:
     def __init__(self, states: States, seed: int) -> None:
         self.states, self.seed = states, seed
         self.passing = passing_of(states.system)
-        self.in_context = states.traits.context > 0
+        self.in_context, self.together = states.traits.context > 0, states.traits.predecessor > 1
         self._alone: dict[int, Replacement] = {}
         self._matched: dict[tuple[object, ...], list[Match]] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
@@ -166,7 +166,7 @@ class Stepper:
         contexts of several modules."""
         if any(rule.matches_anew for rule in rules):
             return None
-        longest = max((len(rule.predecessors) for rule in rules), default=1)
+        longest = max((len(rule.predecessors) for rule in rules), default=1) if self.together else 1
         if old.around is None:
             return tuple(old.codes[position:position + longest])
         if longest > 1 or any(is_branch(item) for rule in rules for item in rule.right):
@@ -177,8 +177,8 @@ class Stepper:
 
     def context(self, rule: Rule, old: ParentWord, position: int) -> tuple[int, ...] | None:
         """The positions of the modules that a rule names, where what it replaces is there and its contexts match; else None."""
-        own = match_predecessor(rule, old.modules, position)
-        if own is None or any(old.symbols[at] == CUT for at in own[1:]):  # what is cut off is replaced by no rule
+        own = match_predecessor(rule, old.modules, position) if self.together else (position,)
+        if own is None or (len(own) > 1 and CUT in old.symbols[own[1]:own[-1] + 1]):  # no rule replaces what is cut off
             return None
         return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own)
 
