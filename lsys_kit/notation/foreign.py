@@ -92,14 +92,21 @@ def _without_line(pattern: str) -> str:
 _TURTLE_OF_LPARSER = "The kit's turtle has no random turns (~), and no step and angle that others would multiply (' \" ; :)"
 _FROM_LPARSER = ("Write \"steps:\", \"angle:\" and \"axiom:\" before its numbers and its axiom, a rule as A -> F[+A]A, "
                  "and \\ and / for < and >.")
+_XL = ForeignFormat(
+    "a model in XL, the language of GroIMP",
+    [r"import\b (?:static\b )?de\.grogra\b", rf"module\b \w+ (?:{_VALUES})? (?:extends\b|==>)",
+     rf"(?:public|protected|private)\b void\b \w+ {_VALUES} \[? $", r"Axiom ==>[^\n]*", r"[^\n]*?==>>"],
+    "The kit has no modules that are classes of Java, and no arrow ==>",
+    "The notation of GROGRA, from which XL comes, is read: * # A(1), and A(x) # F(x) RU30 A(x*0.8), for instance.",
+    [".rgg"])
 _L_PY = ForeignFormat(
     "a model of L-Py",
     [r"#{4,} INITIALISATION\b", r"__\w+__ =", r"(?:[^\s:][^:\n]*+: )?n?produce\b(?![^\n]*;)",
-     rf"module\b \w+ (?:{_VALUES})? (?::[^;\n]*)?$", r"extern \(", r"context \( \)\.", rf"def\b \w+ {_VALUES} :",
+     rf"module\b \w+ (?:{_VALUES})? (?:[:#][^;\n]*)?$", r"extern \(", r"context \( \)\.", rf"def\b \w+ {_VALUES} :",
      r"from\b [\w.]+ import\b [\w*]", r"import\b \w"],
     "The kit has no Python code",
     "Write a rule with its condition before the arrow, A(t) : t < 5 --> F(1)A(t+1), and a constant as #define n 5.",
-    [".lpy"], _with_line("Axiom :") + _without_line("[Ll]system :"))
+    [".lpy"], _with_line("(?:Axiom :|production : $)") + _without_line("[Ll]system :"))
 
 FORMATS: Sequence[ForeignFormat] = (
     ForeignFormat(
@@ -116,24 +123,20 @@ FORMATS: Sequence[ForeignFormat] = (
         "an automaton or a grammar of JFLAP, and no L-system",
         [r"[^\n]*?<type> (?:fa|pda|turing|grammar|re|mealy|moore|[a-z-]+ pumping lemma) </type>"],
         "The kit has L-systems alone", "In an L-system all symbols are rewritten at once: A -> A B."),
-    ForeignFormat(
-        "a model in XL, the language of GroIMP",
-        [r"import\b (?:static\b )?de\.grogra\b", rf"module\b \w+ (?:{_VALUES})? (?:extends\b|==>)",
-         rf"(?:public|protected|private)\b void\b \w+ {_VALUES} \[? $", r"Axiom ==>[^\n]*", r"[^\n]*?==>>"],
-        "The kit has no modules that are classes of Java, and no arrow ==>",
-        "The notation of GROGRA, from which XL comes, is read: * # A(1), and A(x) # F(x) RU30 A(x*0.8), for instance.",
-        [".rgg"]),
+    replace(_XL, signs=[rf"(?:public|protected|private)\b void\b \w+ {_VALUES} \{{ $"], beside="(?=(?s:.*?)==>)"),
+    _XL,
     ForeignFormat(
         "a model of lpfg, in the language L+C",
-        [r'# include [<"]lpfgall\b', r"module\b \w+ (?:\([^()\n;]*\))? ;", r"derivation\b length :[^;\n]*;",
+        [r'# include [<"]lpfgall\b', r"module\b \w+ (?:\([^()\n;]*\))? ;", r"derivation\b length :[^;/\n]*;",
          r"(?:\{ )?n?produce\b[^;\n]*;"],
         "The kit has no code in C++",
         "Write a module, its condition and its successor as one rule: A(x) : x < 5 -> F(1) A(x+1)."),
-    replace(
-        _L_PY, signs=["production : $"], beside=_L_PY.beside + "(?=(?s:.*?)-->)", early="production",
-        lacks="Its turtle begins otherwise than that of cpfg, which has such rules, too",
-        advice='If it has no Python code, read(text, "cpfg") reads it, or --notation cpfg in a shell: then give the angle.'),
     _L_PY,
+    replace(
+        _L_PY, signs=["production : $"], early="production",
+        beside=_with_line("Axiom :") + _without_line("[Ll]system :") + "(?!(?s:.*?)[^-]->)",
+        lacks="Its turtle begins otherwise than that of cpfg, which has such rules, too",
+        advice='Without Python and comments behind #, read(text, "cpfg") reads it (--notation cpfg in a shell): add "angle:".'),
     ForeignFormat(
         "a model of LParser", [r"\d+(?:\.\d*)? (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
         rf"(?: (?:#[^\n]*)?\n)*+(?: {_NUMBER}){{3}} [^\s=#][^\s=]* (?:#[^\n]*)?\n(?: (?:#[^\n]*)?\n)*+ (?:\S =|@)"),
@@ -141,7 +144,7 @@ FORMATS: Sequence[ForeignFormat] = (
         "a model of LParser", [r"recursion\b \d+ (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
         _with_line(r"axiom\b [^:=\s][^:=\n]*$") + _with_line(r"(?:rule\b \S =|angle\b \d)")),
     ForeignFormat(
-        "a model of the L-system Explorer by Lowclouds", [r"(?:delta|stemsize|step) =", r"p\d+ :[^\n]*?->"],
+        "a model of the L-system Explorer by Lowclouds", [r"(?:delta|stemsize|step|view) =", r"p\d+ :[^\n]*?->"],
         "The kit has no formulas of JavaScript, and no L-systems within others",
         'Put "angle:" in place of "delta =" and "steps:" in place of "derivation length:", and leave "stemsize" out.',
         [".ls"], _with_line("axiom :") + _with_line(r"(?:derivation\b length :|stemsize =)")),
@@ -206,7 +209,8 @@ def mistakable_format(text: str) -> ModelSyntaxError | None:
     >>> mistakable_format("Axiom: A\\nA --> A B") is None
     True
     """
-    return _claim([row for row in FORMATS if row.early and row.early in text], text)
+    early = [row for row in FORMATS if row.early and row.early in text]
+    return _claim(FORMATS, text) if _claim(early, text) else None
 
 
 def name_hint(name: str) -> str | None:

@@ -112,6 +112,19 @@ def test_what_only_mentions_another_program_is_read(text: str) -> None:
     assert read(text).axiom
 
 
+@pytest.mark.parametrize(("text", "message"), [
+    ("axiom: A\nproduction:\nA --> A B", 'I do not know "production:"'), ("A ==> B", "This is not an arrow"),
+    ("derivation length: 5 // n; or so\nAxiom: A\nB", "An arrow is missing"),
+    ("Axiom: A\nproduction:\nA -> A B", 'I do not know "production:"'), ("# a plant\naxiom: A", "This is not a production"),
+    ('axiom: "A"', "Quotation marks are not needed here"), ("#defin n 3\nAxiom: A\nA --> B", "This is not a production"),
+])
+def test_a_slip_has_the_message_of_its_notation(text: str, message: str) -> None:
+    with pytest.raises(LSystemError) as found:
+        read(text)
+    assert message in found.value.message
+    assert "which the kit does not read" not in str(found.value)
+
+
 # --- L-Py and cpfg ----------------------------------------------------------------------------------------------------------
 
 RULES = st.lists(st.sampled_from(["A --> F[+A]A", "F --> FF", "B(x) --> F(x)B(x+1)", "A < B --> C", "A(t) : t > 1 --> F(t)"]),
