@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import time
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 
@@ -12,10 +14,11 @@ from hypothesis import strategies as st
 
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.derivation.derive import derive
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Number, function_of, to_sympy
+from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.notation.write import write
@@ -104,10 +107,69 @@ def test_indented_lines_go_on_unless_they_have_an_arrow_of_their_own() -> None:
     assert str(read(text)) == "Lsystem: 1\nAxiom: AB\nA --> B\nB --> C\ndecomposition\nC --> DE\nendlsystem"
 
 
-def test_prose_behind_a_successor_is_pointed_out() -> None:
-    system = read("Lsystem: 1\nAxiom: F\nF --> FF // doubles", "cpfg")
-    assert len(system.productions[0].successor) == 11
-    assert system.notes == ('"// doubles" is read as symbols, two rolls first; a comment is written between "/*" and "*/".',)
+@pytest.mark.parametrize(("line", "rolls"), [
+    ("F --> FF // doubles", 0), ("F --> FF //doubles", 0), ("F --> FF // It doubles", 0), ("F --> FF // FF", 2),
+    ("F --> F//F", 2), ("F --> F //F", 2), ("F --> F// ab", 2), ("F --> F //ab(1)", 2), ("F --> F // + F", 2),
+    ("F : 1 // always\n  --> F", 0),
+    ("// F doubles\nF --> F", 0), ("F --> F /* // */", 0),
+])
+def test_two_rolls_begin_a_comment_behind_a_blank_and_before_a_word(line: str, rolls: int) -> None:
+    system = read(f"Lsystem: 1\nAxiom: F\n{line}", "cpfg")
+    assert [module.symbol for module in flat(system.productions[0].successor)].count("/") == rolls
+    assert any("is read as a comment" in note for note in system.notes) == ("doubles" in line and line[0] == "F")
+
+
+def test_prose_that_may_be_symbols_is_pointed_out() -> None:
+    assert read("Lsystem: 1\nAxiom: F\nF --> FF // FF", "cpfg").notes == (
+        '"// FF" is read as symbols, two rolls first; a comment is written between "/*" and "*/".',)
+
+
+@pytest.mark.parametrize(("text", "meant"), [
+    ("#define BOX [+F]\n#define APEX -(30,0)/(-10);(140)A\nAxiom: APEX BOX\nA --> BOX F",
+     "Axiom: -(30,0)/(-10);(140)A[+F]\nA --> [+F]F"),
+    ("#define mid(x,y) ((x+y)/2)\nAxiom: A(mid(1,mid(2,3)))", "Axiom: A((1+(2+3)/2)/2)"),
+    ("#define older(t) t+1\nAxiom: A(1)\nA(x) : older(x) < 5 --> A(older(x*2))",
+     "Axiom: A(1)\nA(x) : x+1 < 5 --> A(x*2+1)"),
+    ("#define SIZE (2*t)\nAxiom: A(1)\nA(t) --> F(SIZE)", "Axiom: A(1)\nA(t) --> F(2*t)"),
+    ("#define NOISE ran(5)\nAxiom: A\nA --> F(NOISE)", "Axiom: A\nA --> F(ran(5))"),
+    ("#define PAIR(x) [+x][-x]\nAxiom: PAIR(F(2))", "Axiom: [+F(2)][-F(2)]"),
+    ("#define none() F\nAxiom: none()B", "Axiom: FB"),
+    ("#define A1 [B]\nAxiom: A1 A11", "Axiom: [B]A11"),
+    ("#define LOOP A(LOOP)\n#define LOOP [LOOP]\nAxiom: F\nF --> [LOOP]", "Axiom: F\nF --> [[LOOP]]"),
+    ("#define LONG [+F] \\\n [-F]\nAxiom: LONG", "Axiom: [+F][-F]"),
+    ("#define X [F]\n#undef X\nAxiom: X", "Axiom: X"),
+    ("#define n 3\n#if n > 2 && defined(n)\nAxiom: A\n#else\nAxiom: B\n#endif", "#define n 3\nAxiom: A"),
+    ("#define FULL\n#ifdef FULL\nAxiom: A\n#endif\n#ifndef FULL\nAxiom: B\n#endif", "Axiom: A"),
+    ("#if 0\n#if 1\nAxiom: B\n#else\nAxiom: C\n#endif\n#elif unknown\nAxiom: D\n#elif !defined unknown\nAxiom: A\n#else\n"
+     "Axiom: E\n#endif", "Axiom: A"),
+    ("Axiom: A\n#if 0\n#define F [+F\n#include <x.h>\nA --> (\n#endif\nA --> B", "Axiom: A\nA --> B"),
+    ("#define n (1 + \\\n 2)\nAxiom: A(n)", "#define n (1 + 2)\nAxiom: A(n)"),
+])
+def test_macros_that_are_no_numbers_are_put_in_place(text: str, meant: str) -> None:
+    assert read(text, "cpfg") == read(meant, "cpfg")
+
+
+def test_a_mistake_in_a_macro_is_shown_where_it_is_used() -> None:
+    with pytest.raises(ModelSyntaxError) as caught:
+        read("#define BOX(x) [+(x)F(y)]\nAxiom: A\nA --> FF BOX(2) F BOX(1", "cpfg")
+    assert (caught.value.line, caught.value.column) == (3, 19)
+    with pytest.raises(ModelNameError) as named:
+        read("#define BOX(x) [+(x)F(y)]\nAxiom: A\nA --> FF BOX(2) F", "cpfg")
+    assert (named.value.line, named.value.column) == (3, 10)
+
+
+@pytest.mark.parametrize("text", [
+    "\n".join(f"#define A{i} A{i + 1} A{i + 1}" for i in range(40)) + "\nAxiom: F A0",
+    "\n".join(f"#define A{i} [A{i + 1}]" for i in range(400)) + "\nAxiom: F A0",
+    "#define f(x) [x x]\nAxiom: " + "f(" * 300 + "F" + ")" * 300,
+    "#if 1\n" * 5000 + "Axiom: A", "#define X [F]\nAxiom: " + "X(" * 20_000, "#if 0\n" + "F\n" * 100_000,
+    "#define g(x) [x]\nAxiom: " + "g(" * 20_000, "Axiom: F\nF --> F " + "// " * 15_000,
+])
+def test_macros_that_grow_or_nest_without_end_are_refused(text: str) -> None:
+    begun = time.process_time()
+    with suppress(LSystemError):
+        read(text, "cpfg")
+    assert time.process_time() - begun < 4
 
 
 def test_numbers_are_those_of_c() -> None:

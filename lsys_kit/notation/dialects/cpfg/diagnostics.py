@@ -18,9 +18,6 @@ _OWN_BLOCK = "Compute what a rule needs in its own block, with assignments and i
 MISSING_FEATURES: Sequence[tuple[str, str, str]] = (
     (r"(start|end)[ \t]*(each)?[ \t]*:", "statements that run before or after the steps", _CONSTANTS),
     (r"define[ \t]*:", "arrays", _CONSTANTS),
-    (r"#[ \t]*include\b", "included files", "Put the text of the file in place of this line."),
-    (r"#[ \t]*(if\w*|el\w+|endif|undef)\b", "lines that are read on a condition", "Keep the lines that are meant."),
-    (r"#[ \t]*define[ \t]+\w+\(", "macros with parameters", "Write its text wherever it is used."),
     (r"ring[ \t]+lsystem", "words whose ends are joined", "Without this line a word has two ends."),
 )
 """Features of cpfg that the kit lacks: how a statement begins, what it is, and what to do instead."""
@@ -47,6 +44,16 @@ def _feature(failure: ParseFailure) -> ModelSyntaxError | None:
     if arrow >= 0:
         return failure.error("The kit has no rules for objects", 'A production reads "A --> B".', failure.start + arrow, 3)
     return None
+
+
+def _included(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A file that is to be included, of which a text knows no more than the name."""
+    found = re.match(r"#[ \t]*include\b[ \t]*([<\"]?)([^<>\"\n]*)", failure.statement)
+    if found is None:
+        return None
+    name = found[2].strip() or "that is to be included"
+    return failure.error(f"The file {quoted(name) if found[1] else name} is not part of this text",
+                         "Put what it says in place of this line.", failure.start, found.end())
 
 
 def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -120,5 +127,6 @@ def _similar_keyword(name: str) -> str | None:
     return next((keyword for keyword in CPFG_KEYWORDS if keyword.lower() in close), None)
 
 
-DIAGNOSTICS: Sequence[Diagnostic] = (_feature, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
+DIAGNOSTICS: Sequence[Diagnostic] = (
+    _feature, _included, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
 """The diagnostics of a cpfg text, the most specific first."""

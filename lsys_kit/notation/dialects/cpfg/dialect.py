@@ -12,6 +12,7 @@ from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_e
 from lsys_kit.notation.dialects.cpfg.actions import CpfgStatements
 from lsys_kit.notation.dialects.cpfg.blocks import substitute
 from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.cpfg.preprocessor import preprocessed
 from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
 from lsys_kit.notation.dialects.cpfg.statements import statements
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
@@ -20,8 +21,10 @@ from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem
 from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.transcript import Transcript
 
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
@@ -156,6 +159,12 @@ def _likely(text: str) -> int:
     return 10 * marks
 
 
+def _transcribe(source: str) -> Transcript:
+    """A text after the preprocessor of C, but for the macros that are numbers."""
+    return preprocessed(source, lambda rule, text: parse(CPFG, rule, text, 0, len(text)))
+
+
 CPFG = Dialect(
     name="cpfg", statements=statements, transformer=CpfgStatements, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, missing_feature=missing_feature, likely=_likely, spelling=SPELLING)
+    joined=joined_word, write=system_text, missing_feature=missing_feature, likely=_likely, spelling=SPELLING,
+    transcribe=_transcribe)

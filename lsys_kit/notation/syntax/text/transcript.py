@@ -81,8 +81,9 @@ def edited(source: str | Transcript, edits: Iterable[Edit], notes: Sequence[str]
 
     Examples
     --------
-    >>> edited("A => B", [Edit(2, 4, "->")]).text
-    'A -> B'
+    >>> found = edited("AXB", [Edit(1, 2, "CC")])
+    >>> found.text, [found.origin(at) for at in range(4)]
+    ('ACCB', [0, 1, 1, 2])
     """
     before = source if isinstance(source, Transcript) else as_typed(source)
     typed = before.text if typed is None else typed
@@ -91,7 +92,7 @@ def edited(source: str | Transcript, edits: Iterable[Edit], notes: Sequence[str]
     for edit in sorted(set(edits)):
         if edit.start < at:  # within what another edit has replaced
             continue
-        for text, origin in ((typed[at:edit.start], at), (edit.text, edit.start)):
+        for text, origin in ((typed[at:edit.start], at), (edit.text, edit.start), ("", edit.start)):
             starts.append(length)
             origins.append(origin)
             parts.append(text)
