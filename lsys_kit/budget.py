@@ -7,16 +7,26 @@ Like `errors`, this is above all rooms, because every room has something to limi
 1000
 >>> current().modules
 5000000
+
+Whatever the kit is asked to do is a task with one budget of time and memory, however many functions share the work: whoever
+repeats, grows or nests something calls `check_budget` now and then. The time is that of the processor in this thread, so that
+what else the machine does changes nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from types import FrameType
+from typing import Any, TypeVar
 
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True)
@@ -26,9 +36,9 @@ class Limits:
     modules: int = 5_000_000
     """modules of one word"""
     bytes: int = 512 * 2**20
-    """bytes of one word's array"""
+    """bytes that a task or a derivation holds"""
     seconds: float = 10.0
-    """seconds for deriving"""
+    """seconds of the processor for a task"""
     states: int = 1_000
     """states of a stage diagram or growth matrix"""
     text: int = 1_000_000
@@ -100,3 +110,164 @@ def limits(**changes: float) -> Iterator[Limits]:
         yield current()
     finally:
         _current.reset(token)
+
+
+BLOCK_BYTES = 64
+"""About what an object of Python takes in memory, on average."""
+SECONDS_BETWEEN_LOOKS = 0.02
+"""A budget is looked at no more often than this, by the clock on the wall: the processor has not spent more."""
+INTERVAL = 1_024
+"""The budget is checked after so many things that take about a microsecond each."""
+CALLS_BETWEEN_CHECKS = 500
+"""And after so many calls of functions that know nothing of budgets."""
+_processor_time = getattr(time, "thread_time", time.process_time)
+_objects = getattr(sys, "getallocatedblocks", int)
+
+
+class Budget:
+    """What is left for a task.
+
+    Memory is measured by the number of all objects in it, so that it counts whatever is held, by whomever. Large arrays are not
+    objects: who makes them knows their size beforehand, and asks `check_bytes`.
+    """
+
+    __slots__ = ("_first_objects", "_look", "_start")
+
+    def __init__(self) -> None:
+        self._start, self._first_objects = _processor_time(), -1
+        self._look = time.monotonic() + min(current().seconds, SECONDS_BETWEEN_LOOKS)
+
+    def wait(self) -> None:
+        """Stop the clock."""
+        self._start -= _processor_time()
+
+    def go_on(self) -> None:
+        """Let the clock go on."""
+        self._start += _processor_time()
+
+    def check(self, failed: Callable[[], str]) -> None:
+        """Refuse to go on where the time or the memory is used up; say then what has failed."""
+        if (now := time.monotonic()) < self._look:
+            return
+        self._look, most = now + SECONDS_BETWEEN_LOOKS, current()
+        if _processor_time() - self._start > most.seconds:
+            raise ModelLimitError(f"{failed()} in {most.seconds:g} seconds", limit=most.seconds,
+                                  hint="Take fewer steps, or set limits(seconds=...).")
+        if self._first_objects < 0:
+            self._first_objects = _objects()
+        check_bytes((_objects() - self._first_objects) * BLOCK_BYTES, failed)
+
+
+_task: ContextVar[tuple[Budget, Callable[[], str]] | None] = ContextVar("task", default=None)
+
+
+class Task:
+    """A task, for a `with` block; one within another shares its budget.
+
+    It can be taken up again where there is more to do; what passes in between is not counted.
+
+    Parameters
+    ----------
+    failed
+        What to say if the budget does not suffice, as in "Step 5 was not reached", or a function that knows.
+
+    Examples
+    --------
+    >>> with limits(seconds=0.01), Task("The sum was not found"):
+    ...     sum(counted(range(10**9)))
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelLimitError: The sum was not found in 0.01 seconds. Take fewer steps, or set limits(seconds=...).
+    """
+
+    __slots__ = ("_failed", "_own", "_token")
+
+    def __init__(self, failed: Callable[[], str] | str = "This was not finished") -> None:
+        self._failed = (lambda: failed) if isinstance(failed, str) else failed
+        self._own: Budget | None = None
+
+    def __enter__(self) -> None:
+        outer = _task.get()
+        if self._own is not None:
+            self._own.go_on()
+        elif outer is None:
+            self._own = Budget()
+        self._token = _task.set((self._own or outer[0], self._failed))  # type: ignore[index]
+
+    def __exit__(self, *_: object) -> None:
+        _task.reset(self._token)
+        if self._own is not None:
+            self._own.wait()
+
+
+def check_budget() -> None:
+    """Refuse to go on where the budget of the present task is used up.
+
+    Raises
+    ------
+    ModelLimitError
+        The task has taken too long, or holds too much.
+    """
+    if (now := _task.get()) is not None:
+        now[0].check(now[1])
+
+
+def check_bytes(needed: int, failed: Callable[[], str]) -> None:
+    """Refuse what would take too much memory; say then what has failed.
+
+    >>> check_bytes(10**9, lambda: "The word was not built")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelLimitError: The word was not built: it would take 1,000,000,000 bytes; the limit is 536,870,912. \
+Take fewer steps, or set limits(bytes=...).
+    """
+    most = current().bytes
+    if needed > most:
+        raise ModelLimitError(f"{failed()}: it would take {needed:,} bytes; the limit is {most:,}", limit=most, needed=needed,
+                              hint="Take fewer steps, or set limits(bytes=...).")
+
+
+def counted(things: Iterable[_T], interval: int = INTERVAL) -> Iterator[_T]:
+    """The same things one after another, with a look at the budget after every few of them."""
+    for number, thing in enumerate(things, 1):
+        yield thing
+        if number % interval == 0:
+            check_budget()
+
+
+class _UsedUp(BaseException):
+    """The budget is used up; no library takes this for an error of its own."""
+
+    def __init__(self, error: ModelLimitError) -> None:
+        super().__init__()
+        self.error = error
+
+
+@contextmanager
+def supervised() -> Iterator[None]:
+    """A `with` block in which another library works, which never looks at the budget: it is looked at whenever a function is
+    called there.
+
+    It works in the same thread, since a process of its own would not do everywhere: where one starts, it runs the person's
+    program again, unless that is written for it, and in a browser there are none.
+    """
+    now, left, before = _task.get(), CALLS_BETWEEN_CHECKS, sys.getprofile()
+    if now is None:
+        yield
+        return
+
+    def look(_: FrameType, __: str, ___: Any) -> None:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            left = CALLS_BETWEEN_CHECKS
+            try:
+                now[0].check(now[1])
+            except ModelLimitError as error:
+                raise _UsedUp(error) from None
+
+    sys.setprofile(look)
+    try:
+        yield
+    except _UsedUp as used_up:
+        raise used_up.error from None
+    finally:
+        sys.setprofile(before)

@@ -5,20 +5,18 @@ A `Derivation` asks its engine for one step after another, within the limits of 
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
 from typing import Any, overload
 
 import numpy as np
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.counting import next_counts
-from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size, check_time
+from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
 from lsys_kit.derivation.engines.table import engine_for
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError
@@ -111,16 +109,21 @@ class Derivation(Sequence[Word]):
         """
         if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
             raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
-        until, reached = time.monotonic() + current().seconds, 0
+        reached = 0
         try:
-            for reached in range(int(steps) + 1):
-                if reached > self._engine.known:
-                    self._engine.advance(until)
-                else:
-                    check_size(self.states, reached, self._engine.size(reached))
+            with Task(lambda: f"Step {reached} was not reached"):
+                for reached in range(int(steps) + 1):
+                    self._reach(reached)
         except ModelLimitError as error:
             raise self._refusal(error, reached) from None
         return Derivation(self._engine, int(steps))
+
+    def _reach(self, step: int) -> None:
+        """Make the next step known; a known one is still refused where it is past a limit."""
+        if step > self._engine.known:
+            self._engine.advance()
+        else:
+            check_size(self.states, step, self._engine.size(step))
 
     def _refusal(self, error: ModelLimitError, step: int) -> ModelLimitError:
         """The error, with the steps that were finished."""
@@ -152,7 +155,8 @@ class Derivation(Sequence[Word]):
     @property
     def lengths(self) -> list[int]:
         """The number of modules at each step, known without building a word."""
-        return [self._engine.size(step) for step in range(len(self))]
+        with Task("The lengths were not found"):
+            return [self._engine.size(step) for step in counted(range(len(self)))]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -163,9 +167,10 @@ class Derivation(Sequence[Word]):
         ('From step 7 on values outgrow 128 bits and are doubles, such as F(0.11270011762177155).',)
         """
         notes, inexact = self.states.system.notes, self.states.inexact
-        for step in range(len(self) if inexact else 0):
-            if any(self.states.modules[state] == inexact for state in self._engine.counts(step)):
-                return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")
+        with Task("The remarks were not found"):
+            for step in range(len(self) if inexact else 0):
+                if any(self.states.modules[state] == inexact for state in counted(self._engine.counts(step))):
+                    return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")
         return notes
 
     def counts(self, step: int) -> Counter[int]:
@@ -181,7 +186,8 @@ class Derivation(Sequence[Word]):
         """
         if not 1 <= step <= self.steps:
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} have a previous word, not that of step {step}")
-        return self._engine.origins(step)
+        with Task(f"The origins of step {step} were not found"):
+            return self._engine.origins(step)
 
     def sight(self, step: int) -> Observation | None:
         """What the next step sees of a step's word, with its query modules filled in; None in a system that asks nothing.
@@ -203,10 +209,11 @@ class Derivation(Sequence[Word]):
         """
         if not 0 <= before <= step <= self.steps:
             raise ModelValueError(f"Step {before} is not before step {step} of a derivation of {self.steps} steps")
-        positions = list(range(len(self[before])))
-        for later in range(before + 1, step + 1):
-            positions = [positions[parent] for parent in self.origins(later).parents]
-        return positions
+        with Task(f"The ancestors of step {step} were not found"):
+            positions = list(range(len(self[before])))
+            for later in range(before + 1, step + 1):
+                positions = [positions[parent] for parent in counted(self.origins(later).parents)]
+            return positions
 
     def column(self, centred: bool = False, coding: Mapping[str, str] | None = None) -> Column:
         """The words below one another, as `ColumnForm` shows them in Jacob, Modeling Growth with L-Systems & Mathematica.
@@ -227,7 +234,8 @@ class Derivation(Sequence[Word]):
         2   a b a
         3 a b a a b
         """
-        texts = [word.coded(coding) if coding else repr(word) for word in self]
+        with Task("The column was not written"):
+            texts = [word.coded(coding) if coding else repr(word) for word in counted(self, 1)]
         width = max(map(len, texts)) if centred else 0
         digits = len(str(self.steps))
         return Column("\n".join(f"{step:>{digits}} {text.center(width)}".rstrip() for step, text in enumerate(texts)))
@@ -254,11 +262,12 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
     ModelLimitError
         Counting takes too long, since there are too many different modules.
     """
-    states, left = States(system, constants, arithmetic), current().seconds
+    states, counting = States(system, constants, arithmetic), Task()
     check_d0l(states, "The number of modules of a step that is not derived")
     counts: Mapping[int, int] = Counter(states.axiom)
-    for step in range(steps + 1):
-        started = time.monotonic()
-        counts = next_counts(states, counts, partial(check_time, states, step, started + left)) if step else counts
-        left -= time.monotonic() - started  # time that passes between two steps is not counted
+    yield sum(counts.values())
+    for step in range(1, steps + 1):
+        with counting, Task(f"Step {step} was not reached"):
+            counts = next_counts(states, counts)
+            check_budget()
         yield sum(counts.values())

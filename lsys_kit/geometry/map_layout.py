@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import math
-import time
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 
 import numpy as np
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.map import Map, cell_words
-from lsys_kit.errors import ModelLimitError
 from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.model.maps import Edge
 
 FIRST_WALL = 0.28
 """The length of a wall of the first cell before relaxation."""
-ITERATIONS_PER_CHECK = 100
-"""The time is checked after this number of iterations."""
+ITERATIONS_PER_CHECK = 20
+"""The budget is checked after this number of iterations."""
 
 
 def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
@@ -52,22 +50,17 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
     >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
     [0.28 0.28] [0.56 0.36]
     """
-    until = time.monotonic() + current().seconds
+    layout = Task()
     points: Floats | None = None
     for step, found in enumerate(maps):
-        points = _equilibrium(relax(initial_vertices(found, points), tissue(found), forces), step, until)
+        with layout, Task(f"The cells of step {step} did not come to rest"):
+            points = _equilibrium(relax(initial_vertices(found, points), tissue(found), forces))
         yield points
 
 
-def _equilibrium(positions: Iterator[Floats], step: int, until: float) -> Floats:
+def _equilibrium(positions: Iterator[Floats]) -> Floats:
     """The last positions of a relaxation."""
-    points = next(positions)
-    for iteration, following in enumerate(positions):
-        points = following
-        if iteration % ITERATIONS_PER_CHECK == 0 and time.monotonic() > until:
-            raise ModelLimitError(f"The cells of step {step} did not come to rest in {current().seconds:g} seconds",
-                                  limit=current().seconds, hint="Take fewer steps, or set limits(seconds=...).")
-    return points
+    return deque(counted(positions, ITERATIONS_PER_CHECK), maxlen=1)[0]
 
 
 def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:

@@ -12,12 +12,13 @@ sine.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
+from lsys_kit.budget import check_budget, counted
 from lsys_kit.derivation.core.rules import kind_of, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import QUERIES
@@ -32,8 +33,6 @@ from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoo
 
 DECIMALS = 9
 """The number of decimals to which measured values are rounded."""
-MODULES_PER_CHECK = 4_096
-"""The time is checked after this number of modules."""
 NO_SHOOT = -1
 """The number of the shoot before the first one."""
 
@@ -103,6 +102,7 @@ class TurtleObservation:
         place = self.places[position]
         key = (position if place.shoot == NO_SHOOT else -1, place.shoot, function, *values)
         if key not in self._known:
+            check_budget()
             answer = sensitive.answer(self._query(place), *map(float, values))
             self._known[key] = rounded(answer, self.word.states.arithmetic)
         return self._known[key]
@@ -116,15 +116,13 @@ class TurtleObservation:
         return Query(self.shoots, (place.shoot, self.shoots.mothers[place.shoot]), tip, head)
 
 
-def observe(word: Word, watch: Callable[[], None] = lambda: None) -> TurtleObservation:
+def observe(word: Word) -> TurtleObservation:
     """Interpret a word and record what its modules see.
 
     Parameters
     ----------
     word
         The word; interpretation rules are applied first.
-    watch
-        Called from time to time; checks the time limit, and may raise an error.
 
     Raises
     ------
@@ -145,9 +143,7 @@ def observe(word: Word, watch: Callable[[], None] = lambda: None) -> TurtleObser
     calls = compile_word(word, SPACE_HANDLERS, lambda instruction: operand(instruction, float(system.angle))).calls
     asking = _observing_states(states, calls)
     places: dict[int, Standpoint] = {}
-    for position, state in enumerate(numbers):
-        if position % MODULES_PER_CHECK == 0:
-            watch()
+    for position, state in enumerate(counted(numbers)):
         if state in asking:
             places[position] = Standpoint(turtle.position, turtle.orientation, turtle.shoot)
         for handler, instruction in calls[state]:

@@ -109,7 +109,7 @@ def _flipped(cell, found):  # type: ignore[no-untyped-def]
 
 def next_words(found: Map, system: MapSystem) -> str:
     with limits(modules=1_000_000):
-        return str(map_step(found, {production.predecessor: production for production in system.productions}, 1, float("inf")))
+        return str(map_step(found, {production.predecessor: production for production in system.productions}, 1))
 
 
 @given(map_systems())

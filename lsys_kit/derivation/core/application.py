@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeAlias
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_budget, counted, current
 from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.rule_errors import UNKNOWN, rule_error, undecided_condition
 from lsys_kit.derivation.core.rules import ModuleTemplate, RepeatTemplate, Rule, Rules, constants_of, kind_of
@@ -116,7 +116,8 @@ class RuleApplication:
             if isinstance(part, ModuleTemplate):
                 yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
             else:
-                for index in range(_times(part.count(values))):
+                check_budget()  # repetitions within repetitions may each be few
+                for index in counted(range(_times(part.count(values)))):
                     yield from self._written(part.body, (*given, index), chance)
 
     def _kept(self, value: Value) -> Value:

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from lsys_kit.budget import check_budget, counted
 from lsys_kit.notation.model.arithmetic import Value, normalised
 
 _GOLDEN, _FIRST, _SECOND, _MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
@@ -104,12 +105,13 @@ class Chance:
         if trials != int(trials) or not 0 <= trials <= 100_000:
             raise ValueError("trials are counted: a whole number from 0 to 100,000")
         _check_probability(probability)
-        return sum(self.unit() < probability for _ in range(int(trials)))
+        return sum(self.unit() < probability for _ in counted(range(int(trials))))
 
     def poisson(self, mean: float) -> int:
         """How many rare events happen, on average `mean`."""
         if not 0 <= mean <= 500:
             raise ValueError("the mean of a Poisson distribution is from 0 to 500 here")
+        check_budget()
         product, count, least = self.unit(), 0, math.exp(-float(mean))
         while product > least:
             product, count = product * self.unit(), count + 1

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from itertools import islice
 from typing import TypeVar
 
-from lsys_kit.budget import current
+from lsys_kit.budget import counted, current
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.rules import rules_of
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States, popped
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import CELLS, WALL, Module, Pattern, flat
 from lsys_kit.notation.model.system import LSystem
@@ -28,7 +28,15 @@ def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[M
     """
     if not states.system.interpretation:
         return {state: (states.modules[state],) for state in dict.fromkeys(numbers)}
-    return {state: interpretation_of(states, states.modules[state]) for state in dict.fromkeys(numbers)}
+    found: dict[int, tuple[Module, ...]] = {}
+    size, most = 0, current().modules
+    for state in counted(dict.fromkeys(numbers), MODULES_BETWEEN_CHECKS):
+        found[state] = interpretation_of(states, states.modules[state])
+        size += len(found[state])
+        if size > most:
+            raise ModelLimitError(f"The modules are drawn as more than {most:,} different ones", limit=most, needed=size,
+                                  hint="Use smaller numbers of repetitions, or a smaller depth.")
+    return found
 
 
 def interpretation_of(states: States, module: Module) -> tuple[Module, ...]:
@@ -36,8 +44,7 @@ def interpretation_of(states: States, module: Module) -> tuple[Module, ...]:
     rules = rules_of(states.system, states.arithmetic, "interpretation")
     found: list[Module] = []
     todo = [(module, states.system.depth)]
-    while todo:
-        part, depth = todo.pop()
+    for part, depth in counted(popped(todo), MODULES_BETWEEN_CHECKS):
         chance = Chance(0, 0, 0)
         rule = states.matching_rule(part, rules, chance) if depth else None
         if rule is None:

@@ -8,10 +8,10 @@ each combination that occurs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, TypeVar
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_bytes, counted, current
 from lsys_kit.derivation.core.application import RuleApplication
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.rule_errors import AXIOM
@@ -23,6 +23,12 @@ from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.write import as_written
 
+_T = TypeVar("_T")
+ROW_BYTES = 8
+"""What a state takes in a row of states."""
+MODULES_BETWEEN_CHECKS = 100
+"""The budget is checked after so many modules have been decomposed."""
+
 
 class Successors(dict[int, tuple[int, ...]]):
     """What replaces each state that alone decides it in one step, found when it is first asked for."""
@@ -33,7 +39,8 @@ class Successors(dict[int, tuple[int, ...]]):
     def __missing__(self, state: int) -> tuple[int, ...]:
         states, module = self.states, self.states.modules[state]
         rule = states.rule(state)
-        found = self[state] = states.decompose(module) if rule is None else states.replacement(rule, module)
+        found = states.keep(states.decompose(module) if rule is None else states.replacement(rule, module))
+        self[state] = found
         return found
 
 
@@ -75,6 +82,7 @@ class States(RuleApplication):
         self.modules: list[Module] = []
         self.inexact: Module | None = None
         self._numbers: dict[tuple[object, ...], int] = {}
+        self._row_states = 0
         self.successors = Successors(self)
         self._applied: dict[int, Rule | None] = {}
         self._decompositions: dict[tuple[object, ...], tuple[int, ...]] = {}
@@ -106,6 +114,12 @@ class States(RuleApplication):
             self.modules.append(Module(symbol, values))
             self._numbers[key] = found  # last, so that an interrupt leaves no number without its module
         return found
+
+    def keep(self, row: tuple[int, ...]) -> tuple[int, ...]:
+        """A row of states that is going to be kept, if there is room for it."""
+        self._row_states += len(row)
+        check_bytes(self._row_states * ROW_BYTES, lambda: "What becomes of each module is not known")
+        return row
 
     def candidates(self, state: int) -> tuple[Rule, ...]:
         """The productions for modules of a state's symbol and number of parameters, in the order written."""
@@ -148,32 +162,43 @@ class States(RuleApplication):
     def applied_states(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
                      chance: Chance | None = None) -> tuple[int, ...]:
         """The states that a rule makes of a module, before any decomposition."""
-        return tuple(self.number(made.symbol, made.arguments) for made in self._modules(rule, module, values, chance))
+        return tuple(self.number(*made) for made in self._made(rule, module, values, chance))
 
     def replacement(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
                  chance: Chance | None = None) -> tuple[int, ...]:
         """The states that replace a module by a rule, after decomposition."""
         if not self.decomposition:
             return self.applied_states(rule, module, values, chance)
-        return tuple(state for made in self._modules(rule, module, values, chance) for state in self.decompose(made, chance))
+        found: list[int] = []
+        for made in self._made(rule, module, values, chance):
+            found += self.decompose(Module(*made), chance)
+            if len(found) > current().modules:
+                raise self._too_many(rule, module)
+        return tuple(found)
 
     def made(self, rule: Rule, module: Module) -> list[Module]:
         """The modules that a rule makes of a module, before any decomposition."""
-        return self._modules(rule, module, None, None)
+        return [Module(*made) for made in self._made(rule, module, None, None)]
 
-    def _modules(self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None) -> list[Module]:
-        """The modules that a rule makes; no more of them than a word may have."""
-        found, most = [], current().modules
+    def _made(self, rule: Rule, module: Module, values: Sequence[object] | None,
+              chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        """The symbols and values of the modules that a rule makes; no more of them than a word may have."""
+        most = current().modules
         self._outgrown = False
-        for symbol, made in self.apply(rule, module, values, chance):  # type: ignore[arg-type]
+        for number, made in enumerate(self.apply(rule, module, values, chance)):  # type: ignore[arg-type]
             if self._outgrown and self.inexact is None:
-                self.inexact = Module(symbol, made)
-            found.append(Module(symbol, made))
-            if len(found) > most and module is not AXIOM:  # the axiom is step 0, which is checked like any step
-                start, end = rule.production.at or (None, None)
-                raise ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
-                                      source=self.system.source or None, start=start, end=end)
-        return found
+                self.inexact = Module(*made)
+            if number == most:
+                raise self._too_many(rule, module)
+            yield made
+
+    def _too_many(self, rule: Rule, module: Module) -> ModelLimitError:
+        most, (start, end) = current().modules, rule.production.at or (None, None)
+        message = f"{module} becomes more than {most:,} modules in one step"
+        if module is AXIOM:
+            message = f"Step 0 would have more than {most:,} modules"
+        return ModelLimitError(message, limit=most, hint="Set limits(modules=...)." if module is AXIOM else None,
+                               source=self.system.source or None, start=start, end=end)
 
     def decompose(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
         """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
@@ -181,7 +206,7 @@ class States(RuleApplication):
             return self._decomposed(module, chance)
         key = (module.symbol, module.arguments, *map(type, module.arguments))
         if key not in self._decompositions:
-            self._decompositions[key] = self._decomposed(module, chance)
+            self._decompositions[key] = self.keep(self._decomposed(module, chance))
         return self._decompositions[key]
 
     def _decomposed(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
@@ -189,8 +214,7 @@ class States(RuleApplication):
         most, asked = current().modules, self.system.decomposition_depth
         deepest = current().decomposition if asked is None else current().repetitions
         todo = [(module, 0)]
-        while todo:
-            part, depth = todo.pop()
+        for part, depth in counted(popped(todo), MODULES_BETWEEN_CHECKS):
             rule = self.matching_rule(part, self.decomposition, chance) if depth != asked else None
             if rule is None:
                 found.append(self.number(part.symbol, part.arguments))
@@ -201,7 +225,7 @@ class States(RuleApplication):
                                       limit=deepest, source=self.system.source or None, start=start, end=end,
                                       hint="A condition before the arrow can bring it to an end.")
             else:
-                todo += [(made, depth + 1) for made in reversed(self._modules(rule, part, None, chance))]
+                todo += [(Module(*made), depth + 1) for made in reversed([*self._made(rule, part, None, chance)])]
             if len(found) + len(todo) > most:
                 raise ModelLimitError(f"{module} is decomposed into more than {most:,} modules", limit=most)
         return tuple(found)
@@ -211,3 +235,9 @@ class States(RuleApplication):
         places = [module.at for module in self.system.axiom if module.at]
         start = Production((Pattern(AXIOM.symbol),), self.system.axiom, at=(places[0][0], places[-1][1]) if places else None)
         return self.applied_states(rule_for(self.system, 0, start, self.arithmetic), AXIOM)
+
+
+def popped(stack: list[_T]) -> Iterator[_T]:
+    """The things on a stack, until none is left; whoever takes one may put others there."""
+    while stack:
+        yield stack.pop()

@@ -8,6 +8,7 @@ from typing import Any, overload
 
 import numpy as np
 
+from lsys_kit.budget import check_bytes
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.modules import Module, joined
 from lsys_kit.notation.registry import dialect_named
@@ -71,6 +72,11 @@ class Word(Sequence[Module]):
     def __repr__(self) -> str:
         return abridged(self, MOST_SHOWN)
 
+    @property
+    def bytes(self) -> int:
+        """How much memory it takes."""
+        return self.codes.nbytes if isinstance(self.codes, np.ndarray) else len(self.codes) * 8
+
     def numbers(self) -> list[int]:
         """The states' numbers as a plain list."""
         return self.codes.tolist() if isinstance(self.codes, np.ndarray) else list(self.codes)
@@ -107,11 +113,19 @@ def state_counts(word: Word) -> Counter[int]:
     return Counter(word.codes)
 
 
+def word_bytes(word: Word) -> int:
+    """How much memory a word takes."""
+    return word.bytes
+
+
 def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     """The text of a row of states, in their system's notation."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)
-    texts = {state: notation.module(states.modules[state]) for state in set(numbers)}
+    counts = Counter(numbers)
+    texts = {state: notation.module(states.modules[state]) for state in counts}
+    size = sum(len(texts[state]) * count for state, count in counts.items())
+    check_bytes(size, lambda: "The text of the word was not written")
     return notation.joined(map(texts.__getitem__, numbers))
 
 

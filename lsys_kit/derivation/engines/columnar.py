@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from lsys_kit.budget import counted
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
@@ -80,11 +81,16 @@ class ColumnWord(Word):
         return len(self.kinds)
 
     @property
+    def bytes(self) -> int:
+        """How much memory it takes."""
+        return len(self) * (self.values.bytes * max(arity for _, arity in self.names) + 10)
+
+    @property
     def codes(self) -> Array:  # type: ignore[override]
         """The numbers of the states, which are numbered now."""
         if self._row is None:
             numbers = [self.states.number(self.names[kind][0], row[:self.names[kind][1]])
-                       for kind, row in zip(self.kinds.tolist(), self.values.rows(), strict=True)]
+                       for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))]
             self._row = np.array(numbers, dtype=code_type(len(self.states)))
         return self._row
 

@@ -47,6 +47,7 @@ class Replacements:
         found = self._numbers.get(replacement)
         if found is None:
             found = len(self.replacements)
+            self.states.keep(replacement.states)
             self.replacements.append(replacement)
             self._numbers[replacement] = found  # last, so that an interrupt leaves no number without its replacement
         return found

@@ -14,12 +14,14 @@ from typing import Any
 
 import numpy as np
 
+from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
 from lsys_kit.derivation.engines import expansion
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
-from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Origins, check_size, check_time
+from lsys_kit.derivation.engines.engine import Origins, check_size, check_step
 from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
+from lsys_kit.kept import Kept
 
 FEWEST_NEW = 50
 """Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
@@ -33,11 +35,12 @@ class CountingEngine:
     def __init__(self, states: States, columnar: bool) -> None:
         self.states = states
         self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
-        self._words: dict[int, Word] = {}
+        self._words = Kept[int, Word](word_bytes)
         self._bytes = ByteTable(states)
         self._columnar = columnar
         self._new = 0  # so many states were met first at the last step
         self._late: list[Word] = []
+        self._late_bytes = 0
 
     def __getstate__(self) -> dict[str, object]:
         """All but the functions for columns, which are made again; words in columns number their states before that."""
@@ -58,17 +61,18 @@ class CountingEngine:
         """How often each state occurs at a known step."""
         return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
 
-    def advance(self, until: float) -> None:
+    def advance(self) -> None:
         """Make one step more known."""
         step, (before, _) = self.known + 1, self._steps[-1]
         if self._late or (self._columnar and self._many_new()):
-            self._late.append(self._next_word(step, until))
+            self._late.append(self._next_word(step))
+            self._late_bytes += word_bytes(self._late[-1])
             return
         met = len(self.states)
         if len(self.states.successors) < met:  # some successors must be computed: not for a step that is refused
             check_size(self.states, step, sum(count * self.states.width(state) for state, count in before.items()))
-        after = next_counts(self.states, before, partial(check_time, self.states, step, until))
-        check_time(self.states, step, until)
+        after = next_counts(self.states, before, partial(check_step, self.states, step))
+        check_budget()
         size = sum(after.values())
         check_size(self.states, step, size)
         self._new = len(self.states) - met
@@ -85,34 +89,32 @@ class CountingEngine:
     def _columns(self) -> ColumnarSteps:
         return ColumnarSteps(self.states)
 
-    def _next_word(self, step: int, until: float) -> Word:
+    def _next_word(self, step: int) -> Word:
         """The next word, where many modules are different: in columns, or from the table of states."""
         before, columns = self.word(step - 1), self._columns
-        check_time(self.states, step, until)
+        check_step(self.states, step)
         try:
             return columns.step(before if isinstance(before, ColumnWord) else columns.word(before),
-                                partial(check_size, self.states, step))
+                                partial(check_size, self.states, step, held=self._late_bytes))
         except ArithmeticError:
-            return self._from_table(before.numbers(), step, until)
+            return self._from_table(before.numbers(), step)
 
-    def _from_table(self, before: Sequence[int], step: int, until: float) -> Word:
+    def _from_table(self, before: Sequence[int], step: int) -> Word:
         """The next word, module by module."""
         found: list[int] = []
         for number, state in enumerate(before):
             found += self.states.successors[state]
-            if number % CLOCK_INTERVAL == 0:
-                check_time(self.states, step, until)
-                check_size(self.states, step, len(found))
-        check_size(self.states, step, len(found))
+            if number % INTERVAL == 0:
+                check_step(self.states, step, len(found))
+        check_size(self.states, step, len(found), held=self._late_bytes)
         return Word(self.states, compact(found, len(self.states)))
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
         if step >= len(self._steps):
             return self._late[step - len(self._steps)]
-        if step not in self._words:
-            self._words[step] = self._built(step)
-        return self._words[step]
+        found = self._words.get(step)
+        return self._words.put(step, self._built(step)) if found is None else found
 
     def _built(self, step: int) -> Word:
         if step == 0:
@@ -120,7 +122,8 @@ class CountingEngine:
         before, small = self._words.get(step - 1), self.size(step) <= expansion.MOST_LISTED
         if small and before is not None:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
-        array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
+        with Task("The word was not built"):
+            array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
     def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
@@ -134,7 +137,7 @@ class CountingEngine:
         """Where the modules of a step's word come from."""
         parents: list[int] = []
         productions: list[int | None] = []
-        for position, state in enumerate(self.word(step - 1).numbers()):
+        for position, state in enumerate(counted(self.word(step - 1).numbers())):
             made = len(self.states.successor(state))
             parents += [position] * made
             productions += [self.states.production(state)] * made
@@ -144,7 +147,7 @@ class CountingEngine:
         """Nothing: the modules of a D0L system ask for nothing."""
 
 
-def next_counts(states: States, counts: Mapping[int, int], check: Callable[[], None] = lambda: None) -> dict[int, int]:
+def next_counts(states: States, counts: Mapping[int, int], check: Callable[[], None] = check_budget) -> dict[int, int]:
     """How often each state occurs one step later; `check` is called now and then, and may raise an error."""
     after: dict[int, int] = {}
     already, successors = after.get, states.successors
@@ -152,6 +155,6 @@ def next_counts(states: States, counts: Mapping[int, int], check: Callable[[], N
         row = successors[state]
         for successor in row:
             after[successor] = already(successor, 0) + count
-        if number % CLOCK_INTERVAL == 0 or len(row) > CLOCK_INTERVAL:
+        if number % INTERVAL == 0 or len(row) > INTERVAL:
             check()
     return after

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_budget, current
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.expansion import code_type
@@ -17,8 +16,6 @@ from lsys_kit.notation.model.arithmetic import Value
 
 STATE_BYTES = 600
 """About what one state takes in the table."""
-CLOCK_INTERVAL = 1_024
-"""After so many states or modules the clock is looked at."""
 
 
 class Observation(Protocol):
@@ -32,8 +29,8 @@ class Observation(Protocol):
         """What a sensitive function answers to the module at a position."""
 
 
-Observer: TypeAlias = Callable[[Word, Callable[[], None]], Observation]
-"""Looks at a word before a step. It is also given a function to call now and then, which raises an error when time is up."""
+Observer: TypeAlias = Callable[[Word], Observation]
+"""Looks at a word before a step."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +71,8 @@ class Engine(Protocol):
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a known step."""
 
-    def advance(self, until: float) -> None:
-        """Make one step more known, before a moment of `time.monotonic`."""
+    def advance(self) -> None:
+        """Make one step more known."""
 
     def word(self, step: int) -> Word:
         """The word of a known step."""
@@ -87,26 +84,34 @@ class Engine(Protocol):
         """What the next step sees of a known step's word; None without an observer."""
 
 
-def check_size(states: States, step: int, size: int, word: int | None = None) -> None:
-    """Refuse a step whose word would be past a limit; `word` is how many bytes it takes, if it is no row of states."""
+def check_size(states: States, step: int, size: int, word: int | None = None, held: int = 0) -> None:
+    """Refuse a step whose word would be past a limit.
+
+    Parameters
+    ----------
+    states
+        The table of states.
+    step, size
+        The step, and how many modules its word would have.
+    word
+        How many bytes the word takes, if it is no row of states.
+    held
+        How many bytes the words of other steps take, and what else is kept of them.
+    """
     most = current()
     if size > most.modules:
         raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(most.modules)}",
                               limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
-    needed = (size * code_type(len(states)).itemsize if word is None else word) + len(states) * STATE_BYTES
+    needed = (size * code_type(len(states)).itemsize if word is None else word) + len(states) * STATE_BYTES + held
     if needed > most.bytes:
         raise ModelLimitError(f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(most.bytes)}",
                               limit=most.bytes, needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
 
 
-def check_time(states: States, step: int, until: float) -> None:
-    """Refuse a step that takes too long, or meets too many different modules."""
-    if len(states) > CLOCK_INTERVAL:
-        check_size(states, step, 0)
-    if time.monotonic() > until:
-        seconds = current().seconds
-        raise ModelLimitError(f"Step {step} was not reached in {seconds:g} seconds", limit=seconds,
-                              hint="Take fewer steps, or set limits(seconds=...).")
+def check_step(states: States, step: int, size: int = 0) -> None:
+    """Refuse a step that takes too long, or meets too many different modules; `size` is how many it has so far."""
+    check_size(states, step, size)
+    check_budget()
 
 
 def grouped(number: float) -> str:

@@ -12,12 +12,15 @@ from typing import Any
 
 import numpy as np
 
+from lsys_kit.budget import counted
 from lsys_kit.derivation.core.states import States
 
 BYTES = 256
 """How many different bytes there are."""
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
+STEPS_BETWEEN_CHECKS = 10
+"""The budget is checked after so many steps of a few thousand states at most."""
 PIECE = 64
 """Pieces up to this length, at least 1, are assembled as tuples and written at once."""
 
@@ -125,7 +128,7 @@ def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any
 def _sizes(states: States, present: Sequence[Collection[int]]) -> list[dict[int, int]]:
     """For each step and state the length of what the state becomes by the last step."""
     sizes = [dict.fromkeys(present[-1], 1)]
-    for here in reversed(present[:-1]):
+    for here in counted(reversed(present[:-1]), STEPS_BETWEEN_CHECKS):
         after = sizes[-1]
         sizes.append({state: sum(after[s] for s in states.successor(state)) for state in here})
     return sizes[::-1]
@@ -135,7 +138,7 @@ def _pieces(states: States, present: Sequence[Collection[int]],
             sizes: Sequence[dict[int, int]]) -> list[dict[int, tuple[int, ...]]]:
     """For each step and state whose size is small, what the state becomes by the last step."""
     pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]
-    for step in range(len(present) - 2, -1, -1):
+    for step in counted(range(len(present) - 2, -1, -1), STEPS_BETWEEN_CHECKS):
         after = pieces[-1]
         pieces.append({state: tuple([code for s in states.successor(state) for code in after[s]])
                        for state in present[step] if sizes[step][state] <= PIECE})

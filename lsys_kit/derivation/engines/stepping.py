@@ -12,13 +12,17 @@ from functools import partial
 
 import numpy as np
 
+from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
 from lsys_kit.derivation.engines.contexts import ContextEngine
-from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL, Observation, Observer, Origins, check_size, check_time
+from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step
 from lsys_kit.derivation.engines.expansion import code_type, compact
 from lsys_kit.derivation.engines.meta import apply_meta_rules
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
+
+ORIGIN_BYTES = 16
+"""About what is kept for each module, to know where those come from that replace it."""
 
 
 class SteppingEngine:
@@ -27,6 +31,7 @@ class SteppingEngine:
     def __init__(self, stepper: Stepper, arrays: ContextEngine | None, world: Observer | None = None) -> None:
         states = stepper.states
         self.states, self._world, self._stepper, self._arrays = states, world, stepper, arrays
+        self._held = 0
         self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -47,24 +52,22 @@ class SteppingEngine:
         """How often each state occurs at a known step."""
         return state_counts(self._steps[step][0])
 
-    def advance(self, until: float) -> None:
+    def advance(self) -> None:
         """Make one step more known; nothing of it is kept before it is finished."""
         step, before, sees = self.known + 1, self._steps[-1][0], None
         if self._world:
-            sight = self._world(before, partial(check_time, self.states, step, until))
+            sight = self._world(before)
             before, sees = sight.word, sight.sees
-        if self._arrays:
-            made = self._by_arrays(self._arrays, before, step)
-        else:
-            made = self._one_by_one(before.numbers(), step, until, sees)
-        check_time(self.states, step, until)
+        made = self._by_arrays(self._arrays, before, step) if self._arrays else self._one_by_one(before.numbers(), step, sees)
+        check_budget()
+        self._held += word_bytes(made[0]) + len(before) * ORIGIN_BYTES
         self._steps.append(made)
 
     def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
         codes = np.asarray(before.codes, dtype=code_type(len(self.states)))
         chosen = arrays.chosen(codes, step - 1)
-        check_size(self.states, step, arrays.outcomes.size(chosen))
+        check_size(self.states, step, arrays.outcomes.size(chosen), held=self._held)
         word = Word(self.states, arrays.outcomes.replaced(chosen))
 
         def origins() -> Origins:
@@ -75,26 +78,25 @@ class SteppingEngine:
 
         return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
 
-    def _one_by_one(self, codes: Sequence[int], step: int, until: float,
+    def _one_by_one(self, codes: Sequence[int], step: int,
                     sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
-        made = []
-        size = 0
+        sizes, productions, replaced, word = list[int](), list[int | None](), list[int](), list[int]()
         for number, replacement in enumerate(self._stepper.replacements(codes, step - 1, sees)):
-            made.append(replacement)
-            size += len(replacement.states)
-            if number % CLOCK_INTERVAL == 0 or len(replacement.states) > CLOCK_INTERVAL:
-                check_time(self.states, step, until)
-                check_size(self.states, step, size)
-        check_size(self.states, step, size)
-        word = [code for replacement in made for code in replacement.states]
-        parents = [position for position, replacement in enumerate(made) for _ in replacement.states]
-        productions = [replacement.production for replacement in made for _ in replacement.states]
-        together = self.states.traits.predecessor > 1
-        origins = Origins(parents, productions, [replacement.size for replacement in made] if together else ())
-        if self.states.system.meta:
-            return self._shortened(word, lambda: origins)
-        return self._word(word), lambda: origins
+            sizes.append(len(replacement.states))
+            productions.append(replacement.production)
+            replaced.append(replacement.size)
+            word += replacement.states
+            if number % INTERVAL == 0 or sizes[-1] > INTERVAL:
+                check_step(self.states, step, len(word))
+        check_size(self.states, step, len(word), held=self._held)
+
+        def origins() -> Origins:
+            return Origins(np.repeat(np.arange(len(sizes)), sizes).tolist(),
+                           [made for made, size in zip(productions, sizes, strict=True) for _ in range(size)],
+                           replaced if self.states.traits.predecessor > 1 else ())
+
+        return self._shortened(word, origins) if self.states.system.meta else (self._word(word), origins)
 
     def _shortened(self, codes: Sequence[int], origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
         """A word after its meta-rules, with its origins."""
@@ -119,7 +121,7 @@ class SteppingEngine:
 
     def sight(self, step: int) -> Observation | None:
         """What the next step sees of a known step's word; None without an observer."""
-        return self._world(self.word(step), lambda: None) if self._world else None
+        return self._world(self.word(step)) if self._world else None
 
 
 def _resumed(states: States, seed: int, by_arrays: bool, world: Observer | None,

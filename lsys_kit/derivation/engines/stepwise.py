@@ -148,6 +148,7 @@ class Stepper:
             return self._made[key]
         replacement = Replacement(self.states.replacement(rule, old.modules[position], values, chance), rule.number, size)
         if repeatable:
+            self.states.keep(replacement.states)
             self._made[key] = replacement
         return replacement
 

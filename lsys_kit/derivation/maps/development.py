@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import overload
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, check_budget
 from lsys_kit.derivation.maps.divisions import map_step
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
 
 MOST_MAPS_SHOWN = 400
 """How many characters of a map `repr` shows."""
@@ -78,15 +77,23 @@ def develop(system: MapSystem, steps: int) -> Development:
     """
     if isinstance(steps, bool) or not isinstance(steps, int) or steps < 0:
         raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
-    maps, until = [first_map(system)], time.monotonic() + current().seconds
+    maps = [first_map(system)]
     productions = {production.predecessor: production for production in system.productions}
-    for step in range(1, steps + 1):
-        try:
-            maps.append(map_step(maps[-1], productions, step, until))
-        except ModelLimitError as error:
-            error.partial = Development(system, maps)
-            raise error.with_hint(f"{'Step 0 is' if step == 1 else f'Steps 0-{step - 1} are'} kept. {error.hint}") from None
+    with Task():
+        for step in range(1, steps + 1):
+            try:
+                maps.append(_next_map(maps[-1], productions, step))
+            except ModelLimitError as error:
+                error.partial = Development(system, maps)
+                kept = "Step 0 is" if step == 1 else f"Steps 0-{step - 1} are"
+                raise error.with_hint(f"{kept} kept. {error.hint}") from None
     return Development(system, maps)
+
+
+def _next_map(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) -> Map:
+    with Task(f"Step {step} was not reached"):
+        check_budget()
+        return map_step(found, productions, step)
 
 
 def first_map(system: MapSystem) -> Map:

@@ -6,20 +6,17 @@ cell joins two markers that match, at most once. Nothing else changes, so the ti
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from lsys_kit.budget import current
+from lsys_kit.budget import counted, current
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, Marker
 
 WALL_BYTES = 420
 """About what a wall takes in memory, with its share of vertices and cells."""
-CELLS_BETWEEN_CHECKS = 1_000
-"""How many cells are divided between two looks at the clock."""
 
 
 class DividedWall(NamedTuple):
@@ -40,15 +37,13 @@ class Mark(NamedTuple):
     edge: Edge
 
 
-def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int, until: float) -> Map:
+def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) -> Map:
     """The map of the next step."""
     check_walls(sum(len(_successor(wall, productions)) for wall in found.walls), step)
     vertices, walls = [*found.vertices], list[Wall]()
-    partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in found.walls]
+    partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in counted(found.walls)]
     cells, mothers = [], []
-    for number, cell in enumerate(found.cells):
-        if number % CELLS_BETWEEN_CHECKS == 0:
-            _check_time(step, until)
+    for number, cell in enumerate(counted(found.cells)):
         daughters = _divided(*_replaced(cell, partings), walls)
         cells += daughters
         mothers += [number] * len(daughters)
@@ -144,9 +139,3 @@ def check_walls(size: int, step: int) -> None:
     if size * WALL_BYTES > most.bytes:
         raise ModelLimitError(f"Step {step} would take about {size * WALL_BYTES:,} bytes; the limit is {most.bytes:,}",
                               limit=most.bytes, needed=size * WALL_BYTES, hint="Take fewer steps, or set limits(bytes=...).")
-
-
-def _check_time(step: int, until: float) -> None:
-    if time.monotonic() > until:
-        raise ModelLimitError(f"Step {step} was not reached in {current().seconds:g} seconds", limit=current().seconds,
-                              hint="Take fewer steps, or set limits(seconds=...).")

@@ -12,16 +12,14 @@ At its terminal age a cell is not yet divided. The lengths of cells are the subj
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from itertools import repeat
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, check_budget, current
 from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.rules import number_from
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.engines.engine import CLOCK_INTERVAL
 from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model
 from lsys_kit.derivation.timed.lives import undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError
@@ -75,12 +73,13 @@ class Timed:
             raise ModelValueError(f'"time" must be a number, not {number_text(given)!r}')
         if given < 0:
             raise ModelValueError(f"The time must not be before the axiom, which is at 0, but it is {at}")
-        return self.later([self.states.modules[state] for state in self.states.axiom], given)
+        with Task("The word was not reached"):
+            return self.later([self.states.modules[state] for state in self.states.axiom], given)
 
     def later(self, word: list[Module], passed: Value) -> Word:
         """What a row of modules becomes in a time: D(word, passed)."""
         found: list[int] = []
-        until, most, deepest = time.monotonic() + current().seconds, current().modules, current().brackets
+        most, deepest = current().modules, current().brackets
         todo = [(module, passed, 0) for module in reversed(word)]
         visited = 0
         while todo:
@@ -98,9 +97,8 @@ class Timed:
             if len(found) + len(todo) > most:
                 raise ModelLimitError(f"The word would have more than {most:,} modules", limit=most,
                                       hint="Take an earlier time, or set limits(modules=...).")
-            if visited % CLOCK_INTERVAL == 0 and time.monotonic() > until:
-                raise ModelLimitError(f"The word was not reached in {current().seconds:g} seconds", limit=current().seconds,
-                                      hint="Take an earlier time, or set limits(seconds=...).")
+            if visited % MODULES_BETWEEN_CHECKS == 0:
+                check_budget()
         return Word(self.states, found)
 
     def division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:

@@ -1,0 +1,57 @@
+"""Results that are kept as long as there is room for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Generic, TypeVar
+
+from lsys_kit.budget import current
+
+_K = TypeVar("_K")
+_V = TypeVar("_V")
+
+
+class Kept(Generic[_K, _V]):
+    """Results that can be computed again: those used last are kept, as many as the limit of bytes has room for.
+
+    Parameters
+    ----------
+    size
+        How many bytes a result takes.
+    share
+        What part of the limit there is room for.
+
+    Examples
+    --------
+    >>> from lsys_kit.budget import limits
+    >>> with limits(bytes=10):
+    ...     kept = Kept(len)
+    ...     for text in ("four", "five5", "six"):
+    ...         _ = kept.put(text, text)
+    >>> kept.get("four"), kept.get("five5"), kept.get("six")
+    (None, 'five5', 'six')
+    """
+
+    def __init__(self, size: Callable[[_V], int], share: float = 1.0) -> None:
+        self._size, self._share = size, share
+        self._found: dict[_K, _V] = {}
+        self._bytes = 0
+
+    def __iter__(self) -> Iterator[_K]:
+        """The keys of what is kept; what was used last is the last one."""
+        return iter(self._found)
+
+    def get(self, key: _K) -> _V | None:
+        """A result, or None."""
+        found = self._found.pop(key, None)
+        if found is not None:
+            self._found[key] = found  # the last one in a dictionary was used last
+        return found
+
+    def put(self, key: _K, result: _V) -> _V:
+        """Keep a result."""
+        self._found[key] = result
+        self._bytes += self._size(result)
+        while self._bytes > current().bytes * self._share and len(self._found) > 1:
+            self._bytes -= self._size(self._found.pop(next(iter(self._found))))
+        return result
