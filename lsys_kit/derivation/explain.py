@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.matching import neighbours_along, values_at
 from lsys_kit.derivation.core.rules import Rule, kind_of
+from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.stepwise import ParentWord, Stepper, surviving
@@ -90,12 +92,17 @@ def explain(derivation: Derivation, step: int) -> Explanation:
     2. a becomes b: production 1, b < a -> b
          production 2, a -> c: matches too, but production 1 stands before it
     """
+    with Task(f"The explanation of step {step} was not finished"):
+        return _explanation(derivation, step)
+
+
+def _explanation(derivation: Derivation, step: int) -> Explanation:
     origins, new, sight = derivation.origins(step), derivation[step].numbers(), derivation.sight(step - 1)
     stepper = Stepper(derivation.states, 0)
     old = stepper.old(sight.word.numbers(), sight.sees) if sight else stepper.old(derivation[step - 1].numbers())
     successors: dict[int, list[Module]] = {}
     applied: dict[int, int | None] = {}
-    for code, parent, production in zip(new, origins.parents, origins.productions, strict=True):
+    for code, parent, production in counted(zip(new, origins.parents, origins.productions, strict=True)):
         successors.setdefault(parent, []).append(derivation.states.modules[code])
         applied[parent] = production
     return Explanation(_outcomes(stepper, old, successors, applied, origins.sizes or [1] * len(old.modules)))
@@ -104,7 +111,8 @@ def explain(derivation: Derivation, step: int) -> Explanation:
 def _outcomes(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]],
               applied: dict[int, int | None], sizes: Sequence[int]) -> Iterator[ModuleOutcome]:
     system = stepper.states.system
-    for position, (kept, size) in enumerate(zip(surviving(old.symbols), sizes, strict=True)):
+    outcomes = zip(surviving(old.symbols), sizes, strict=True)
+    for position, (kept, size) in enumerate(counted(outcomes, MODULES_BETWEEN_CHECKS)):
         if not size:
             continue  # it was replaced together with one before it
         module = old.modules[position]

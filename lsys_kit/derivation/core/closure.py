@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import ModelValueError
 
@@ -32,6 +33,7 @@ def closure(states: States, limit: int) -> Sequence[int] | None:
     while done < len(states):
         if len(states) > limit:
             return None
+        check_budget()
         states.successor(done)
         done += 1
     return range(done)

@@ -8,18 +8,17 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import count, islice
+from itertools import islice
 from typing import TYPE_CHECKING
 
-from lsys_kit.budget import current
-from lsys_kit.derivation.core.chance import splitmix64
+from lsys_kit.budget import Task, current, supervised
 from lsys_kit.derivation.core.closure import check_d0l, closure
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.counting import next_counts
+from lsys_kit.derivation.growth.counts import counts_of_steps, held, orbit, row_of
 from lsys_kit.derivation.growth.recurrences import (
     closed_form,
     generating_function,
@@ -38,6 +37,7 @@ from lsys_kit.notation.model.system import LSystem
 if TYPE_CHECKING:
     import sympy
 
+RECURRENCE_MISSING = "The recurrence of the lengths was not found"
 DIGITS = 3_000_000
 """The most digits of a count."""
 
@@ -71,8 +71,9 @@ class Growth:
         """
         import sympy
 
-        rows = [Counter(self.table.successor(state)) for state in range(len(self.table))]
-        return sympy.Matrix(len(rows), len(rows), lambda i, j: rows[i][j])
+        with Task("The growth matrix was not found"), supervised():
+            rows = [Counter(self.table.successor(state)) for state in range(len(self.table))]
+            return sympy.Matrix(len(rows), len(rows), lambda i, j: rows[i][j])
 
     def counts(self, step: int) -> tuple[int, ...]:
         """How often each state occurs at a step, exactly, however late the step is.
@@ -82,12 +83,13 @@ class Growth:
         >>> found.counts(10), found.counts(1_000_000)[0].bit_length()
         ((89, 55), 694242)
         """
-        self._check(step)
-        if step <= 4 * len(self.table):
-            return self._vector(next(islice(self._followed(), step, None)))
-        rule, first = self._orbit
-        weights = remainder_of_power(rule, step)
-        return tuple(sum(c * n for c, n in zip(weights, column, strict=True) if n) for column in zip(*first, strict=True))
+        with Task(f"The counts of step {step} were not found"):
+            self._check(step)
+            if step <= 4 * len(self.table):
+                return row_of(self.table, next(islice(counts_of_steps(self.table), step, None)))
+            rule, first = self._orbit
+            weights = remainder_of_power(rule, step)
+            return tuple(sum(c * n for c, n in zip(weights, column, strict=True) if n) for column in zip(*first, strict=True))
 
     def lengths(self, steps: int) -> list[int]:
         """The number of modules at steps 0 to `steps`, exactly, however large.
@@ -108,17 +110,10 @@ class Growth:
         return self._summed(steps, [state for state, module in enumerate(self.states) if module.symbol == symbol])
 
     def _summed(self, steps: int, states: Sequence[int]) -> list[int]:
-        return [sum(counts.get(state, 0) for state in states) for counts in islice(self._followed(), steps + 1)]
-
-    def _followed(self) -> Iterator[Mapping[int, int]]:
-        """How often each state occurs at step 0, 1, 2, ..."""
-        counts: Mapping[int, int] = Counter(self.table.axiom)
-        while True:
-            yield counts
-            counts = next_counts(self.table, counts)
-
-    def _vector(self, counts: Mapping[int, int]) -> tuple[int, ...]:
-        return tuple(counts.get(state, 0) for state in range(len(self.table)))
+        with Task("The lengths were not found"):
+            followed = islice(counts_of_steps(self.table), steps + 1)
+            rows = ((sum(counts.get(state, 0) for state in states),) for counts in followed)
+            return [length for length, in held(rows)]
 
     def _check(self, step: int) -> None:
         """Refuse a step that is no whole number, or so late that its counts would be too long to use."""
@@ -136,9 +131,10 @@ class Growth:
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).length(100)
         927372692193078999176
         """
-        self._check(step)
-        rule, terms = self._rule
-        return sum(c * term for c, term in zip(remainder_of_power(rule, step), terms, strict=True))
+        with Task(f"The length of step {step} was not found"):
+            self._check(step)
+            rule, terms = self._rule
+            return sum(c * term for c, term in zip(remainder_of_power(rule, step), terms, strict=True))
 
     def recurrence_of(self, symbol: str) -> tuple[int, ...]:
         """The shortest rule for the number of modules with a symbol, in the long run.
@@ -147,7 +143,8 @@ class Growth:
         >>> growth(read("axiom: A\\nA -> A B\\nB -> B C")).recurrence_of("B")
         (2, -1)
         """
-        return tuple(map(int, shortest_recurrence(self.counts_of(symbol, 2 * len(self.table) + 1))))
+        with Task(RECURRENCE_MISSING):
+            return tuple(map(int, shortest_recurrence(self.counts_of(symbol, 2 * len(self.table) + 1))))
 
     @cached_property
     def recurrence(self) -> tuple[int, ...]:
@@ -157,7 +154,8 @@ class Growth:
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).recurrence
         (1, 1)
         """
-        return tuple(map(int, shortest_recurrence(self._terms)))
+        with Task(RECURRENCE_MISSING):
+            return tuple(map(int, shortest_recurrence(self._terms)))
 
     @cached_property
     def _rule(self) -> tuple[tuple[int, ...], list[int]]:
@@ -172,19 +170,8 @@ class Growth:
 
     @cached_property
     def _orbit(self) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """The shortest rule that the counts of all states obey together, and as many rows of counts.
-
-        It is the rule of a weighted sum of the counts, unless the weights are unlucky; so it is checked against the counts.
-        """
-        rows = [self._vector(counts) for counts in islice(self._followed(), 2 * len(self.table) + 2)]
-        for trial in count():
-            weights = [splitmix64(splitmix64(trial) ^ state) % 2**20 for state in range(len(self.table))]
-            rule = tuple(map(int, shortest_rule([sum(map(int.__mul__, weights, row)) for row in rows])))
-            size = len(rule)
-            if all(column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c)
-                   for column in zip(*rows, strict=True)):
-                return rule, rows[:size]
-        raise AssertionError("every trial failed")
+        """The shortest rule that the counts of all states obey together, and as many rows of counts."""
+        return orbit(self.table)
 
     @property
     def characteristic(self) -> sympy.Poly:
@@ -196,7 +183,8 @@ class Growth:
         """
         import sympy
 
-        return self.matrix.charpoly(sympy.Symbol("x"))
+        with Task("The characteristic polynomial was not found"), supervised():
+            return self.matrix.charpoly(sympy.Symbol("x"))
 
     @property
     def polynomial(self) -> sympy.Poly:
@@ -211,7 +199,8 @@ class Growth:
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).generating_function
         (x + 1)/(-x**2 - x + 1)
         """
-        return generating_function(*self._rule)
+        with Task("The generating function was not found"), supervised():
+            return generating_function(*self._rule)
 
     @property
     def closed_form(self) -> sympy.Expr | None:
@@ -223,7 +212,8 @@ class Growth:
         >>> growth(read("axiom: F\\nF -> F+F")).closed_form
         2*2**t - 1
         """
-        return closed_form(*self._rule)
+        with Task("The closed form was not found"), supervised():
+            return closed_form(*self._rule)
 
     @property
     def rate(self) -> float:
@@ -235,7 +225,8 @@ class Growth:
         >>> round(growth(read("axiom: A\\nA -> BB\\nB -> A")).rate**2, 9)
         2.0
         """
-        return greatest_root(self.recurrence)
+        with Task("The growth per step was not found"):
+            return greatest_root(self.recurrence)
 
     @property
     def frequencies(self) -> tuple[float, ...] | None:
@@ -247,13 +238,14 @@ class Growth:
         >>> growth(read("axiom: A\\nA -> BB\\nB -> A")).frequencies is None
         True
         """
-        rule, first = self._orbit
-        weights = leading_weights(rule, max((n for row in first for n in row), default=0).bit_length())
-        if weights is None:
-            return None
-        parts = [max(0, sum(w * n for w, n in zip(weights, column, strict=True))) for column in zip(*first, strict=True)]
-        whole = sum(parts)
-        return tuple(round(part / whole, 15) for part in parts)
+        with Task("The shares of the states were not found"):
+            rule, first = self._orbit
+            weights = leading_weights(rule, max((n for row in first for n in row), default=0).bit_length())
+            if weights is None:
+                return None
+            parts = [max(0, sum(w * n for w, n in zip(weights, column, strict=True))) for column in zip(*first, strict=True)]
+            whole = sum(parts)
+            return tuple(round(part / whole, 15) for part in parts)
 
     def __repr__(self) -> str:
         rule = " + ".join(f"{'' if c == 1 else f'{c} '}N(t-{k})" for k, c in enumerate(self.recurrence, 1) if c)
@@ -286,6 +278,11 @@ def growth(system: LSystem, **constants: object) -> Growth:
     >>> growth(read("axiom: a\\na -> ab\\nb -> a"))
     2 states; lengths 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, ...; N(t) = N(t-1) + N(t-2); growth per step 1.6180
     """
+    with Task("The growth was not found"):
+        return _growth(system, constants)
+
+
+def _growth(system: LSystem, constants: dict[str, object]) -> Growth:
     with suppress(ModelValueError):  # what cannot be counted may not matter, and be sliced away
         states = States(system, constants)
         if states.traits.d0l and closure(states, current().states) is not None:

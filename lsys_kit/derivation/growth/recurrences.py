@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lsys_kit.budget import check_budget, counted, supervised
+
 if TYPE_CHECKING:
     import sympy
 
@@ -53,7 +55,7 @@ def shortest_recurrence(terms: Sequence[int]) -> list[Fraction]:
 
 def _obeyed(rule: Sequence[int], terms: Sequence[int]) -> bool:
     used = [(k, c) for k, c in enumerate(rule, 1) if c]
-    return all(terms[t] == sum(c * terms[t - k] for k, c in used) for t in range(len(rule), len(terms)))
+    return all(terms[t] == sum(c * terms[t - k] for k, c in used) for t in counted(range(len(rule), len(terms)), 1))
 
 
 def _massey(terms: Sequence[int], prime: int) -> list[Any]:
@@ -61,7 +63,7 @@ def _massey(terms: Sequence[int], prime: int) -> list[Any]:
     rule: list[Any] = []
     best: list[Any] = []
     best_end, best_error = -1, 1
-    for t, term in enumerate(terms):
+    for t, term in enumerate(counted(terms, 1)):
         error: Any = term - sum(c * terms[t - k] for k, c in enumerate(rule, 1) if c)
         error = error % prime if prime else Fraction(error)
         if not error:
@@ -95,13 +97,14 @@ def remainder_of_power(rule: Sequence[int], exponent: int) -> list[int]:
     found = [1] + [0] * (len(rule) - 1) if rule else []
     for bit in f"{exponent:b}" if rule else "":
         square = [0] * (2 * len(rule))
-        for i, a in enumerate(found):
+        for i, a in enumerate(counted(found, 1)):
             if a:
                 square[2 * i + (bit == "1")] += a * a
                 for j in range(i):
                     square[i + j + (bit == "1")] += 2 * a * found[j]
         for degree in range(len(square) - 1, len(rule) - 1, -1):
             top = square.pop()
+            check_budget()
             for k, c in used if top else ():
                 square[degree - k] += c * top
         found = square
@@ -151,9 +154,11 @@ def greatest_root(rule: Sequence[int], exact: bool = True) -> float:
     if not any(rule):
         return 0.0
     if exact:
-        rule = [-int(c) for c in polynomial(rule).sqf_part().all_coeffs()[1:]]
+        with supervised():
+            rule = [-int(c) for c in polynomial(rule).sqf_part().all_coeffs()[1:]]
     above, root = math.inf, 2 * max(math.exp(math.log(abs(c)) / k) for k, c in enumerate(rule, 1) if c)
     while root < above:
+        check_budget()
         value, slope = 1.0, 0.0
         for k, share in _scaled(rule, root):
             value, slope = value - share, slope + k * share
@@ -190,7 +195,8 @@ def leading_weights(rule: Sequence[int], bits: int) -> list[int] | None:
     if not any(rule):
         return None
     peak = greatest_root(rule)
-    rows = [[int(c) for c in factor.all_coeffs()] for factor, _ in polynomial(rule).sqf_list()[1]]
+    with supervised():
+        rows = [[int(c) for c in factor.all_coeffs()] for factor, _ in polynomial(rule).sqf_list()[1]]
     row = min(rows, key=lambda row: abs(1 - sum(share for _, share in _scaled([-c for c in row[1:]], peak))))
     if _swings([-c for c in row[1:]], peak):
         return None

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import shares
 from lsys_kit.derivation.core.rule_errors import UNKNOWN, rule_error
 from lsys_kit.derivation.core.states import States
@@ -66,5 +67,6 @@ def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None
     while len(found) < len(states):
         if len(states) > limit:
             return None
+        check_budget()
         found.append(outcomes_of(states, len(found)))
     return found

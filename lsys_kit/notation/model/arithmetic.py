@@ -11,7 +11,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from lsys_kit.budget import current
+from lsys_kit.budget import current, supervised
 
 Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""
@@ -92,6 +92,10 @@ def is_symbolic(value: object) -> bool:
     return not isinstance(value, int | Fraction | float)
 
 
+MOST_TERMS = 1_000
+"""A symbolic value has at most so many terms."""
+
+
 def equal_values(left: Value, right: Value) -> bool:
     """Whether two values are equal; undecided where that depends on an unknown constant.
 
@@ -105,8 +109,7 @@ def equal_values(left: Value, right: Value) -> bool:
     """
     if (left.__class__ is int and right.__class__ is int) or not (is_symbolic(left) or is_symbolic(right)):
         return left == right
-    difference: Any = left - right
-    difference = difference.expand()
+    difference: Any = _expanded(left - right)
     if difference.free_symbols:
         raise TypeError
     return bool(difference == 0)
@@ -120,10 +123,19 @@ def expanded_value(value: Any) -> Value:
     >>> expanded_value(t + 2 * (t + 1)), expanded_value(t - t + sympy.Rational(1, 2))
     (3*t + 2, Fraction(1, 2))
     """
-    value = value.expand()
+    value = _expanded(value)
     if value.is_Rational:
         return normalised(Fraction(int(value.p), int(value.q)))
     return float(value) if value.is_Float else value
+
+
+def _expanded(value: Any) -> Any:
+    """A symbolic value, multiplied out; refused where that has too many terms."""
+    with supervised():
+        found = value.expand()
+    if len(found.args) > MOST_TERMS:
+        raise OverflowError
+    return found
 
 
 def short_text(value: Value) -> str:
