@@ -13,8 +13,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.errors import quotable
-
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 
@@ -261,11 +259,6 @@ class Scene:
         """The extent from the lowest point to the highest, in the units of the model."""
         _, bottom, _, top = self.box
         return top - bottom
-
-    @property
-    def passed_over(self) -> str:
-        """The symbols that look like commands and are none, in words; empty if there are none."""
-        return f"passed over, without a meaning here: {quotable(' '.join(self.unknown))}" if self.unknown else ""
 
     def __str__(self) -> str:
         """The scene in words: the line that replaces a picture where none can be shown."""

@@ -17,6 +17,7 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.display_list import WIDTH, frame_around
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
@@ -124,7 +125,7 @@ class Picture:
         return {"image/svg+xml": self.svg, "text/plain": repr(self)}
 
     def __repr__(self) -> str:
-        return "; ".join(filter(None, (self.text, self.scene.passed_over)))
+        return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lsys_kit import derive, read
+from lsys_kit import derive, draw, read
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
-from lsys_kit.geometry.turtle.surfaces import surface_called, surfaces
+from lsys_kit.geometry.turtle.surfaces import passed_over, surface_called, surfaces
 
 
 def in_space(text, notation=None):
@@ -72,6 +72,20 @@ def test_a_surface_that_nobody_knows_is_listed_once():
     scene = in_space("axiom: F ~X(2) L ~X(3) [~ L]")
     assert scene.unknown == ("~X",)
     assert len(scene.polygons) == len(surfaces()["leaf"].faces)
+
+
+@pytest.mark.parametrize(("word", "said"), [
+    ("F ~X(2) ~l ~X", "no surface is called X or l: there are L (leaf), P (petal), B (bud), K (flower), rosette"),
+    ("F RH ~ Leaf", "passed over, without a meaning here: RH; no surface is called Leaf: there are L (leaf)"),
+    ("F ~", "passed over, because no surface is named after it: ~"), ("F ~L ~rosette(2)", ""),
+])
+@pytest.mark.parametrize("more", ["", "&(30)F"])
+def test_what_is_no_surface_is_said_with_those_that_there_are(word, said, more):
+    text = f"axiom: {more} {word}"
+    scene = in_space(text) if more else in_the_plane(text)
+    assert passed_over(scene.unknown).startswith(said)
+    assert bool(scene.unknown) == bool(said)
+    assert repr(draw(derive(read(text), 0))).endswith(passed_over(scene.unknown))
 
 
 def test_in_the_plane_a_surface_is_flat():

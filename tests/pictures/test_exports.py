@@ -218,6 +218,21 @@ def test_the_last_step_is_held():
     assert gif.info["loop"] == 0
 
 
+@pytest.mark.parametrize("text", ["axiom: A\nA -> B\nB -> A F", "axiom: F\nF -> F", "axiom: F\nF -> F[+F]"])
+def test_a_film_lasts_as_long_as_its_steps_where_nothing_changes_too(text):
+    film = Image.open(io.BytesIO(animate(read(text), 5, seconds="0.5").gif))
+    times = [frame.info["duration"] for frame in ImageSequence.Iterator(film)]
+    assert sum(times) == 5 * 500 + 2000
+    assert times[-1] >= 2000
+
+
+@pytest.mark.slow
+def test_a_gif_of_many_colours_looks_like_its_pictures():
+    film = animate(BUSH, 5)
+    for shown, image in zip(frames(film.gif), film.images, strict=True):
+        assert np.abs(np.array(shown, int) - np.array(image)).mean() < 1
+
+
 def test_a_film_is_the_same_every_time():
     one, two = animate(system("K5"), 3), animate(system("K5"), 3)
     assert (one.gif, one.apng) == (two.gif, two.apng)

@@ -25,6 +25,7 @@ from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.turtle.mode import DrawingMode
+from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.diagram import drawn_stages
@@ -236,8 +237,8 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
             self._diagram.value = diagram
         states = sum(count > 0 for count in sight.tokens)
         said = f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.scene}"
-        if sight.scene.passed_over:
-            said += f"; {escaped(sight.scene.passed_over)}"
+        if sight.scene.unknown:
+            said += f"; {escaped(passed_over(sight.scene.unknown))}"
         self._status.value = f'<span role="status" style="font:14px sans-serif;color:{INK}">{said}</span>'
         self.sight, self._chosen = sight, constants
 

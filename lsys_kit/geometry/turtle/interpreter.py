@@ -242,6 +242,8 @@ def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
             turtle.state = state
             for handler, operand in compiled.calls[state]:
                 handler(turtle, operand)
+        if turtle.expects_surface:
+            turtle.unknown["~"] = None
 
 
 @contextmanager

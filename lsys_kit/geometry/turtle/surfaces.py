@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from itertools import pairwise
 from typing import TypeAlias
 
+from lsys_kit.errors import quotable
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
@@ -60,6 +61,31 @@ def surface_called(symbol: str) -> Surface | None:
     'flower'
     """
     return next((surface for surface in surfaces().values() if symbol in surface.symbols), None)
+
+
+def passed_over(unknown: Sequence[str]) -> str:
+    """What a turtle has passed over, in words; empty if that is nothing.
+
+    Parameters
+    ----------
+    unknown
+        Symbols that look like commands and are none; after a tilde, what no surface is called.
+
+    Examples
+    --------
+    >>> passed_over(["~X"])
+    'no surface is called X: there are L (leaf), P (petal), B (bud), K (flower), rosette'
+    >>> passed_over(["~"])
+    'passed over, because no surface is named after it: ~'
+    """
+    names = [symbol[1:] for symbol in unknown if symbol[0] == "~" and symbol != "~"]
+    others = [symbol for symbol in unknown if symbol[0] != "~"]
+    there_are = ", ".join(f"{surface.symbols[0]} ({surface.name})" if len(surface.symbols) > 1 else surface.name
+                          for surface in surfaces().values())
+    said = [f"passed over, without a meaning here: {quotable(' '.join(others))}" if others else "",
+            f"no surface is called {quotable(' or '.join(names))}: there are {there_are}" if names else "",
+            "passed over, because no surface is named after it: ~" if "~" in unknown else ""]
+    return "; ".join(filter(None, said))
 
 
 def surfaces_of(system: LSystem) -> Mapping[str, str]:
