@@ -13,15 +13,18 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
+from lsys_kit.notation.dialects.cpfg.variables import SEED
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
+from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements, place_of
 
 _SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
 SYMBOL_PATTERN = re.compile(r"@T[a-z]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
 """A symbol: a character, or "@" or "?" with a letter."""
+SILENT = frozenset(("printf", "fprintf", "fflush", "fclose", "stop", "play", "Display"))
+"""Functions that change nothing in a model when they are called for their own sake."""
 _SECTION_NAMES = {"production": "productions", "homomorphism": "interpretation"}
 """Sections, and what the kit calls them."""
 
@@ -151,8 +154,20 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def after(self, block: Block) -> tuple[str, Block]:
         return "after", block
 
-    def block(self, *instructions: Assignment | Choice) -> Block:
-        return instructions
+    def block(self, *instructions: Any) -> Block:
+        return tuple(instruction for instruction in instructions if instruction != ())
+
+    def phase(self, keyword: Token, *instructions: Any) -> tuple[str, Any]:
+        return "deferred", ("phase", ("".join(keyword.rstrip(": \t").lower().split()), self.block(*instructions)))
+
+    def procedure(self, name: Token, *values: Expression | Token) -> Any:
+        """A call for its own sake: what only prints or plays is left out, and what starts chance anew is an assignment."""
+        if name == SEED and len(values) == 1 and not isinstance(values[0], Token):
+            return Assignment(self.name(name), as_number(values[0]))
+        if name in SILENT:
+            return ()
+        raise ActionError(ModelSyntaxError, f"The kit has no {name}(...)", place_of(name),
+                          "Compute what a rule needs in its own block, with assignments and if.")
 
     def assignment(self, name: Token, _: Token, value: Expression) -> Assignment:
         return Assignment(self.name(name), as_number(value))

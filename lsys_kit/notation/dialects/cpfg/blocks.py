@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
@@ -66,6 +66,20 @@ def substitute(production: Production, before: Block, after: Block, constants: C
         probability=None if probability is None else rule.replaced(probability, last))
     _check_draws(done, (*before, *after), source)
     return done
+
+
+def computed(block: Block, constants: Iterable[str], source: str) -> Bindings:
+    """What the statements of a block compute, by name; they may use constants, and do not change them.
+
+    >>> print(computed((Assignment(Name("n"), Name("k")), Assignment(Name("m"), Name("n"))), ["k"], "")["m"])
+    k
+    """
+    return _Rule(frozenset(), frozenset(constants), source).computed(block, {})
+
+
+def assigned_names(block: Block) -> set[str]:
+    """The names to which the statements of a block give values."""
+    return {assignment.name.name for assignment in _assignments(block)}
 
 
 def _substituted_module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:

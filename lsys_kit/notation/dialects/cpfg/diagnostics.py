@@ -16,12 +16,11 @@ _CONSTANTS = 'Constants are declared with "#define", as in "#define n 3".'
 _OWN_BLOCK = "Compute what a rule needs in its own block, with assignments and if."
 
 MISSING_FEATURES: Sequence[tuple[str, str, str]] = (
-    (r"(start|end)[ \t]*(each)?[ \t]*:", "statements that run before or after the steps", _CONSTANTS),
-    (r"define[ \t]*:", "arrays", _CONSTANTS),
+    (r"define[ \t]*:", "arrays that change, or have no values from the start", "Write their values where they are used."),
     (r"ring[ \t]+lsystem", "words whose ends are joined", "Without this line a word has two ends."),
 )
 """Features of cpfg that the kit lacks: how a statement begins, what it is, and what to do instead."""
-_BEHIND_A_NAME = {"(": "statements that call a function", "[": "arrays", "{": "loops"}
+_BEHIND_A_NAME = {"[": "arrays", "{": "loops"}
 """What a statement in a block is, by the character that follows its first name."""
 
 CPFG_KEYWORDS: Mapping[str, str] = {
@@ -58,12 +57,13 @@ def _included(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
     """A statement that is neither an assignment nor a choice, or an element of an array."""
+    loop = re.search(r"[{;}]\s*(while|do)\b", failure.statement)
+    if loop:
+        return failure.error("The kit has no loops", _OWN_BLOCK, failure.start + loop.start(1), len(loop[1]))
     name, what = re.search(r"\w+$", failure.before), _BEHIND_A_NAME.get(failure.found[:1])
-    behind = failure.accepted == {"EQUAL"} or (what == "arrays" and "TIMES" in failure.accepted)
+    behind = failure.accepted == {"EQUAL", "LPAR"} or (what == "arrays" and "TIMES" in failure.accepted)
     if name is None or what is None or not behind:
         return None
-    if name[0] in ("while", "do"):
-        what = "loops"
     return failure.error(f"The kit has no {what}", _OWN_BLOCK, failure.start + name.start(), len(name[0]))
 
 
@@ -106,7 +106,7 @@ def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
     """A keyword that is misspelt, or without its colon or its value."""
     statement = failure.statement
     word = re.match(r"([A-Za-z]{3,}(?:[ \t]+[A-Za-z]{3,})?)[ \t]*(:?)[ \t]*", statement)
-    if not word or ARROW.search(statement):
+    if not word or ARROW.search(statement) or re.match(r"(start|end)[ \t]*(each)?[ \t]*:\s*\{", statement, re.IGNORECASE):
         return None
     name, rest = " ".join(word[1].lower().split()), excerpt(statement[word.end():].strip())
     keyword = _SYNONYMS.get(name) or _similar_keyword(name)

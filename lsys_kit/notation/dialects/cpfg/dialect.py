@@ -9,16 +9,17 @@ from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
-from lsys_kit.notation.dialects.cpfg.actions import CpfgStatements
-from lsys_kit.notation.dialects.cpfg.blocks import substitute
+from lsys_kit.notation.dialects.cpfg.actions import SILENT, CpfgStatements
+from lsys_kit.notation.dialects.cpfg.blocks import Block, substitute
 from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.cpfg.preprocessor import preprocessed
 from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
 from lsys_kit.notation.dialects.cpfg.statements import statements
+from lsys_kit.notation.dialects.cpfg.variables import Variables, check_changing, variables_of
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
-from lsys_kit.notation.model.modules import flat
-from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem
+from lsys_kit.notation.model.modules import Pattern, flat
+from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
@@ -45,7 +46,8 @@ def _finish(draft: Draft) -> LSystem:
 
 def _resolve_deferred(draft: Draft) -> None:
     """Take in what is known only when the whole text is read: the sections, and what the blocks of the rules compute."""
-    section, constants = "productions", [constant.name for constant in draft.constants]
+    section, variables = "productions", _variables(draft)
+    constants = [constant.name for constant in draft.constants]
     draft.settings["branches"] = NEXT_BRANCH
     for kind, record, at in sorted(draft.deferred, key=lambda deferred: deferred[0] == "passed"):
         if kind == "section":
@@ -59,6 +61,28 @@ def _resolve_deferred(draft: Draft) -> None:
         elif kind == "count":
             keyword, expression = record
             _resolve_count(draft, section, keyword, expression, at)
+    axiom = Production(Pattern("axiom"), draft.axiom or ())
+    check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing, draft.source)
+
+
+def _variables(draft: Draft) -> Variables:
+    """Take in what is computed around the steps."""
+    phases: dict[str, list[Block]] = {}
+    blocks: list[Block] = []
+    for kind, record, _ in draft.deferred:
+        if kind == "phase":
+            phases.setdefault(record[0], []).append(record[1])
+        elif kind == "rule":
+            blocks += record[1:]
+    found = variables_of(phases, blocks, [constant.name for constant in draft.constants], draft.source)
+    draft.constants += found.constants
+    if found.seed is not None and all(record[0] != "seed" for kind, record, _ in draft.deferred if kind == "count"):
+        draft.deferred.append(("count", ("seed", found.seed), found.seed.at or (0, 0)))
+    silent = sorted({name for name in SILENT if re.search(rf"\b{name}[ \t]*\(", draft.source)} | {"End:"} & {
+        "End:" for phase in phases if phase == "end"})
+    if silent:
+        draft.notes.append(f"Left out, because it changes nothing in the model: {', '.join(silent)}.")
+    return found
 
 
 def _resolve_passed(draft: Draft, passed: tuple[str, tuple[str, ...], bool], at: tuple[int, int]) -> None:
@@ -114,7 +138,7 @@ def _notes(draft: Draft) -> Iterator[str]:
     for constant in draft.constants:
         start, end = constant.at or (0, 0)
         value = _DEFINED.sub("", text[start:end]).strip()
-        if _infix(constant.value) and not _enclosed(value):
+        if constant.at and _infix(constant.value) and not _enclosed(value):
             yield f'The macro "{constant.name}" is a number here; cpfg puts its text in place: write "({value})".'
     yield from _split_symbols(draft)
     for production in (production for rules in draft.sections.values() for production in rules):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelSyntaxError
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.expressions import is_random, names_in
 from lsys_kit.notation.syntax.text.transcript import Edit
 
@@ -21,16 +21,30 @@ Parse = Callable[[str, str], Any]
 _NAME = re.compile(r"(?<!\w)[A-Za-z_]\w*")
 _OBJECT = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)(?!\()", re.MULTILINE)
 _LIKE_A_NUMBER = re.compile(r"-?[\d.(=]|[A-Za-z_]\w*[ \t]*[(*/+%^-]")
-_OPENED, _SIGNS = re.compile(r"\s*\("), re.compile(r"[()\[\]{},]")
+_RANDOM = re.compile(r"\b(?:n|b|bi)?ran\s*\(")
+_OPENED, _INDEXED, _SIGNS = re.compile(r"\s*\("), re.compile(r"\s*\["), re.compile(r"[()\[\]{},]")
+_ARRAY = re.compile(r"([A-Za-z_]\w*)\s*\[[^\[\]{}]*\]\s*=\s*\{([^{}]*)\}")
+_CHANGED = re.compile(r"([A-Za-z_]\w*)\s*\[[^\[\]=]*\]\s*=(?![={]|\s*\{)")
 _DIGITS = re.compile(r"[\d.,\s]+")
 
 
 @dataclass(frozen=True)
 class Macro:
-    """A name and the text that is put in its place; its parameters, where it is written with values in parentheses."""
+    """A name and the text that is put in its place.
+
+    Attributes
+    ----------
+    body
+        The text.
+    parameters
+        Its parameters, where it is written with values in parentheses.
+    elements
+        The elements of an array that nothing changes; there is no other text.
+    """
 
     body: str
     parameters: tuple[str, ...] | None = None
+    elements: tuple[str, ...] = ()
 
 
 class Macros:
@@ -103,7 +117,13 @@ class Macros:
         if macro is None:
             return None
         body = macro.body
-        if macro.parameters is not None:
+        if macro.elements:
+            opened = _INDEXED.match(text, end)
+            if opened is None:
+                return None
+            given, end = self._values(text, opened.end(), at)
+            body = self._element(macro.elements, self.expanded(",".join(given), at, hidden), at)
+        elif macro.parameters is not None:
             opened = _OPENED.match(text, end)
             if opened is None:
                 return None
@@ -122,14 +142,24 @@ class Macros:
         self._spend(sum(len(known.get(found, "")) for found in _NAME.findall(macro.body)), at)
         return _NAME.sub(lambda found: known.get(found.group(), found.group()), macro.body)
 
+    def _element(self, elements: tuple[str, ...], index: str, at: int) -> str:
+        """What chooses an element; below the first and beyond the last it is the nearest, as in cpfg, which warns of that."""
+        if _RANDOM.search(index):
+            raise ModelValueError("The index of an array cannot be random here", self.text, at, at + 1,
+                                  'Make it the parameter of a module, as in "A --> B(ran(3))", and use that in the next step.')
+        if index.strip().isdigit():
+            return elements[min(int(index), len(elements) - 1)]
+        self._spend(len(index) * len(elements), at)
+        return _chosen(elements, 0, index)
+
     def _values(self, text: str, start: int, at: int) -> tuple[list[str], int]:
-        """The values in the parentheses of a macro, and where they end."""
+        """The values in the brackets behind a macro, and where they end."""
         depth, begun, values = 0, start, list[str]()
         for sign in _SIGNS.finditer(text, start, start + current().expression):
             if sign.group() == "," and not depth:
                 values.append(text[begun:sign.start()].strip())
                 begun = sign.end()
-            elif sign.group() == ")" and not depth:
+            elif sign.group() in ")]" and not depth:
                 return [*values, text[begun:sign.start()].strip()], sign.end()
             else:
                 depth += (sign.group() in "([{") - (sign.group() in ")]}")
@@ -142,11 +172,32 @@ class Macros:
                                   source=self.text, start=at)
 
 
+def _chosen(elements: tuple[str, ...], first: int, index: str) -> str:
+    """The choice of one of some elements, the first of which has a number, by halves."""
+    if len(elements) == 1:
+        return f"({elements[0]})"
+    half = len(elements) // 2
+    left, right = _chosen(elements[:half], first, index), _chosen(elements[half:], first + half, index)
+    return f"(({index}) < {first + half} ? {left} : {right})"
+
+
+def arrays_in(text: str, plain: str) -> dict[str, Macro] | None:
+    """The arrays that a definition makes, if all have their elements and nothing in a text changes them.
+
+    >>> arrays_in("array a[3] = {1, 2, 3}, b[1]={4};", "A(a[2])")
+    {'a': Macro(body='', parameters=None, elements=('1', '2', '3')), 'b': Macro(body='', parameters=None, elements=('4',))}
+    """
+    found = {each[1]: Macro("", None, tuple(value.strip() for value in each[2].split(","))) for each in _ARRAY.finditer(text)}
+    rest = re.sub(r"\barray\b|[\s,;]", "", _ARRAY.sub("", text))
+    changed = any(name in found for name in _CHANGED.findall(plain))
+    return None if rest or changed or not all(all(macro.elements) for macro in found.values()) else found
+
+
 def macro_of(name: str, rest: str, known: Collection[str]) -> Macro | None:
     """The macro with parameters, or without text, that a definition makes; None where it has a text of its own to judge.
 
     >>> macro_of("twice", "(t) (2*t)", ()), macro_of("DEBUG", "", ["DEBUG"]), macro_of("dt", " 0.5", ())
-    (Macro(body='(2*t)', parameters=('t',)), Macro(body='', parameters=None), None)
+    (Macro(body='(2*t)', parameters=('t',), elements=()), Macro(body='', parameters=None, elements=()), None)
     """
     parameters = re.match(r"\(\s*((?:[A-Za-z_]\w*\s*(?:,\s*)?)*)\)", rest)
     if parameters:

@@ -10,7 +10,7 @@ from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import value_of
 from lsys_kit.notation.analysis.problems import ProblemFound
-from lsys_kit.notation.dialects.cpfg.macros import Macro, Macros, Parse, macro_of
+from lsys_kit.notation.dialects.cpfg.macros import Macro, Macros, Parse, arrays_in, macro_of
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import names_in
 from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
@@ -20,6 +20,7 @@ _DIRECTIVE = re.compile(r"[ \t]*#[ \t]*(define|undef|ifdef|ifndef|if|elif|else|e
 _ANY_DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(?:define|undef|if|ifdef|ifndef|elif|else|endif)\b", re.MULTILINE)
 _PROSE = re.compile(r"(?<=[ \t])//[ \t]*(?:[A-Za-z]{1,2}[ \t]+)?[A-Za-z]?[a-z]{2,}(?![\w(\[\]+&^])[^\n]*")
 """A comment as C++ has it: behind a blank, and with a word after it that is no row of symbols."""
+_ARRAYS = re.compile(r"^[ \t]*define[ \t]*:\s*\{((?:[^{}]|\{[^{}]*\})*)\}", re.MULTILINE | re.IGNORECASE)
 _WORD_BEFORE = re.compile(rf"{ARROW.pattern}|axiom[ \t]*:", re.IGNORECASE)
 _LINE = re.compile(r"(?:[^\n\\]++|\\(?!\n)|\\\n)+")
 _ASKED = re.compile(r"\b(?:ifdef|ifndef|defined)\W+(\w+)")
@@ -36,7 +37,7 @@ def preprocessed(source: str, parse: Parse) -> Transcript:
     parse
         What reads an "expression" or a "word".
     """
-    if not _ANY_DIRECTIVE.search(source) and not _PROSE.search(source):
+    if not any(sign.search(source) for sign in (_ANY_DIRECTIVE, _PROSE, _ARRAYS)):
         return as_typed(source)
     return _Preprocessor(without_comments(source), parse).transcript(source)
 
@@ -59,7 +60,14 @@ class _Preprocessor:
         return all(now for _, now, _ in self.open)
 
     def transcript(self, source: str) -> Transcript:
-        edits = [edit for line in _LINE.finditer(self.text) for edit in self._line(line)]
+        arrays = _ARRAYS.search(self.text)
+        made = arrays_in(arrays[1], self.text) if arrays else None
+        if arrays and made is not None:
+            self.macros.table |= made
+            self.text = self.text[:arrays.start()] + re.sub(r"[^\n]", " ", arrays.group()) + self.text[arrays.end():]
+            self.macros.text = self.text
+        first = [Edit(*arrays.span(), "")] if arrays and made is not None else []
+        edits = first + [edit for line in _LINE.finditer(self.text) for edit in self._line(line)]
         if self.open:
             raise self._error('This condition has no "#endif"', self.open[-1][0], "Every #if ends with one.")
         if self.macros.put:

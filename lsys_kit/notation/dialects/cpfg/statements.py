@@ -19,6 +19,7 @@ _KEYWORD = re.compile(
     r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider"
     r"|angle|heading|length)[ \t]*:|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
     re.IGNORECASE)
+_PHASE = re.compile(r"(start|end)[ \t]*(each)?[ \t]*:", re.IGNORECASE)
 _AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
 _END = re.compile(r"endlsystem\b", re.IGNORECASE)
@@ -38,8 +39,8 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     r"""The offsets of the statements.
 
     A production or an axiom continues on the lines below that are indented further; a line with an arrow of its own continues
-    only a statement without one. `//` begins a comment at the beginning of a line and after a setting or a condition; in a
-    word it is two rolls.
+    only a statement without one. Statements that run around the steps end with their braces. `//` begins a comment at the
+    beginning of a line and after a setting or a condition; in a word it is two rolls.
 
     >>> text = "Axiom: F//F\nF : 1 // always\n    --> FF\n// the end"
     >>> [text[start:end] for start, end in statements(text)]
@@ -60,9 +61,12 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
 def _cut(text: str) -> Iterator[tuple[int, int]]:
     """The offsets of statements without comments."""
     first: _Line | None = None
-    end, has_arrow = 0, False
+    end, has_arrow, depth = 0, False, 0
     for line in _nonblank_lines(text):
-        if first is not None and not _continues(line, first, has_arrow):
+        inside = depth > 0
+        if inside or _PHASE.match(line.text):
+            depth = max(0, depth + line.text.count("{") - line.text.count("}"))
+        if first is not None and not inside and not _continues(line, first, has_arrow):
             yield first.start, end
             first = None
         if line.text.startswith("//") and (first is None or line.text[2:3].isspace()):
