@@ -176,10 +176,6 @@ class States(RuleApplication):
                 raise self._too_many(rule, module)
         return tuple(found)
 
-    def made(self, rule: Rule, module: Module) -> list[Module]:
-        """The modules that a rule makes of a module, before any decomposition."""
-        return [Module(*made) for made in self._made(rule, module, None, None)]
-
     def _made(self, rule: Rule, module: Module, values: Sequence[object] | None,
               chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
         """The symbols and values of the modules that a rule makes; no more of them than a word may have."""

@@ -34,8 +34,8 @@ from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.notation.model.system import LSystem
 
-MOST_PLACES = 40
-"""A diagram with more states than this is grouped by symbol, to be legible."""
+MOST_PLACES, MOST_ARCS = 40, 400
+"""A diagram with more states or arcs than this is grouped by symbol, to be legible."""
 MOST_LUMPED = 16
 """So is a diagram that leaves out parameters and still has more transitions than this."""
 
@@ -98,8 +98,8 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     if durations:
         return _timed_net(age_model(states), polarity)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
-    return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most),
-                None) or by_symbol(states)
+    return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most
+                 and len(net.arcs) <= MOST_ARCS), None) or by_symbol(states)
 
 
 def _timed_net(ages: AgeModel, polarity: bool) -> Stages:

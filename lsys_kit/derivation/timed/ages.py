@@ -241,7 +241,9 @@ def _grown(states: States, production: Production) -> Iterator[tuple[int, Value]
 def _grows(production: Production, age: int | None) -> bool:
     """Whether a production makes a module older and changes nothing else."""
     before, after = production.predecessor, production.successor
-    if age is None or len(after) != 1 or not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
+    if age is None or not len(production.predecessors) == len(after) == 1:
+        return False
+    if not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
         return False
     return all(_added(old, new) is not None if at == age else old == new
                for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True)))

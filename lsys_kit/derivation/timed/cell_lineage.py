@@ -8,13 +8,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from lsys_kit.budget import current
 from lsys_kit.derivation.core.interpretation import is_cell, is_filament
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.timed.ages import age_model
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
+
+MOST_CELLS, MOST_PARTS = 100_000, 1_000_000
+"""A lineage has at most so many cells, and so many modules that come and go within steps."""
+MOST_DEPTH = 200
+"""The most decompositions of what a decomposition made."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +78,7 @@ class CellDivisions:
     def __init__(self, states: States) -> None:
         self.states, self.ages = states, age_model(states)
         self._known: dict[int, CellPart] = {}
+        self._parts = 0
 
     def of(self, state: int) -> CellPart:
         """What becomes of a state that alone decides it."""
@@ -92,6 +100,10 @@ class CellDivisions:
 
     def _decomposed(self, module: Module, at_birth: Module, depth: int) -> CellPart:
         """A module with its parts, and theirs."""
+        self._parts += 1
+        if self._parts > MOST_PARTS or depth > min(current().decomposition, MOST_DEPTH):
+            raise ModelLimitError(f"{module} is decomposed into too many modules for a lineage", limit=MOST_PARTS,
+                                  hint="A condition before the arrow can bring it to an end.")
         rule = None if depth == self.states.system.decomposition_depth else \
             self.states.matching_rule(module, self.states.decomposition)
         return CellPart(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
@@ -103,6 +115,8 @@ class CellGrowth:
     def __init__(self, states: States) -> None:
         self.cells: list[LineageCell] = []
         self.places: list[int | None] = []  # the cell of each module of the word
+        self._modules: list[list[tuple[int, Module]]] = []  # for each cell what it is in the words that have it
+        self._parts = 0
         self._kinds = cell_kinds(states.system)
 
     def is_cell(self, module: Module) -> bool:
@@ -111,18 +125,28 @@ class CellGrowth:
 
     def born(self, mother: int | None, moment: Value, module: Module) -> int:
         """A new cell's number."""
+        if len(self.cells) == MOST_CELLS:
+            raise ModelLimitError(f"A lineage may have {MOST_CELLS:,} cells", limit=MOST_CELLS, hint="Take an earlier time.")
         self.cells.append(LineageCell(mother, moment, module))
+        self._modules.append([])
         return len(self.cells) - 1
 
     def found(self, owner: int | None, step: int, module: Module) -> None:
         """A module of the word of a step."""
         self.places.append(owner)
         if owner is not None:
-            cell = self.cells[owner]
-            self.cells[owner] = replace(cell, modules=(*cell.modules, (step, module)))
+            self._modules[owner].append((step, module))
+
+    def finished(self) -> tuple[LineageCell, ...]:
+        """All cells, each with what it is in the words that have it."""
+        return tuple(replace(cell, modules=tuple(modules)) for cell, modules in zip(self.cells, self._modules, strict=True))
 
     def follow(self, part: CellPart, owner: int | None, step: int, span: tuple[Value, Value]) -> None:
         """What becomes of a cell within a step that lasts from one time to another."""
+        self._parts += 1
+        if self._parts > MOST_PARTS:
+            raise ModelLimitError(f"More than {MOST_PARTS:,} modules come and go in the steps of this lineage",
+                                  limit=MOST_PARTS, hint="Take fewer steps.")
         if part.parts is None:
             self.found(owner, step, part.module)
             return

@@ -30,16 +30,17 @@ from lsys_kit.derivation.timed.length_functions import (
     written_functions,
 )
 from lsys_kit.derivation.timed.timed import Timed, timed
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production
 
 if TYPE_CHECKING:
     import sympy
 
-MOST_ORDER, MOST_LETTERS = 9, 1_000
-"""The highest derivative; the most ages at which modules may be born in a system of steps."""
+MOST_ORDER, MOST_LETTERS = 9, 500
+"""The highest derivative; the most ages at which modules may be born."""
 
 
 @dataclass(frozen=True)
@@ -249,23 +250,27 @@ def _life_spans(growing: Timed, divisions: Iterable[tuple[Production, Module, li
     """The life span of each letter, from its least age to its greatest; without end where no production ends it."""
     import sympy
 
-    ages: dict[str, list[sympy.Expr]] = {}
+    ages: dict[str, set[Value]] = {}
     ended = [mother for _, mother, _ in divisions]
     for module in (*(growing.states.modules[state] for state in growing.states.axiom), *ended,
                    *(made for _, _, daughters in divisions for made in daughters)):
         age = growing.ages.age(module)
         if age is not None:
-            ages.setdefault(module.symbol, []).append(in_sympy(age))
+            ages.setdefault(module.symbol, set()).add(age)
+            if len(ages[module.symbol]) > MOST_LETTERS:
+                raise ModelLimitError(f"{module.symbol} has more than {MOST_LETTERS:,} first and last ages", limit=MOST_LETTERS)
     endless = ages.keys() - {module.symbol for module in ended}
+    known = {symbol: list(map(in_sympy, found)) for symbol, found in ages.items()}
     return {symbol: sympy.Interval(sympy.Min(*found), sympy.oo if symbol in endless else sympy.Max(*found))
-            for symbol, found in ages.items()}
+            for symbol, found in known.items()}
 
 
 def _total_length(ages: AgeModel, modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
     """The length of some modules together, or a derivative of it."""
     import sympy
 
-    cells = Counter((module.symbol, in_sympy(age)) for module in modules if (age := ages.age(module)) is not None)
+    counts = Counter((module.symbol, age) for module in modules if (age := ages.age(module)) is not None)
+    cells = {(symbol, in_sympy(age)): number for (symbol, age), number in counts.items()}
     try:
         return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
                            for (symbol, age), number in cells.items()))

@@ -17,15 +17,12 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive
-from lsys_kit.derivation.timed.cell_lineage import CellDivisions, CellGrowth, CellPart, LineageCell
+from lsys_kit.derivation.timed.cell_lineage import MOST_CELLS, CellDivisions, CellGrowth, CellPart, LineageCell
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
-
-MOST_CELLS = 100_000
-"""A lineage has at most so many cells."""
 
 
 @dataclass(frozen=True)
@@ -69,11 +66,11 @@ class Lineage:
 
     @cached_property
     def _daughters(self) -> dict[int, tuple[int, ...]]:
-        found: dict[int, tuple[int, ...]] = {}
+        found: dict[int, list[int]] = {}
         for number, cell in enumerate(self.cells):
             if cell.mother is not None:
-                found[cell.mother] = (*found.get(cell.mother, ()), number)
-        return found
+                found.setdefault(cell.mother, []).append(number)
+        return {mother: tuple(daughters) for mother, daughters in found.items()}
 
     def __str__(self) -> str:
         living, late = len(self.words[-1]), sum(cell.due is not None for cell in self.cells)
@@ -162,7 +159,7 @@ def _derived_lineage(derivation: Derivation) -> Lineage:
                 growth.cells[owner] = replace(growth.cells[owner], due=due)
     found = tuple(tuple(cell for cell in word if cell is not None) for word in words)
     times = tuple(normalised(step * length) for step in range(len(derivation)))
-    return Lineage(derivation[-1], tuple(growth.cells), found, times)
+    return Lineage(derivation[-1], growth.finished(), found, times)
 
 
 def _flat_parts(derivation: Derivation, step: int) -> list[CellPart]:
@@ -196,4 +193,4 @@ def _timed_lineage(system: Timed, end: Value) -> Lineage:
         numbers = [cell] if len(daughters) == 1 else [growth.born(cell, moment, daughter) for daughter in daughters]
         todo += [(daughter, moment, number) for daughter, number in reversed(list(zip(daughters, numbers, strict=True)))]
     living = tuple(cell for cell in growth.places if cell is not None)
-    return Lineage(word, tuple(growth.cells), (first, living), (0, end), False)
+    return Lineage(word, growth.finished(), (first, living), (0, end), False)

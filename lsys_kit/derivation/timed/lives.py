@@ -5,8 +5,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import NamedTuple, TypeAlias
 
+from lsys_kit.budget import current
 from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
@@ -106,8 +108,21 @@ class AgeModel(ABC):
         return [] if end is None or end.rule is None else self.made(end.rule, end.mother)
 
     def made(self, rule: Rule, module: Module) -> list[Module]:
-        """What a rule makes of a module, before any of that is decomposed."""
-        return self.states.made(rule, module)
+        """What a rule makes of a module, before any of that is decomposed.
+
+        Raises
+        ------
+        ModelLimitError
+            That is more than anything may be repeated.
+        """
+        most = current().repetitions
+        found = [Module(*part) for part in islice(self.states.apply(rule, module), most + 1)]
+        if len(found) > most:
+            start, end = rule.production.at or (None, None)
+            raise ModelLimitError(f"{module} becomes more than {most:,} modules at once", limit=most,
+                                  source=self.states.system.source or None, start=start, end=end,
+                                  hint="Use smaller numbers of repetitions.")
+        return found
 
     def check_birth(self, module: Module) -> None:
         """Refuse a module that is born older than it can become."""

@@ -16,6 +16,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from lsys_kit.budget import current
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError
@@ -81,13 +82,17 @@ def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]]
     Raises
     ------
     ModelLimitError
-        More cells are alive at the end than fit into a picture.
+        The cells, or those that are alive at the end, are more than fit into a picture.
     ModelValueError
         An interval does not lie within the time of the lineage.
     """
     if len(lineage.words[-1]) > MOST_LINES:
         raise ModelLimitError(f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have "
                               f"{MOST_LINES}", limit=MOST_LINES, needed=len(lineage.words[-1]), hint="Take fewer steps.")
+    if len(lineage.cells) > current().segments:
+        raise ModelLimitError(f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have "
+                              f"{current().segments:,}", limit=current().segments, needed=len(lineage.cells),
+                              hint="Take fewer steps, or set limits(segments=...).")
     found = tuple((number_from(first, "interval"), number_from(last, "interval")) for first, last in intervals)
     for first, last in found:
         if not 0 <= first < last <= lineage.times[-1]:

@@ -12,10 +12,12 @@ from dataclasses import dataclass
 from math import ceil
 
 from lsys_kit.derivation.petri.net import Stages
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.pictures.nets.lanes import Stretch, levels, ordered
 from lsys_kit.pictures.style.labels import polar_symbols
 
-LONGEST_ROW = 8
+LONGEST_ROW, MOST_ARCS = 8, 800
+"""The most places in a row, and the most arcs of a diagram."""
 _GAP = 1000.0
 """The distance of gaps in units of lanes."""
 
@@ -140,7 +142,16 @@ def _wrapped(chain: Sequence[int]) -> list[tuple[int, ...]]:
 
 
 def planned(net: Stages, rows: Sequence[tuple[int, ...]]) -> Plan:
-    """The plan of a diagram with given rows of places."""
+    """The plan of a diagram with given rows of places.
+
+    Raises
+    ------
+    ModelLimitError
+        There are too many arcs.
+    """
+    if len(net.arcs) > MOST_ARCS:
+        raise ModelLimitError(f"A stage diagram with {len(net.arcs):,} arcs would not be legible; it may have {MOST_ARCS:,}",
+                              limit=MOST_ARCS, needed=len(net.arcs), hint="print(stages(system)) writes it as text.")
     cells = {place: (r, c) for r, row in enumerate(rows) for c, place in enumerate(row)}
     columns = max(map(len, rows), default=0)
     bars: dict[int, list[int]] = {place: [] for place in cells}

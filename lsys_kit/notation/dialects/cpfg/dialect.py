@@ -61,7 +61,7 @@ def _resolve_deferred(draft: Draft) -> None:
         elif kind == "count":
             keyword, expression = record
             _resolve_count(draft, section, keyword, expression, at)
-    axiom = Production(Pattern("axiom"), draft.axiom or ())
+    axiom = Production((Pattern("axiom"),), draft.axiom or ())
     check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing, draft.source)
 
 
