@@ -105,11 +105,12 @@ def limits(**changes: float) -> Iterator[Limits]:
             raise ModelNameError(f'There is no limit called "{name}"', hint=f"Limits are: {known}.")
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
             raise ModelValueError(f'The limit "{name}" must be a positive number, not {value!r}')
-    token = _current.set(replace(current(), **changes))  # type: ignore[arg-type]
-    try:
+    before = current()
+    try:  # the limits change within: an interrupt just behind the change puts them back as well
+        _current.set(replace(before, **changes))  # type: ignore[arg-type]
         yield current()
     finally:
-        _current.reset(token)
+        _current.set(before)
 
 
 BLOCK_BYTES = 64

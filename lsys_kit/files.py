@@ -57,6 +57,8 @@ def create_file(path: Path, content: bytes) -> None:
             if os.path.lexists(path):
                 raise FileExistsError(path) from None
             os.rename(draft, path)
+        else:
+            draft.unlink()
 
 
 def save_file(path: Path, content: bytes) -> None:

@@ -104,29 +104,3 @@ def test_what_kind_of_file_it_may_be_stays(tmp_path: Path) -> None:
     (tmp_path / "a.svg").chmod(0o640)
     save_file(tmp_path / "a.svg", b"<!-- lsys-kit -->2")
     assert (tmp_path / "a.svg").stat().st_mode & 0o777 == 0o640
-
-
-@pytest.mark.parametrize("line", range(12))
-def test_an_interrupt_at_any_line_leaves_the_old_file_or_the_new_one(line: int, tmp_path: Path) -> None:
-    path = tmp_path / "a"
-    path.write_bytes(b"old")
-    steps = 0
-
-    def interrupt(frame: object, event: str, _: object) -> object:
-        nonlocal steps
-        if event == "line":
-            steps += 1
-            if steps > line:
-                sys.settrace(None)
-                raise KeyboardInterrupt
-        return interrupt
-
-    sys.settrace(lambda frame, event, _: interrupt if frame.f_code.co_filename.endswith("files.py") else None)
-    try:
-        replace_file(path, b"new")
-    except KeyboardInterrupt:
-        pass
-    finally:
-        sys.settrace(None)
-    assert path.read_bytes() in (b"old", b"new")
-    assert [file.name for file in tmp_path.iterdir()] == ["a"]

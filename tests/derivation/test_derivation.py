@@ -287,31 +287,6 @@ def test_the_order_of_hashes_changes_nothing() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("system", [EVERY_MODULE_NEW, EVERY_MODULE_NEW_IN_CONTEXT], ids=["alone", "in context"])
-def test_an_interrupt_leaves_the_table_whole(system: LSystem) -> None:
-    """Ctrl-C at any moment: what was known stays known, and deriving can go on."""
-    derivation, expected = derive(system, 2), derive(system, 6)[-1]
-    watcher = sys.gettrace()
-    for moment in range(1, 3_000, 7):
-        calls = iter(range(moment))
-
-        def interrupt(frame: object, event: str, argument: object, calls: object = calls) -> object:
-            if next(calls, None) is None:  # type: ignore[call-overload]
-                raise KeyboardInterrupt
-            return interrupt
-
-        sys.settrace(interrupt)  # type: ignore[arg-type]
-        try:
-            derivation = derivation.to(6)
-        except KeyboardInterrupt:
-            pass
-        finally:
-            sys.settrace(watcher)
-        assert derivation.to(6)[-1] == expected
-        derivation = derive(system, 0)
-
-
-@pytest.mark.slow
 def test_a_step_of_few_modules_that_make_many_has_its_time() -> None:
     """Each of forty modules makes fifty thousand: somebody looks at the clock behind each."""
     system = read("axiom: B" + " A(0)" * 40 + "\nA(x) -> repeat(50000) <F(uniform(0, 1))>\nB < F(x) -> F(x)")
