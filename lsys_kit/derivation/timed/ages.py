@@ -69,6 +69,15 @@ class StepAges(AgeModel):
 
     def carries(self, rule: Rule) -> bool:
         """Whether a rule lets the daughters be older the longer ago the mother has reached the age at which it applies."""
+        if id(rule) not in self._carried:
+            self._carried[id(rule)] = self._carries(rule)
+        return self._carried[id(rule)]
+
+    @cached_property
+    def _carried(self) -> dict[int, bool]:
+        return {}
+
+    def _carries(self, rule: Rule) -> bool:
         made = list(flat(rule.production.successor))
         ages = [self.parameter(kind_of(module)) for module in made]
         at = self.parameter(kind_of(rule.production.predecessor))

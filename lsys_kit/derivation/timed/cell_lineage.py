@@ -18,8 +18,8 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
 
-MOST_CELLS, MOST_PARTS = 100_000, 1_000_000
-"""A lineage has at most so many cells, and so many modules that come and go within steps."""
+MOST_CELLS, MOST_PARTS, MOST_FOLLOWED = 100_000, 10_000, 1_000_000
+"""A lineage has at most so many cells; a module is decomposed into so many in a step, all modules together into so many."""
 MOST_DEPTH = 200
 """The most decompositions of what a decomposition made."""
 
@@ -83,6 +83,7 @@ class CellDivisions:
     def of(self, state: int) -> CellPart:
         """What becomes of a state that alone decides it."""
         if state not in self._known:
+            self._parts = 0
             module, rule = self.states.modules[state], self.states.rule(state)
             self._known[state] = self._replaced(module, module, rule, 0) if rule else self._decomposed(module, module, 0)
         return self._known[state]
@@ -144,9 +145,9 @@ class CellGrowth:
     def follow(self, part: CellPart, owner: int | None, step: int, span: tuple[Value, Value]) -> None:
         """What becomes of a cell within a step that lasts from one time to another."""
         self._parts += 1
-        if self._parts > MOST_PARTS:
-            raise ModelLimitError(f"More than {MOST_PARTS:,} modules come and go in the steps of this lineage",
-                                  limit=MOST_PARTS, hint="Take fewer steps.")
+        if self._parts > MOST_FOLLOWED:
+            raise ModelLimitError(f"More than {MOST_FOLLOWED:,} modules come and go in the steps of this lineage",
+                                  limit=MOST_FOLLOWED, hint="Take fewer steps.")
         if part.parts is None:
             self.found(owner, step, part.module)
             return
