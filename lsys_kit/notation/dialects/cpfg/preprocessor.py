@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import cache
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelSyntaxError
@@ -46,7 +47,7 @@ class _Preprocessor:
     """What is left out of a text with its comments blanked, and what is put in."""
 
     def __init__(self, text: str, parse: Parse) -> None:
-        self.text, self.parse, self.macros = text, parse, Macros(text, parse)
+        self.text, self.parse, self.macros = text, cache(parse), Macros(text, parse)
         self.values: dict[str, Value] = {}
         self.asked = frozenset(_ASKED.findall(text))
         self.open: list[tuple[int, bool, bool]] = []
