@@ -182,12 +182,18 @@ FORMATS: Sequence[ForeignFormat] = (
     ForeignFormat(
         "a program in Python",
         [rf"def\b \w+ {_VALUES}[^\n:]*:", r"from\b [\w.]+ import\b [\w*]", rf"import\b {_MODULES} (?:,|as\b|$)",
-         r"class\b \w+[^\n{:]*: $", r"""\w+ = (?:\[ ["']|\{ ["'][^"'\n]*["'] :|dict\()""", r"#![^\n]*?python"],
+         r"class\b \w+[^\n{:]*: $", r"""\w+ = (?:\[ ["']|\{ ["'][^"'\n]*["'] :|dict\()""", r"#![^\n]*?python",
+         r"(?:try|else) : $", r"for\b \w+ in\b[^\n]*?: $"],
         "Nothing that is given to the kit is run", _CODE, [".py"]),
+    ForeignFormat(
+        "data as YAML", [r"""rules : \n -? ["']?\S["']? : ["']?[^\s<>=:]+["']? $"""], "The kit has no colon within a rule",
+        "Write axiom: F, and a line F -> F+F for each rule.", [".yaml", ".yml"]),
     ForeignFormat(
         "data as JSON, or a dictionary", [r"""[{,\[]? "\w[\w ]*" : ["\[{\d]""", r"""\{? '[^'\n]+' : ['\[{\d]"""],
         "The kit has no quotation marks, and no colon within a rule", "Write axiom: F, and a line F -> F+F for each rule.",
         [".json"]),
+    ForeignFormat(
+        "a text as Markdown", ["```"], "A model has no fences", "Give what stands between them alone.", [".md"]),
 )
 """The formats; a text is in the first one whose sign it has."""
 GLANCE = 50_000

@@ -21,6 +21,8 @@ XML = "XML"
 RTF = "a document as RTF"
 PROGRAM = "a program, as in JavaScript, Processing, Java or C++"
 PYTHON = "a program in Python"
+YAML = "data as YAML"
+MARKDOWN = "a text as Markdown"
 JSON = "data as JSON, or a dictionary"
 
 FOREIGN: dict[str, list[tuple[str, int]]] = {
@@ -148,7 +150,18 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
     PYTHON: [
         ('import turtle\naxiom = "F"\n', 1), ('rules = {"F": "F+F--F+F"}\n', 1), ("def rewrite(word):\n    return word\n", 1),
         ("from lsys_kit import read\nread('axiom: A')\n", 1), ("#!/usr/bin/env python3\nprint('F')\n", 1),
+        ("try:\n  depth = 5\nexcept ImportError:\n  depth = 3\n", 1), ("word = A\nfor step in range(5):\n  word += word\n", 2),
         ('axiom = "A"\nclass Plant:\n    pass\n', 2),
+    ],
+    YAML: [
+        ("axiom: F\nrules:\n  F: F+F\nangle: 60\n", 2), ("rules:\n- A: AB\n- B: A\n", 1),
+        ('axiom: "X"\nrules:\n  "X": "F[+X]"\n', 2),
+        ("name: Koch\nrules:\n    'F': 'F+F--F+F'\n", 2), ("# the dragon\nangle: 90\nrules:\n  X: X+YF+\n  Y: -FX-Y\n", 3),
+    ],
+    MARKDOWN: [
+        ("# Koch\n\n```\naxiom: F\nF -> F+F\n```\n", 3), ("```lsystem\naxiom: A\nA -> A B\n```", 1),
+        ("The bush:\n```\naxiom: F\n```\n", 2),
+        ("```\naxiom: A\n", 1), ("A system:\n\n  ```\n  axiom: A\n  ```\n", 3),
     ],
     JSON: [
         ('{"axiom": "F", "rules": {"F": "F+F"}}', 1), ('[\n {"angle": 60}\n]', 2), ("{\n  'F': 'F+F',\n}", 2),
@@ -166,7 +179,7 @@ MENTIONS = [
     "axiom: premise\npremise -> premise A",
     "Axiom: A\n/*\nproduction:\n*/\nA --> A[+A]B",
     "Lsystem: 1\nderivation length: 3\nproduction:\nAxiom: A\nA --> AB\nendlsystem",
-    "Axiom: A\nendlsystem",
+    "Axiom: A\nendlsystem", "rules = 3\naxiom: A(rules)\nA(x) -> B(x)",
     "axiom: A\nproductions:\nA -> A B", "derivation length: 3\nAxiom: F\nF --> F[+F]F",
     "#define import 3\nAxiom: A(import)\nA(x) --> B(x)",
     'axiom = AXIOM[a[1]];\nskipPattern = {"b", "c"};\nlrules = LRULES[LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[i+1]]]];',

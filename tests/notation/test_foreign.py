@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError, ModelSyntaxError
-from lsys_kit.notation.foreign import FORMATS, GLANCE, foreign_format, mistakable_format, name_hint
+from lsys_kit.notation.foreign import FORMATS, GLANCE, ForeignFormat, foreign_format, mistakable_format, name_hint
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.syntax.systems import lacking
@@ -165,7 +165,7 @@ def test_the_name_of_a_file_is_a_hint(name: str, told: str | None) -> None:
 @pytest.mark.parametrize("text", [
     "\n", " ", "a", "Axiom:", "production:\n", "<", "{", "import ", "#", "A = ", "__a", "x:", "'a", '"a', "Axiom:\n", "#lang\n",
     "(", "module ", "void a(", "p1:", "\t\n", "Axiom: A\nderivation length: 1\n", "private ", "<type> ", "[{", "==", "# ",
-    "1\n", "# a\n", "1 # a\n", "axiom a\n", "recursion 3\n",
+    "1\n", "# a\n", "1 # a\n", "axiom a\n", "recursion 3\n", "rules:\n", "for a in ",
 ])
 def test_a_glance_is_short(text: str) -> None:
     long = (text * GLANCE)[:20 * GLANCE]
@@ -173,6 +173,12 @@ def test_a_glance_is_short(text: str) -> None:
     foreign_format(long)
     mistakable_format(long)
     assert time.process_time() - started < 0.5 * 3  # half a second on a quick machine
+
+
+@pytest.mark.parametrize("id", ["K5", "J4", "P7"])
+def test_a_text_that_is_read_is_not_searched_for_signs(id: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ForeignFormat, "sign_in", lambda *_: pytest.fail("searched"))
+    assert read(system(id).source).productions
 
 
 def test_a_text_too_long_to_be_read_is_recognised() -> None:
