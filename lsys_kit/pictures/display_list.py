@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -77,15 +78,13 @@ def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, heigh
     return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
-@dataclass(frozen=True)
-class Faces:
+class Faces(NamedTuple):
     """Polygons, by their numbers."""
 
     numbers: Integers
 
 
-@dataclass(frozen=True)
-class Strokes:
+class Strokes(NamedTuple):
     """Strokes of one colour and width, in tenths of a pixel, by their numbers."""
 
     numbers: Integers
@@ -93,8 +92,7 @@ class Strokes:
     width: int
 
 
-@dataclass(frozen=True)
-class Rounds:
+class Rounds(NamedTuple):
     """Circles, discs and spheres, by their numbers."""
 
     numbers: Integers
@@ -140,16 +138,18 @@ def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> It
 
 
 def _from_far_to_near(scene: Scene, order: Integers, looks: StrokeLooks) -> Iterator[Run]:
-    faces, strokes = len(scene.polygons), len(scene.segments)
-    keys = np.concatenate([np.full(faces, -2), looks.keys, np.full(len(scene.discs), -1)])[order]
-    for numbers in np.split(order, np.flatnonzero(np.diff(keys)) + 1) if len(order) else ():
-        first = int(numbers[0])
-        if first < faces:
-            yield Faces(numbers)
-        elif first < faces + strokes:
-            yield Strokes(numbers - faces, *looks.colour_and_width(int(looks.keys[first - faces])))
+    """The shapes in their order, as long as they look alike in one run; the length of a run is often 1 or 2."""
+    face, disc = -2, -1  # beside the keys of strokes, which are not negative
+    counts = [len(scene.polygons), len(scene.segments), len(scene.discs)]
+    keys = np.concatenate([np.full(counts[0], face), looks.keys, np.full(counts[2], disc)])[order]
+    numbers = order - np.repeat([0, counts[0], counts[0] + counts[1]], counts)[order]
+    starts = np.flatnonzero(np.diff(keys, prepend=face - 1))
+    styles = {key: looks.colour_and_width(key) for key in np.unique(looks.keys).tolist()}
+    for (start, stop), key in zip(pairwise([*starts.tolist(), len(order)]), keys[starts].tolist(), strict=True):
+        if key >= 0:
+            yield Strokes(numbers[start:stop], *styles[key])
         else:
-            yield Rounds(numbers - faces - strokes)
+            yield Faces(numbers[start:stop]) if key == face else Rounds(numbers[start:stop])
 
 
 @dataclass(frozen=True)

@@ -158,6 +158,14 @@ def test_a_far_sphere_does_not_cover_a_near_one(far_first):
     assert figure(picture).collections[0].get_facecolors()[-1][:3] == pytest.approx(np.array(near_one) / 255)
 
 
+def test_where_nothing_is_drawn_in_space_the_picture_is_empty():
+    picture = draw(read("axiom: A&"), 0)
+    assert picture.scene.order.tolist() == []
+    assert "<path" not in picture.svg
+    assert Image.open(io.BytesIO(picture.png)).convert("L").getextrema() == (255, 255)
+    assert figure(picture).collections[0].get_paths() == []
+
+
 # --- the canvas in the browser ----------------------------------------------------------------------------------------
 
 NODE = shutil.which("node")
