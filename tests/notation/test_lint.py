@@ -160,3 +160,51 @@ def test_what_is_probably_not_meant_is_noted(text: str, note: str) -> None:
 def test_what_may_well_be_meant_is_not_noted(text: str) -> None:
     assert not any("never match" in note or "No production" in note or "line needs" in note or "no probability" in note
                    for note in read(text).notes)
+
+
+@pytest.mark.parametrize(("rules", "said"), [
+    ("A -> A B # grow", "#grow"), ("A -> AB//grow", "//grow"), ("A -> A // it grows", "//it grows"),
+    ("A -> A % a leaf.", "%a leaf."),    ("A -> A -- grow", "--grow"), ("A -> A ; grow", ";grow"), ("A -> [A] # grow", "#grow"),
+])
+def test_a_comment_in_another_language_is_noted_as_modules(rules: str, said: str) -> None:
+    assert (f'The "{said}" after the production for A is read as modules. A comment is written between "/*" and "*/".'
+            in read(f"axiom: A\n{rules}").notes)
+
+
+@pytest.mark.parametrize(("rule", "said"), [
+    ("A --> AB//grow", '"//grow" is read as symbols, two rolls first; a'), ("A --> A # grow", '"# grow" is read as symbols; a'),
+    ("A --> A // It grows", '"// It grows" is read as symbols, two rolls first; a')])
+def test_a_comment_in_a_word_of_cpfg_is_noted_as_symbols(rule: str, said: str) -> None:
+    assert f'{said} comment is written between "/*" and "*/".' in read(f"Axiom: A\n{rule}", "cpfg").notes
+
+
+@pytest.mark.parametrize("rules", [
+    "A -> A//F#F", "A -> A # leaf\nleaf -> A", "A -> A;leaf", "A -> A//(90)leaf", "A -> A [# leaf]",
+    "A -> # leaf A leaf\nB -> leaf",
+    "A -> repeat(2) <# A>"])
+def test_signs_before_symbols_are_no_comments(rules: str) -> None:
+    assert not any("is read as modules" in note for note in read(f"axiom: A\n{rules}").notes)
+
+
+@pytest.mark.parametrize(("text", "note"), [
+    ("axiom: A\nA -> F(0,5)A", 'F(0,5) has two values: a decimal is written with a point. Did you mean "F(0.5)"?'),
+    ("axiom: A\nA -> +(22, 5)A", '+(22,5) has two values: a decimal is written with a point. Did you mean "+(22.5)"?'),
+    ("axiom: A(1)\nA(t) -> A(0,05)", 'A(0,5) has two values: a decimal is written with a point. Did you mean "A(0.05)"?'),
+])
+def test_a_decimal_with_a_comma_is_noted(text: str, note: str) -> None:
+    assert note in read(text).notes
+
+
+@pytest.mark.parametrize("text", [
+    "axiom: A(0,5)\nA(x,y) -> A(y,x)", "axiom: A(1)\nA(t) -> A(t)L(0,5)", "axiom: A\nA -> F(0.5)",
+    "axiom: A(1)\nA(t) -> B(t,2)"])
+def test_two_values_where_there_are_two_are_not_noted(text: str) -> None:
+    assert not any("a decimal" in note for note in read(text).notes)
+
+
+def test_a_context_that_is_passed_over_is_noted() -> None:
+    assert read("ignore: +\naxiom: A + B\n+ < B -> A").notes == (
+        "The production + < B can never match: contexts pass over +.",)
+    assert read("consider: A\naxiom: A + B\n+ < B -> A").notes[0].endswith("contexts pass over +.")
+    assert read("consider: A\naxiom: A + B\nA < B > [A] -> A").notes == (
+        "The production A < B > [A] can never match: no module [ occurs.",)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from lsys_kit.notation.analysis.problems import Problem, ProblemFound, problem
+from lsys_kit.notation.analysis.slips import slips
 from lsys_kit.notation.model.expressions import Name, Number
 from lsys_kit.notation.model.modules import END, Item, Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
@@ -32,7 +33,8 @@ def warnings(system: LSystem) -> list[Problem]:
     reachable = _reachable_kinds(system)
     return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
             *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
-            *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system), *_unanswered(reachable)]
+            *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system), *_unanswered(reachable),
+            *_passed_over(system), *slips(system)]
 
 
 def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
@@ -67,6 +69,16 @@ def _unmatched(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem
             other = missing.symbol.swapcase()
             yield Problem("never matches", rule.at, {"rule": rule, "missing": _described(missing, symbols)},
                           other if other in symbols and missing.symbol not in symbols else None)
+
+
+def _passed_over(system: LSystem) -> Iterator[Problem]:
+    """The productions whose contexts name what contexts pass over."""
+    for rule in system.productions:
+        seen = (module.symbol for module in (*rule.left, *rule.right) if module.symbol not in ("[", "]", "(", ")", END))
+        passed = next((symbol for symbol in seen if symbol in system.ignored
+                       or (system.considered and symbol not in system.considered)), None)
+        if passed:
+            yield Problem("context passed over", rule.at, {"rule": rule, "symbol": passed})
 
 
 def _without_probability(system: LSystem) -> Iterator[Problem]:

@@ -110,6 +110,9 @@ WORDINGS: Mapping[str, Wording] = {
     "other number of values": Wording("No production matches {symbol} with {count} values: that for {symbol} has {others}."),
     "final sign": Wording('The "{sign}" after the production for {rule} is read as a command of the turtle; a line needs no '
                           "sign at its end."),
+    "context passed over": Wording("The production {rule} can never match: contexts pass over {symbol}."),
+    "comment as modules": Wording('The "{said}" after the production for {rule} is read as modules. {comment}'),
+    "decimal comma": Wording("{module} has two values: a decimal is written with a point."),
     "unanswered query": Wording("Nothing answers {symbol}: its values stay as they are."),
     "endless decomposition": Wording("Rule {symbol} decomposes into itself: {cycle}", "It can never finish.", ModelValueError),
 }

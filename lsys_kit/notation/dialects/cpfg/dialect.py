@@ -32,7 +32,8 @@ _MARKS = re.compile(
     re.MULTILINE | re.IGNORECASE)
 _AXIOM_MARK = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
 _DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
-_PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*")
+_PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*|(?://|(?<=[ \t])#)[ \t]*(?P<word>[a-z]{3,})[^\n]*")
+"""What reads like a comment: two rolls and words, or a word of small letters after two rolls or a #."""
 
 
 def _finish(draft: Draft) -> LSystem:
@@ -141,12 +142,15 @@ def _notes(draft: Draft) -> Iterator[str]:
         if constant.at and _infix(constant.value) and not _enclosed(value):
             yield f'The macro "{constant.name}" is a number here; cpfg puts its text in place: write "({value})".'
     yield from _split_symbols(draft)
-    for production in (production for rules in draft.sections.values() for production in rules):
+    productions = [production for rules in draft.sections.values() for production in rules]
+    rewritten = {module.symbol for production in productions for module in production.predecessors}
+    for production in productions:
         start, end = production.at or (0, 0)
         arrow = ARROW.search(text, start, end)
         prose = _PROSE.search(text, arrow.end(), end) if arrow else None
-        if prose:
-            yield f'"{prose.group()}" is read as symbols, two rolls first; a comment is written between "/*" and "*/".'
+        if prose and rewritten.isdisjoint(prose["word"] or ""):
+            rolls = ", two rolls first" * prose.group().startswith("/")
+            yield f'"{prose.group()}" is read as symbols{rolls}; a comment is written between "/*" and "*/".'
 
 
 def _split_symbols(draft: Draft) -> Iterator[str]:

@@ -10,14 +10,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import islice
 from typing import NamedTuple
 
 from lsys_kit.budget import current
+from lsys_kit.notation.syntax.text.greek import angle_as_constant, name_of, named_letters
 from lsys_kit.notation.syntax.text.headings import HEADING, RULES, SENTENCE, headings
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
 from lsys_kit.notation.syntax.text.subscripts import SUBSCRIPTS, subscripts
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
-from lsys_kit.notation.syntax.text.typesetting import typesetting
+from lsys_kit.notation.syntax.text.typesetting import MACRO, typesetting
 
 _ARROW = ARROW.pattern
 _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
@@ -32,6 +34,7 @@ _DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
 _ASSIGNED = r"(?:[A-Za-z]\w*|δ|\\delta)[ \t]*+=[ \t]*+[\d.]+[ \t]*+(?:°|\^?\{?\\circ\}?)?"
 _ASSIGNMENTS = re.compile(rf"[ \t]*+{_ASSIGNED}(?:[ \t]*+[,;][ \t]*+{_ASSIGNED})*[ \t]*+[,;.]?[ \t]*+$")
 _STEPS = re.compile(r"\bn[ \t]*+=")
+_N = re.compile(r"\bn\b")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
 _INCLUDED = re.compile(r"[ \t]*+#[ \t]*+include\b.*")
@@ -49,7 +52,7 @@ _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 _WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
 """A line that may be an axiom without its name, and is no name of an axiom without its colon."""
 
-_TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}ωδ°•]")
+_TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}Α-Ωα-δζ-ωϑϕϱµ°•]")
 _SIGNS_OF_PRINT = (
     re.compile(r"\\[a-z]{4}"),
     re.compile(r"\*(?:\*|[ \t]*+<)"),
@@ -88,7 +91,7 @@ def _transcript(source: str) -> Transcript:
     lines = edited(source, [*headings(plain, notes), *typesetting(plain), *subscripts(plain, "_")], notes)
     typed = _with_typed_signs(lines.text)
     listing = _Listing(without_comments(typed))
-    edits = [*listing.settings(), *listing.rules(), *listing.digits()]
+    edits = [*listing.settings(), *listing.rules(), *listing.letters(), *listing.digits()]
     return edited(lines, edits, listing.notes, typed)
 
 
@@ -128,6 +131,7 @@ class _Listing:
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
         self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
+        self.one_n = sum(1 for _ in islice(_N.finditer(plain), 2)) == 1
         self.notes: list[str] = []
 
     def settings(self) -> Iterator[Edit]:
@@ -153,7 +157,7 @@ class _Listing:
         for match in re.finditer(r"[,;]|\.(?=[ \t]*$)", line.text):
             yield Edit(line.start + match.start(), line.start + match.end(), "\n" if line.text[match.end():].strip() else "")
         steps = _STEPS.search(line.text)
-        if steps and self.printed and len(re.findall(r"\bn\b", self.plain)) == 1:
+        if steps and self.printed and self.one_n:
             self.notes.append('"n" is read as the number of steps.')
             yield Edit(line.start + steps.start(), line.start + steps.end(), "steps:")
 
@@ -169,6 +173,17 @@ class _Listing:
     def _is_word(self, line: _Line) -> bool:
         """Whether a line that stands alone is a word."""
         return self.printed or bool(_WORD.fullmatch(line.text.rstrip()))
+
+    def letters(self) -> Iterator[Edit]:
+        """Greek letters as names; δ is a constant, too, where it is used and not only set."""
+        latex = bool(MACRO.search(self.plain))
+        found = [pair for line in self.lines for pair in named_letters(line.text, line.start, latex)]
+        yield from (edit for _, edit in found)
+        if any(edit.text.strip() == "delta" for _, edit in found):
+            yield from filter(None, (angle_as_constant(line.text, line.start) for line in self.lines))
+        if found:
+            read = dict.fromkeys(f"{letter} as {name_of(letter)}" for letter, _ in found)
+            self.notes.append(f"Greek letters are read as names: {', '.join(read)}.")
 
     def rules(self) -> Iterator[Edit]:
         """Productions: lines that go on, what stands over the arrow, stars for any neighbour, and "="."""

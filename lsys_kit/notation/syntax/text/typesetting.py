@@ -15,7 +15,7 @@ from typing import NamedTuple
 from lsys_kit.notation.syntax.text.statements import ARROW
 from lsys_kit.notation.syntax.text.transcript import Edit
 
-_MACRO = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|vec|overleftarrow|overrightarrow|begin[ \t]*+\{)")
+MACRO = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|vec|overleftarrow|overrightarrow|begin[ \t]*+\{)")
 _DOLLARS = re.compile(r"^[ \t]*+(\$)(?![\s<$])[^$\n]*+(\$)[,.;]?[ \t]*+$", re.MULTILINE)
 """What begins and ends a formula. A single "$" is a command of the turtle, unless the line begins and ends with one."""
 _DISPLAY = re.compile(r"^[ \t]*+(?:(\\[\[(])(?:.*(\\[\])]))?|(\\[\])]))[ \t]*+$|(\$\$)", re.MULTILINE)
@@ -55,7 +55,7 @@ def typesetting(plain: str) -> Iterator[Edit]:
     for match in _DOLLARS.finditer(plain):
         yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2))
     yield from _items(plain)
-    if _MACRO.search(plain):
+    if MACRO.search(plain):
         yield from _latex(plain)
 
 
