@@ -36,7 +36,7 @@ _MARKS = re.compile(
     rf"|^[ \t]*\*[ \t]*{_ARROW}"                                                     # the rule for the start symbol
     rf"|^[ \t]*\([^()\n]{{1,80}}\)[ \t]*[A-Za-z*][^:\n#>→]{{0,80}}{_ARROW}"           # a condition in front
     r"|^[ \t]*[A-Za-z]\w{0,30}'*(?:\([^()\n]{1,80}\))?[ \t]+##?[ \t]"                # "#" as an arrow
-    rf"|{_ARROW}[^&\n]{{0,200}}&[ \t]*(?:\d+|\w+|\([^()\n]{{1,80}}\))[ \t]*<"         # what is repeated
+    rf"|{_ARROW}[^&#→\n]{{0,200}}&[ \t]*(?:\d+|\w+|\([^()\n]{{1,80}}\))[ \t]*<"       # what is repeated
     r"|\?[ \t]*\d*\.\d+[ \t]*(?:,|$)"                                                # a probability
     r"|(?<![\w'.(,*/+-])R[ULHV]-?\d", re.MULTILINE)
 """What only texts in this notation have."""

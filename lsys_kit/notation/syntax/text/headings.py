@@ -14,7 +14,7 @@ _HEADING = re.compile(rf"[ \t]*+{HEADING}", re.IGNORECASE)
 SENTENCE = r"[A-ZÄÖÜ][a-zäöüß]*+(?:,?[ \t]++(?:[A-Za-zÄÖÜäöüß'’-]{2,}|a|I))+[.:!][ \t]*+"
 """Several words, of which none but "a" and "I" has one letter, with a full stop or a colon behind them."""
 _SENTENCE = re.compile(rf"[ \t]*+{SENTENCE}")
-RULES = r"(?:(?:rewriting |production )?rules|(?:produktions)?regeln|produktionen)\b"
+RULES = r"(?:(?:rewriting |production )?rules|(?:produktions)?regeln|produktionen)\b(?![ \t]*+(?:=(?!=)|[(<>]))"
 _RULES = re.compile(rf"[ \t]*+({RULES}[ \t]*+(:?))", re.IGNORECASE)
 _AND = re.compile(r"(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
 
