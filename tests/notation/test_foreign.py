@@ -31,7 +31,6 @@ OWN = sorted({
     *(example["listing"] for example in EXAMPLES.values()), *MODELS})
 """Texts in the kit's notations."""
 TEXTS = [(name, text, line) for name, texts in FOREIGN.items() for text, line in texts]
-ALL_DIALECTS = [None, *DIALECTS]
 
 
 def claim(text: str, notation: str | None = None) -> ModelSyntaxError:
@@ -50,6 +49,7 @@ def test_the_message_says_whose_format_it_is_and_where_that_is_seen(name: str, t
     assert not text.split("\n")[line - 1][(found.column or 1) - 1].isspace()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "text", "line"), [row for row in TEXTS if row[0] != L_PY])
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_it_says_so_too_where_a_notation_was_asked_for(notation: str, name: str, text: str, line: int) -> None:
@@ -162,6 +162,7 @@ def test_the_name_of_a_file_is_a_hint(name: str, told: str | None) -> None:
     assert told in name_hint(name) if told else name_hint(name) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "\n", " ", "a", "Axiom:", "production:\n", "<", "{", "import ", "#", "A = ", "__a", "x:", "'a", '"a', "Axiom:\n", "#lang\n",
     "(", "module ", "void a(", "p1:", "\t\n", "Axiom: A\nderivation length: 1\n", "private ", "<type> ", "[{", "==", "# ",
