@@ -193,7 +193,8 @@ FORMATS: Sequence[ForeignFormat] = (
         "The kit has no quotation marks, and no colon within a rule", "Write axiom: F, and a line F -> F+F for each rule.",
         [".json"]),
     ForeignFormat(
-        "a text as Markdown", ["```"], "A model has no fences", "Give what stands between them alone.", [".md"]),
+        "a text as Markdown", ["```"], "There is more in it than a system", "Give what stands between the fences alone.",
+        [".md"]),
 )
 """The formats; a text is in the first one whose sign it has."""
 GLANCE = 50_000

@@ -159,9 +159,9 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ("name: Koch\nrules:\n    'F': 'F+F--F+F'\n", 2), ("# the dragon\nangle: 90\nrules:\n  X: X+YF+\n  Y: -FX-Y\n", 3),
     ],
     MARKDOWN: [
-        ("# Koch\n\n```\naxiom: F\nF -> F+F\n```\n", 3), ("```lsystem\naxiom: A\nA -> A B\n```", 1),
-        ("The bush:\n```\naxiom: F\n```\n", 2),
-        ("```\naxiom: A\n", 1), ("A system:\n\n  ```\n  axiom: A\n  ```\n", 3),
+        ("# Koch\n\n```\naxiom: F\nF -> F+F\n```\n", 3), ("```lsystem\naxiom: A\nA -> A B\n```\nIt grows, and grows.", 1),
+        ("The bush, drawn below\n```\naxiom: F\n```\n", 2),
+        ("```\naxiom: A\n```\n## Next\n", 1), ("> A system\n\n  ```\n  axiom: A\n  ```\n", 3),
     ],
     JSON: [
         ('{"axiom": "F", "rules": {"F": "F+F"}}', 1), ('[\n {"angle": 60}\n]', 2), ("{\n  'F': 'F+F',\n}", 2),

@@ -104,6 +104,7 @@ def test_a_mistake_in_print_is_shown_where_it_was_typed(text: str, line: int, co
     ("\\begin{array}{lll}\n\\omega & : & A(1,10) \\\\\np_1 & : & A(l,w) \\rightarrow F(l)[+A(l,w)] \\\\[2pt]\n\\end{array}",
      "axiom: A(1,10)\nA(l,w) -> F(l)[+A(l,w)]"),
     ("\\[ \\omega: A \\]\n\\[ A \\rightarrow A B \\tag{7} \\]", "axiom: A\nA -> A B"),
+    ("rules = 3\naxiom: A(rules)\nA(x) -> B(x)", "rules = 3\naxiom: A(rules)\nA(x) -> B(x)"),
     ("Example 2\nL-system 4\naxiom: F\nF -> F+F", "axiom: F\nF -> F+F"),
     ("```\nn=3, δ=60°\nF\nF → F+F\n```", "steps: 3\nangle: 60\naxiom: F\nF -> F+F"),
     ("F\nF -> F[+F]F", "axiom: F\nF -> F[+F]F"),
