@@ -163,7 +163,7 @@ def test_where_nothing_is_drawn_in_space_the_picture_is_empty():
     assert picture.scene.order.tolist() == []
     assert "<path" not in picture.svg
     assert Image.open(io.BytesIO(picture.png)).convert("L").getextrema() == (255, 255)
-    assert figure(picture).collections[0].get_paths() == []
+    assert len(figure(picture).collections[0].get_paths()) == 0
 
 
 # --- the canvas in the browser ----------------------------------------------------------------------------------------
