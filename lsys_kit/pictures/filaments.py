@@ -223,14 +223,24 @@ def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of:
         colour = MARK_EDGE if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
         parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
     if aged and _ages_fit(walls):
-        parts += [f'<text x="{tenths(wall.x)}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" text-anchor="middle" '
-                  f'font-family="sans-serif" fill="{INK}">{wall.age}</text>' for wall in walls]
+        parts += [f'<text x="{tenths(_age_place(wall))}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" '
+                  f'text-anchor="middle" font-family="sans-serif" fill="{INK}">{wall.age}</text>' for wall in walls]
     return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
 
 
 def _ages_fit(walls: Sequence[DrawnWall]) -> bool:
     """Whether the ages of walls fit side by side."""
-    return all(left.x + 3.2 * len(left.age) < right.x - 3.2 * len(right.age) for left, right in pairwise(walls))
+    return all(_age_place(left) + _age_reach(left) < _age_place(right) - _age_reach(right) for left, right in pairwise(walls))
+
+
+def _age_place(wall: DrawnWall) -> float:
+    """Where the age of a wall is centred: above the wall, or as near as the edge of the picture allows."""
+    return min(max(wall.x, _age_reach(wall)), WIDTH - _age_reach(wall))
+
+
+def _age_reach(wall: DrawnWall) -> float:
+    """Half the width of the age of a wall."""
+    return 3.2 * len(wall.age)
 
 
 def tenths(pixels: float) -> int:

@@ -1,7 +1,7 @@
 """How fast words are drawn, as strokes a second: put together from pieces, and module by module where all modules differ.
 
 Goals: 50,000,000 in the plane for step 9 of a plant, 10,000,000 in space, 100,000 where every module is different; a picture
-of a million strokes in 0.2 s, and the SVG text of a thousand in 1 ms. They are printed by
+of a million strokes in 0.2 s, of one in space in 1 s, and the SVG text of a thousand in 1 ms. They are printed by
 `pytest tests/benchmarks/test_drawing.py --benchmark-only -s`.
 """
 
@@ -15,6 +15,7 @@ from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.display_list import frame_of
 from lsys_kit.pictures.formats.raster import turtle_png
 from lsys_kit.pictures.svg import turtle_svg
+from lsys_kit.pictures.view import project
 
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")
 IN_SPACE = read("angle: 25.7\naxiom: F\nF -> F[+F]/(90)F[-F]F")
@@ -63,6 +64,14 @@ def test_a_million_strokes_as_a_picture(benchmark):
     png = benchmark(lambda: turtle_png(scene, colours))
     assert png.startswith(b"\x89PNG")
     told(benchmark, len(scene.segments), 5e6)
+
+
+def test_a_plant_in_space_from_far_to_near_as_a_picture(benchmark):
+    derivation = derive(IN_SPACE, 8)
+    scene, colours = scene_of(derivation), draw(derivation.to(3)).colour_of
+    png = benchmark(lambda: turtle_png(project(scene), colours))
+    assert png.startswith(b"\x89PNG")
+    told(benchmark, len(scene.segments), 1e6)
 
 
 def test_a_thousand_strokes_as_text(benchmark):
