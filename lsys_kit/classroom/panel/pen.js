@@ -46,6 +46,17 @@ function tinted(colour, strength) {
   return `rgb(${channel(1)},${channel(3)},${channel(5)})`;
 }
 
+// The colours of looks in each strength, each mixed once.
+function mixer(colours) {
+  const known = new Map();
+  return (look, strength) => {
+    const key = (look >> 4) + strength / 2;
+    let mixed = known.get(key);
+    if (mixed === undefined) known.set(key, (mixed = tinted(colours[look >> 4], strength)));
+    return mixed;
+  };
+}
+
 // How much a face looks at the viewer, from 0 to 1; half in the plane.
 function facing(corners, { x, y, z }) {
   if (!z) return 0.5;
@@ -61,9 +72,11 @@ function facing(corners, { x, y, z }) {
 
 // The width of each stroke, in tenths of a pixel: as the turtle has set it, or by its branch order.
 function widthsOf({ n, looks, widths }, scale, thin) {
-  return Int32Array.from({ length: n }, (_, i) => widths[i] < 0
-    ? Math.round(10 * STROKES[(looks[i] >> 2) & 3] * thin)
-    : Math.max(SLIMMEST, Math.min(BROADEST, Math.round(10 * widths[i] * scale))));
+  const found = new Int32Array(n);
+  for (let i = 0; i < n; i++)
+    found[i] = widths[i] < 0 ? Math.round(10 * STROKES[(looks[i] >> 2) & 3] * thin)
+      : Math.max(SLIMMEST, Math.min(BROADEST, Math.round(10 * widths[i] * scale)));
+  return found;
 }
 
 // How near each shape is, faces first, then strokes, then rounds: its middle, in levels over the extent of the drawing.
@@ -89,13 +102,16 @@ function paintingOrder(shapes, points, widths) {
     if (i < faces.n) return -1;
     return i < last ? (strokes.looks[i - faces.n] >> 4) * (BROADEST + 1) + BROADEST - widths[i - faces.n] : 2 ** 21;
   };
-  const keys = Float64Array.from({ length: many }, (_, i) => rank(i) * MOST + i);
-  return keys.sort().map((key) => ((key % MOST) + MOST) % MOST);
+  const keys = new Float64Array(many);
+  for (let i = 0; i < many; i++) keys[i] = rank(i) * MOST + i;
+  keys.sort();
+  for (let i = 0; i < many; i++) keys[i] -= Math.floor(keys[i] / MOST) * MOST;
+  return keys;
 }
 
 function paint(pen, model, shapes, points, scale) {
   const thin = Math.min(1, Math.max(points.z ? THINNEST_IN_SPACE : THINNEST, (model.get("typical") * scale) / 12));
-  const colours = model.get("colours"), mark = model.get("mark");
+  const shade = mixer(model.get("colours")), mark = model.get("mark");
   const { x, y, z, reach } = points, { strokes, faces, rounds } = shapes;
   const widths = widthsOf(strokes, scale, thin);
   pen.lineCap = pen.lineJoin = "round";
@@ -109,9 +125,9 @@ function paint(pen, model, shapes, points, scale) {
   }
 
   function fill(outline, look, strength, inside, edge) {
-    pen.fillStyle = tinted(colours[look >> 4], inside);
+    pen.fillStyle = shade(look, inside);
     pen.fill(outline);
-    pen.strokeStyle = look & 2 ? mark : tinted(colours[look >> 4], strength);
+    pen.strokeStyle = look & 2 ? mark : shade(look, strength);
     pen.lineWidth = look & 2 ? 3 : edge;
     pen.stroke(outline);
   }
@@ -135,7 +151,7 @@ function paint(pen, model, shapes, points, scale) {
       pen.globalAlpha = 1;
     }
     for (const { look, width, strength, path } of runs) {
-      pen.strokeStyle = tinted(colours[look >> 4], strength);
+      pen.strokeStyle = shade(look, strength);
       pen.lineWidth = width;
       pen.stroke(path);
     }
