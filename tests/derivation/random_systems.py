@@ -201,7 +201,8 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
     """A rule, or two between which chance decides."""
     symbol = draw(st.sampled_from(("S", *LIVELY, "S", "+")))
     asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name("x")
-    own = (Pattern(symbol, (asked,) * ARITIES[symbol]), *(draw(others()) if SEVERAL in kinds and draw(st.booleans()) else ()))
+    more = draw(others(kinds)) if SEVERAL in kinds and draw(st.booleans()) else ()
+    own = (Pattern(symbol, (asked,) * ARITIES[symbol]), *more)
     sides = draw(st.sampled_from(("left", "right", "right", "both", ""))) if CONTEXT in kinds else ""
     left = draw(patterns("lm", branches=False)) if sides in ("left", "both") else ()
     right = draw(patterns("rs", branches=True)) if sides in ("right", "both") else ()
@@ -214,11 +215,11 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
 
 
 @st.composite
-def others(draw: st.DrawFn) -> tuple[Pattern, ...]:
+def others(draw: st.DrawFn, kinds: Collection[str]) -> tuple[Pattern, ...]:
     """One or two modules that are replaced together with one before them; values may be asked for."""
     found = []
-    for name in "yz"[:draw(st.sampled_from((1, 1, 1, 2)))]:
-        symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+")))
+    for name in "yz"[:draw(st.sampled_from((1, 1, 2)))]:
+        symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "%" if CUT in kinds else "+")))
         asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name(name)
         found.append(Pattern(symbol, (asked,) * ARITIES[symbol]))
     return tuple(found)
