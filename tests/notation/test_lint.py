@@ -173,7 +173,8 @@ def test_a_comment_in_another_language_is_noted_as_modules(rules: str, said: str
 
 
 @pytest.mark.parametrize(("rule", "said"), [
-    ("A --> AB//grow", '"//grow" is read as symbols, two rolls first; a'), ("A --> A # grow", '"# grow" is read as symbols; a')])
+    ("A --> AB//grow", '"//grow" is read as symbols, two rolls first; a'),
+    ("A --> A # grow", '"# grow" is read as symbols; a')])
 def test_a_comment_in_a_word_of_cpfg_is_noted_as_symbols(rule: str, said: str) -> None:
     assert f'{said} comment is written between "/*" and "*/".' in read(f"Axiom: A\n{rule}", "cpfg").notes
 

@@ -16,8 +16,6 @@ from lsys_kit.notation.syntax.wording import worded
 
 _NOT_IN_STRINGS = {"(": "values", ":": "conditions", "<": "contexts", ">": "contexts"}
 _OPERATORS = frozenset(("TIMES", "SIGN", "POWER"))
-_MACROS = frozenset(("le", "leq", "ge", "geq", "ne", "neq"))
-"""Relations in LaTeX, without the backslash that may also be a roll."""
 _CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠]|\\[lgn]eq?)\s*(\w+|\S?)")
 
 
@@ -72,8 +70,7 @@ def missing_colon(productions: Iterable[Production], symbols: Collection[str]) -
         compared = [*before, *production.right[:1]]
         parameters = {argument.name for module in before for argument in module.arguments if isinstance(argument, Name)}
         strange = parameters.intersection(module.symbol for module in compared if not module.arguments).difference(symbols)
-        related = production.left or production.right or any(module.symbol in _MACROS for module in before)
-        if strange and len(before) > 1 and related:
+        if strange and len(before) > 1 and (production.left or production.right):
             first = next(index for index, module in enumerate(before) if module.arguments)
             raise problem("condition without colon", before[min(first + 1, len(before) - 1)].at)
 
