@@ -235,7 +235,8 @@ def test_a_part_of_a_word_is_a_word(system: LSystem, start: int, end: int) -> No
 
 # Systems with contexts, chance, decomposition, cuts, repetitions and meta-rules
 
-MIXED = [(kind,) for kind in KINDS] + [(CONTEXT, CHANCE), (CONTEXT, CUT), (SEVERAL, CONTEXT), (SEVERAL, CHANCE, CUT), ()]
+MIXED = [*((kind,) for kind in KINDS), (CONTEXT, CHANCE), (CONTEXT, CUT), (SEVERAL, CONTEXT), (SEVERAL, CHANCE),
+         (SEVERAL, CUT), ()]
 """Kinds of rules that are tested alone and together; `()` is any mixture."""
 seeds = st.integers(-3, 2**40)
 
