@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 
 from lsys_kit.budget import limits
+from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.arithmetic import Value
@@ -209,3 +210,21 @@ def test_a_context_that_is_passed_over_is_noted() -> None:
     assert read("consider: A\naxiom: A + B\n+ < B -> A").notes[0].endswith("contexts pass over +.")
     assert read("consider: A\naxiom: A + B\nA < B > [A] -> A").notes == (
         "The production A < B > [A] can never match: no module [ occurs.",)
+
+
+@pytest.mark.parametrize(("text", "waits"), [
+    ("axiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)", "a(1)"), ("d = 1\naxiom: a(0,2) X\na(2*d,x) -> a(0,x)", "a(2 * d,x)")])
+def test_a_timed_system_stays_as_it_is_in_steps(text: str, waits: str) -> None:
+    system = read(text)
+    (note,) = system.notes
+    assert f"that for {waits} wait for an age" in note
+    assert "timed(system).word(t)" in note
+    assert list(derive(system, 3)[3]) == list(derive(system, 3)[0])
+
+
+@pytest.mark.parametrize("text", [
+    "axiom: A(0)\nA(0) -> A(1)\nA(1) -> B", "d = 0\naxiom: A(0)\nA(d) -> B", "axiom: A\nA -> A(1)\nA(1) -> A",
+    "axiom: a(0)\na(1) -> a(0)\na(t) : t < 1 -> a(t+1)",
+    "axiom: a(0)\na(1) -> b\ndecomposition:\na(0) -> a(1)"])
+def test_what_happens_in_steps_is_no_timed_system(text: str) -> None:
+    assert not any("wait for an age" in note for note in read(text).notes)

@@ -7,7 +7,8 @@ from graphlib import CycleError, TopologicalSorter
 
 from lsys_kit.notation.analysis.problems import Problem, ProblemFound, problem
 from lsys_kit.notation.analysis.slips import slips
-from lsys_kit.notation.model.expressions import Name, Number
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.expressions import Expression, Name, Number, function_of, is_random, names_in
 from lsys_kit.notation.model.modules import END, Item, Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -34,7 +35,7 @@ def warnings(system: LSystem) -> list[Problem]:
     return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
             *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
             *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system), *_unanswered(reachable),
-            *_passed_over(system), *slips(system)]
+            *_passed_over(system), *_timed(system), *slips(system)]
 
 
 def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
@@ -128,6 +129,48 @@ def _unanswered(reachable: set[_ModuleKind]) -> Iterator[Problem]:
     """Queries that nothing answers."""
     if any(symbol == "?E" for symbol, _ in reachable):
         yield Problem("unanswered query", None, {"symbol": "?E"})
+
+
+def _timed(system: LSystem) -> Iterator[Problem]:
+    """Productions of a timed system, which no step applies: each asks for an age, and no module of the axiom has it."""
+    constants = _values_of_constants(system)
+    rules = [rule for rule in system.productions if constants is not None and _asks_age(rule, constants)]
+    if rules and len(rules) == len(system.productions) and not system.decomposition:
+        ages = {(_kind(module), _number(module.arguments[0], constants or {}))
+                for module in flat(system.axiom) if module.arguments}
+        asked = {(_kind(rule.predecessor), _number(rule.predecessor.arguments[0], constants or {})) for rule in rules}
+        if not ages & asked and None not in {age for _, age in ages | asked}:
+            yield Problem("only in time", rules[0].at, {"rule": rules[0]})
+
+
+def _asks_age(rule: Production, constants: Mapping[str, Value]) -> bool:
+    """Whether all that a production asks is the first value of a module."""
+    first, *others = rule.predecessor.arguments or (None,)
+    free = [isinstance(argument, Name) and argument.name not in constants for argument in (first, *others)]
+    return (first is not None and not free[0] and all(free[1:]) and len(rule.predecessors) == 1
+            and not (rule.left or rule.right) and rule.condition is None and rule.probability is None)
+
+
+def _values_of_constants(system: LSystem) -> dict[str, Value] | None:
+    """The values of the declared constants; None where one has no value."""
+    values: dict[str, Value] = {}
+    for constant in system.constants:
+        found = _number(constant.value, values)
+        if found is None:
+            return None
+        values[constant.name] = found
+    return values
+
+
+def _number(expression: Expression, values: Mapping[str, Value]) -> Value | None:
+    """The value of an expression; None where it has none."""
+    if is_random(expression) or not names_in(expression) <= values.keys():
+        return None
+    try:
+        found: Value = function_of(expression, {name: at for at, name in enumerate(values)})(tuple(values.values()))
+    except (ArithmeticError, ValueError, TypeError):
+        return None
+    return found
 
 
 def _overtaken(rules: Iterable[Production], system: LSystem, called: str) -> Iterator[Problem]:

@@ -113,6 +113,8 @@ WORDINGS: Mapping[str, Wording] = {
     "context passed over": Wording("The production {rule} can never match: contexts pass over {symbol}."),
     "comment as modules": Wording('The "{said}" after the production for {rule} is read as modules. {comment}'),
     "decimal comma": Wording("{module} has two values: a decimal is written with a point."),
+    "only in time": Wording("No step changes the axiom: productions such as that for {rule} wait for an age, and no step makes "
+                            "a module older. Time passes in timed(system).word(t), and in steps with a(t) -> a(t+dt)."),
     "unanswered query": Wording("Nothing answers {symbol}: its values stay as they are."),
     "endless decomposition": Wording("Rule {symbol} decomposes into itself: {cycle}", "It can never finish.", ModelValueError),
 }
