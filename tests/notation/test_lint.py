@@ -169,7 +169,8 @@ def test_what_may_well_be_meant_is_not_noted(text: str) -> None:
     ("A -> A -- grow", "--grow"), ("A -> A ; grow", ";grow"), ("A -> [A] # grow", "#grow"),
 ])
 def test_a_comment_in_another_language_is_noted_as_modules(rules: str, said: str) -> None:
-    assert (f'The "{said}" after the production for A is read as modules. A comment is written between "/*" and "*/".'
+    assert (f'The "{said}" after the production for A is read as modules, not as a comment, which is written '
+            'between "/*" and "*/".'
             in read(f"axiom: A\n{rules}").notes)
 
 

@@ -111,7 +111,8 @@ WORDINGS: Mapping[str, Wording] = {
     "final sign": Wording('The "{sign}" after the production for {rule} is read as a command of the turtle; a line needs no '
                           "sign at its end."),
     "context passed over": Wording("The production {rule} can never match: contexts pass over {symbol}."),
-    "comment as modules": Wording('The "{said}" after the production for {rule} is read as modules. {comment}'),
+    "comment as modules": Wording('The "{said}" after the production for {rule} is read as modules, not as a comment, which is '
+                                  'written between "/*" and "*/".'),
     "decimal comma": Wording("{module} has two values: a decimal is written with a point."),
     "only in time": Wording("No step changes the axiom: productions such as that for {rule} wait for an age, and no step makes "
                             "a module older. Time passes in timed(system).word(t), and in steps with a(t) -> a(t+dt)."),

@@ -1,0 +1,97 @@
+"""No text takes long: each reader, with each token of each grammar, and any two of them, repeated until the text is full.
+
+A line of a model has at most 50,000 characters; what is done with a line is tried on 12,000, so that what takes the square of
+their number is seen.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.read import read
+from lsys_kit.notation.registry import DIALECTS, recognise
+from lsys_kit.notation.syntax.parser import _parser
+
+TOKENS = (
+    "axiom:", "\\omega :", "ω =", "axiom A", "angle:", "δ:", "decomposition depth:", "δ =", "\\delta :", "°", "^\\circ",
+    "turtle:", "abop", "fractint", "cells:", "ellipses", "ignore:", "meta:", "repeat(", "alphabet:", "V = {", "P = {",
+    "productions:", "decomposition", "homomorphism", "interpretation:", "->", "-->", "→", "⟶", "::=", "\\rightarrow",
+    "\\xrightarrow{", "in", "by", "..", "ε", "*", "\\varepsilon", ", ", "ε]", "(A, ", "(A,", "\\vec{A}", "A⃗", "b_{r}", "@Ts",
+    "@T", "@o", "?P", "+", "-", "−", "&", "^", "\\", "/", "|", "{", "}", "$", "!", "'", "#", "~", ";", ".", "%", "@", "0",
+    "1", "12", "1.5", ".5", "1e5", "[", "]", "(", ")", "/*", "*/", "/* x */", "A", "a", "al", "A ", "F", "p_1 :", "p1:", "_",
+    "<", ">", "<=", "==", "=", "!=", "<>", "≤", "&&", "||", "∨", "∧", "¬", "·", "×", ":", ",", "Number of productions:",
+    "Stage 1 string:", "\\axiom", "Startwort", "\\angle", "\\set depth", "\\set x", "\\set turtle", "\\const", "\\var", "1-8",
+    "##", "\\dots", "&(", "RU45", "L*(", "L*", "u1'", "?0.5", "\\var x uniform", "index", "#define", "# define x",
+    "#define dt 0.7 /* 1 .. 2 */", "/* 1 .. 2 */", "/* angle: 3 */", "derivation length:", "maximum depth:", "seed:",
+    "lsystem:", "Lsystem: 1", "endlsystem", "if", "else", "if(", "=]", "//", "// x", " //", "x = 1;", "Angle 6", "angle",
+    "Axiom F", "F=", "F =", "@.5", "\\30", "<I1", "@IQ", "Koch {", "; x", "AXIOM[", "LRULES[", "LRule[", "LEFT[", "PRED[",
+    "RIGHT[", "SUCC[", "LSystem[", "runKLSystem[", "skipPattern =", "skipPattern=", "turtle=", "angle =", "lrules =",
+    "axiom =", "Axiom:", "Rules:", "i_", "i_ /;", "/;", "Null", "\"", "\"+\"", "\"\\", "\\\"", "Sin[", "ArcTan[", "Degree",
+    "RandomReal[", "RandomVariate[", "RandomChoice[", "Show[", "Plot[", "Clear[", "x[", "foo[", "(*", "*)", "(* x *)",
+    "(* (* *) *)", "<<", "x/:", ":=", ":>", "/.", "#&", "& ", "*^5", "1*^5", "1.", "]]", "],", "\n", "\n\n", "\t", " ", "\r",
+    "\x0b", "\xa0", "\ufeff", "n=3, ", "n=5, δ=25.7°\n", "Start:", "-  A → ", "• ", "0.5 → ", "1\n", " .5", "\\bar{A}",
+    "\\quad", "\\begin{array}", "\\\\", "∗", "’", "–", "|-", ">*", "*<", "#include", "A -> B\n", "A\n", "A -> ",
+    "A : t < 5 -> ", "B < ", "> B", "A(t)", "A(", "A(1)", "F[+F]", "{A}", "{}", "[]", "()", "&& ", "|| ", "!(",
+)
+"""Something for each token of each grammar, and what a printed listing has beside them."""
+BEGINNINGS = {
+    "abop": ("", "axiom: A\nA -> ", "axiom: A\nA(t) : t > "), "plant-string": ("", "Axiom: A\nA -> "),
+    "cpfg": ("", "Axiom: A\nA --> ", "Axiom: A\nA(t) : t > "), "grogra": ("", "\\axiom A,\nA # ", "\\axiom A,\n(t > "),
+    "fractint": ("", "K {\nAngle 8\nAxiom A\nA="),
+    "mathematica": ("", "axiom = AXIOM[A];\nlrules = LRULES[LRule[LEFT[], PRED[A], RIGHT[], SUCC[")}
+MILLION, LINE = 1_000_000, 12_000
+
+
+def seconds(text: str, notation: str) -> float:
+    """The processor's time for reading a text, or for saying what is wrong with it."""
+    started = time.process_time()
+    with suppress(LSystemError):
+        read(text, notation)
+    return time.process_time() - started
+
+
+def filled(beginning: str, piece: str, size: int) -> str:
+    return beginning + piece * ((size - len(beginning)) // len(piece))
+
+
+@pytest.mark.parametrize("notation", DIALECTS)
+def test_every_token_of_the_grammar_is_tried(notation: str) -> None:
+    missing = [token.name for token in _parser(DIALECTS[notation]).terminals
+               if not any(re.search(token.pattern.to_regexp(), sample) for sample in TOKENS)]
+    assert missing == []
+
+
+@pytest.mark.slow
+def test_a_million_characters_of_any_token_are_recognised_in_two_seconds() -> None:
+    slow = {}
+    for token in TOKENS:
+        started = time.process_time()
+        recognise(filled("", token, MILLION))
+        if time.process_time() - started > 2:
+            slow[token] = time.process_time() - started
+    assert slow == {}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("notation", DIALECTS)
+def test_a_line_of_any_token_is_read_in_linear_time(notation: str) -> None:
+    seconds("A", notation)  # the first makes the parser
+    taken = {(beginning, token): seconds(filled(beginning, token, LINE), notation)
+             for beginning in BEGINNINGS[notation] for token in TOKENS}
+    assert {text: time for text, time in taken.items() if time > 1} == {}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("notation", DIALECTS)
+@given(st.data())
+def test_a_line_of_any_two_tokens_is_read_in_linear_time(notation: str, data: st.DataObject) -> None:
+    pair = data.draw(st.sampled_from(TOKENS)) + data.draw(st.sampled_from(TOKENS))
+    seconds("A", notation)
+    assert seconds(filled(data.draw(st.sampled_from(BEGINNINGS[notation])), pair, LINE), notation) < 1
