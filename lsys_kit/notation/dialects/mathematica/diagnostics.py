@@ -19,7 +19,12 @@ _RULE = 'A rule reads "LRule[LEFT[a], PRED[b], RIGHT[], SUCC[b, c]]"; "LEFT[]" a
 _QUOTES = 'Symbols that are not names need quotation marks, as in \'F, "[", "+", F, "]"\'.'
 _CLOSING = {"[": "]", "(": ")", "{": "}"}
 _HEAD = re.compile(rf"(?:{'|'.join(HEADS)})(?=\s*\[)", re.IGNORECASE)
-_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
+_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*+(?:(?P<closed>")|\\?(?=\n|\Z))')
+
+
+def _crossed_out(quotation: re.Match[str]) -> str:
+    """What is quoted, without its signs; a quotation that is never closed as it is."""
+    return '"' + "x" * (len(quotation.group()) - 2) + '"' if quotation["closed"] else quotation.group()
 
 
 def _opened(text: str) -> int | None:
@@ -231,7 +236,7 @@ _DIAGNOSTICS_OF_BARE_TEXT: Sequence[Diagnostic] = (
 def _diagnose_bare_text(failure: ParseFailure) -> ModelSyntaxError | None:
     """The first error of these diagnostics, with comments and quoted symbols blanked out."""
     text = without_nested_comments(failure.source)
-    bare = _STRING.sub(lambda quotation: '"' + "x" * (len(quotation.group()) - 2) + '"', text)
+    bare = _STRING.sub(_crossed_out, text)
     seen = replace(failure, text=bare)
     return next((error for diagnostic in _DIAGNOSTICS_OF_BARE_TEXT if (error := diagnostic(seen)) is not None), None)
 

@@ -10,7 +10,8 @@ from lsys_kit.notation.syntax.text.statements import ARROW
 
 DEEPEST = 3
 """How deep comments may be nested."""
-_STRING = r'"(?:[^"\\\n]|\\.)*+"'
+_STRING = r'"(?:[^"\\\n]|\\.)*+(?:"|\\?(?=\n|\Z))'
+"""What is quoted, to the end of the line where the quotation is never closed."""
 
 
 def _comment(depth: int) -> str:
