@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.dialects.cpfg.writer import joined_word, module_text
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 
@@ -42,11 +48,15 @@ def test_an_element_is_the_one_with_its_number(size: int) -> None:
 
 
 @pytest.mark.parametrize(("text", "name", "place"), [
-    ("Start: {step=0;}\nEndEach: {step=step+1;}\nAxiom: A(0)\nA(t) : step > 3 --> B", "step", (5, 8)),
-    ("StartEach: {s=2;}\nAxiom: A\nA --> A(s)", "s", (4, 9)),
     ("Start: {c=1;}\nAxiom: AB\nA : 1 {c=2;} --> F\nB --> F(c)", "c", (5, 9)),
     ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nhomomorphism\nA --> F(c)", "c", (6, 9)),
+    ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nA : c>2 --> B\ndecomposition\nB --> A", "c", (5, 5)),
     ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A(c)", "c", (4, 10)),
+    ("EndEach: {c=c+ran(1);}\nAxiom: A\nA : c>2 --> B", "c", (4, 5)),
+    ("EndEach: {c=c+1;}\nAxiom: F\nF : c>2 --> FF", "c", (4, 5)),
+    ("EndEach: {c=c+1;}\nAxiom: +\n+ : c>2 --> -", "c", (4, 5)),
+    ("EndEach: {c=c+1;}\nAxiom: AA(1)\nA : c>2 --> B", "c", (4, 5)),
+    ("EndEach: {c=c+1;}\nAxiom: A\nA : c>2 {c=3;} --> B(c)", "c", (4, 5)),
 ])
 def test_a_variable_that_changes_is_named_where_it_is_used(text: str, name: str, place: tuple[int, int]) -> None:
     with pytest.raises(ModelNameError, match=f'The variable "{name}" changes while the model runs') as caught:
@@ -64,6 +74,32 @@ def test_a_variable_that_changes_is_named_where_it_is_used(text: str, name: str,
 def test_what_no_constant_can_be_is_said(text: str, error: type[Exception], said: str) -> None:
     with pytest.raises(error, match=said):
         read(f"#define k 3\nLsystem: 1\n{text}")
+
+
+RULES = ("A(x) : n < 3 --> F[+A(x+n)]B", "A(x) : x > n --> C", "B > [A(x)] --> A(n)", "B : n == 2 --> A(0)B",
+         "A(x) < B --> BF(n)",
+         "C --> A(p)", "B < C --> *", "D : p > 5 --> B",
+         "D --> DB", "A(x) --> A(x+1)")
+"""Productions that use a counter n, and p, which depends on it."""
+
+
+def carried(word: Iterable[Module], arities: dict[str, int]) -> str:
+    """A word without what its modules carry."""
+    return joined_word(module_text(Module(m.symbol, m.arguments[:arities.get(m.symbol, 9)])) for m in word)
+
+
+@given(st.lists(st.sampled_from(RULES), min_size=1, max_size=5, unique=True),
+       st.sampled_from(("n=n+1;", "n=n+2; if (n > 5) {n=0;}")))
+def test_counters_are_what_the_statements_around_the_steps_make_them(rules: list[str], counting: str) -> None:
+    """The definition: in each step the productions are those with the values that the counters have then."""
+    body, start = "\n".join(rules), "A(0)[B]CDF"
+    system = read(f"Lsystem: 1\nStart: {{n=0;}}\nStartEach: {{p=2*n;}}\nEndEach: {{{counting}}}\nAxiom: {start}\n{body}")
+    word, n = start, 0
+    for found in derive(system, 5):
+        assert carried(found, {"A": 1, "B": 0, "C": 0, "D": 0}) == word
+        now = read(f"#define n {n}\n#define p {2 * n}\nLsystem: 1\nAxiom: {word or 'F'}\n{body}", "cpfg")
+        word = carried(derive(now, 1)[-1], {}) if word else ""
+        n = n + 1 if counting == "n=n+1;" else (n + 2) * (n + 2 <= 5)
 
 
 def test_what_is_left_out_is_noted() -> None:

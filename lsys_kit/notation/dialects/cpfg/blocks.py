@@ -68,13 +68,13 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     return done
 
 
-def computed(block: Block, constants: Iterable[str], source: str) -> Bindings:
-    """What the statements of a block compute, by name; they may use constants, and do not change them.
+def computed(block: Block, constants: Iterable[str], source: str, before: Iterable[str] = ()) -> Bindings:
+    """What the statements of a block compute, by name, perhaps from values before; they use constants, and do not change them.
 
     >>> print(computed((Assignment(Name("n"), Name("k")), Assignment(Name("m"), Name("n"))), ["k"], "")["m"])
     k
     """
-    return _Rule(frozenset(), frozenset(constants), source).computed(block, {})
+    return _Rule(frozenset(before), frozenset(constants), source).computed(block, {})
 
 
 def assigned_names(block: Block) -> set[str]:

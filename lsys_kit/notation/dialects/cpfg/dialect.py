@@ -11,6 +11,7 @@ from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
 from lsys_kit.notation.dialects.cpfg.actions import SILENT, CpfgStatements
 from lsys_kit.notation.dialects.cpfg.blocks import Block, substitute
+from lsys_kit.notation.dialects.cpfg.counters import Counters, with_counters
 from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.cpfg.preprocessor import preprocessed
 from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
@@ -62,8 +63,18 @@ def _resolve_deferred(draft: Draft) -> None:
         elif kind == "count":
             keyword, expression = record
             _resolve_count(draft, section, keyword, expression, at)
+    _carry_counters(draft, variables.counters)
     axiom = Production((Pattern("axiom"),), draft.axiom or ())
     check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing, draft.source)
+
+
+def _carry_counters(draft: Draft, counters: Counters) -> None:
+    """Let modules carry the counters that their productions use, where they can."""
+    others = [*draft.sections["decomposition"], *draft.sections["interpretation"]]
+    carried = with_counters(draft.axiom or (), draft.sections["productions"], others, counters)
+    if carried is not None:
+        draft.axiom, draft.sections["productions"], said = carried
+        draft.notes.append(said)
 
 
 def _variables(draft: Draft) -> Variables:
