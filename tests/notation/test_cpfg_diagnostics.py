@@ -210,7 +210,9 @@ UNREADABLE = [
     ("Axiom: A\nA --> B → C",
      "This is a second arrow in one production", 2, 9, "Write one production per line."),
     ("Axiom: A\nignore: [",
-     "A bracket is not possible here", 2, 9, "Contexts follow the branches in any case."),
+     "One bracket is listed here without the other", 2, 9, "Right contexts pass over both brackets or over none."),
+    ('Axiom: A\nA --> [@L("age")]B',
+     "The kit has no texts among values", 2, 11, "Leave the label out, or write a number."),
     ("Axiom: A(1)\nA(t) : t => 3 --> B",
      "This is not a comparison", 2, 10, 'For "at least", type ">=".'),
     ("Axiom: A(1)\nA(t) : {x=t; y=x} --> A(y)",
@@ -218,6 +220,9 @@ UNREADABLE = [
 ]
 
 UNKNOWN = [
+    ("Axiom: A(0)\nA(t) --> F(curveX(1,t))",
+     "The kit has no curveX(...)", 2, 12,
+     "Its values are in a file of curves, which is not part of this text: write an expression in its place."),
     ("Axiom: A(0)\nA(t) --> A(sqtr(t))",
      'I do not know the function "sqtr"', 2, 12, 'Did you mean "sqrt"?'),
     ("Axiom: A(0)\nA(t) --> A(max(t,1))",

@@ -55,6 +55,15 @@ def _included(failure: ParseFailure) -> ModelSyntaxError | None:
                          "Put what it says in place of this line.", failure.start, found.end())
 
 
+def _label(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A text among the values of a module, as in cpfg's labels."""
+    label = re.match(r'"[^"\n]*"?', failure.found) if "SYMBOL" not in failure.accepted else None
+    if label is None or unclosed_bracket(failure.before, "()") is None:
+        return None
+    return failure.error("The kit has no texts among values", "Leave the label out, or write a number.",
+                         failure.at, len(label.group()))
+
+
 def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
     """A statement that is neither an assignment nor a choice, or an element of an array."""
     loop = re.search(r"[{;}]\s*(while|do)\b", failure.statement)
@@ -128,5 +137,5 @@ def _similar_keyword(name: str) -> str | None:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    _feature, _included, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
+    _feature, _included, _label, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
 """The diagnostics of a cpfg text, the most specific first."""

@@ -52,6 +52,8 @@ _FUNCTIONS: Mapping[str, str] = {**{name: name for name in SAME}, **RENAMED, **A
 ABSENT = ("atan2", "bran", "func", "inblob", "printf", "fprintf", "fopen", "fclose", "fflush", "fscanf", "srand", "stop",
           "play", "curveX", "curveY", "curveZ")
 """Functions of cpfg that the kit does not have."""
+CURVES = frozenset(("func", "curveX", "curveY", "curveZ"))
+_CURVES = "Its values are in a file of curves, which is not part of this text: write an expression in its place."
 _ROUNDED = 'Type "floor" or "ceil".'
 
 
@@ -88,7 +90,7 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
     """
     place = at or (0, 0)
     if name in ABSENT:
-        raise ActionError(ModelNameError, f"The kit has no {name}(...)", place)
+        raise ActionError(ModelNameError, f"The kit has no {name}(...)", place, _CURVES if name in CURVES else None)
     if name not in _FUNCTIONS and name not in BUILT:
         known = (*SAME, *RENAMED, *BUILT)
         raise ActionError(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)

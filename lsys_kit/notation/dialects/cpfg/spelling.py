@@ -12,6 +12,8 @@ SPELLING = Spelling(
     rule_example='A production reads "A --> B": what is replaced, an arrow, what replaces it.', interpretation="homomorphism",
     contexts='A left context ends with "<", a right context begins with ">", as in "A < B > C --> D".',
     expression=expression_text, module=module_text, joined=joined_word, wordings={
+        "bracket in list": Wording("One bracket is listed here without the other",
+                                   "Right contexts pass over both brackets or over none."),
         "division by zero": Wording('"{expression}" has no value: {reason}',
                                     "cpfg warns of it and divides by 1; a remainder by 0 ends cpfg.", ModelValueError)})
 """cpfg's arrow, its macros, its expressions."""
