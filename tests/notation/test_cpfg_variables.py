@@ -67,6 +67,7 @@ def test_a_variable_that_changes_is_named_where_it_is_used(text: str, name: str,
 @pytest.mark.parametrize(("text", "error", "said"), [
     ("Start: {k=1;}\nAxiom: A", ModelNameError, 'constant "k" cannot be changed'),
     ("Start: {x=y;}\nAxiom: A(x)", ModelNameError, 'I do not know the name "y"'),
+    ("Start: {x=y; srand(x);}\nAxiom: A", ModelNameError, 'I do not know the name "y"'),
     ("Start: {x=ran(1);}\nAxiom: A(x)", ModelValueError, "draws a new number at every use"),
     ("Define: {array a[2]={1,2};}\nAxiom: A\nA --> B(a[ran(2)])", ModelValueError, "index of an array cannot be random"),
     ("Define: {array a[2]={1,2};}\nAxiom: A\nA : 1 {a[1]=5;} --> B(a[1])", ModelSyntaxError, "no arrays that change"),

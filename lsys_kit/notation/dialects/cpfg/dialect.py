@@ -88,6 +88,7 @@ def _variables(draft: Draft) -> Variables:
             blocks += record[1:]
     found = variables_of(phases, blocks, [constant.name for constant in draft.constants], draft.source)
     draft.constants += found.constants
+    check_constants(draft.constants)
     if found.seed is not None and all(record[0] != "seed" for kind, record, _ in draft.deferred if kind == "count"):
         draft.deferred.append(("count", ("seed", found.seed), found.seed.at or (0, 0)))
     silent = sorted({name for name in SILENT if re.search(rf"\b{name}[ \t]*\(", draft.source)} | {"End:"} & {
