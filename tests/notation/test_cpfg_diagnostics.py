@@ -112,6 +112,8 @@ UNREADABLE = [
      'This "#endif" belongs to no condition', 2, 1, 'A condition begins with "#if".'),
     ("#if 1 +\nAxiom: A\n#endif",
      "This condition has no value", 1, 1, 'It is made of numbers, macros that are numbers, and "defined".'),
+    ("#if ran(1)\nAxiom: A\n#endif",
+     "This condition has no value", 1, 1, 'It is made of numbers, macros that are numbers, and "defined".'),
     ("#if 1/0\nAxiom: A\n#endif",
      "This condition has no value", 1, 1, 'It is made of numbers, macros that are numbers, and "defined".'),
     ("Axiom: A(1)\nA(t) : {x=t;} --> A(x",

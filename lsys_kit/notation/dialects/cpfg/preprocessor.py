@@ -9,11 +9,11 @@ from functools import cache
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelSyntaxError
-from lsys_kit.notation.analysis.checks import value_of
+from lsys_kit.notation.analysis.checks import check_expression, value_of
 from lsys_kit.notation.analysis.problems import ProblemFound
 from lsys_kit.notation.dialects.cpfg.macros import Macro, Macros, Parse, arrays_in, macro_of
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.expressions import names_in
+from lsys_kit.notation.model.expressions import expression_type, names_in
 from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 
@@ -157,7 +157,9 @@ class _Preprocessor:
         plain = _DEFINED.sub(lambda found: str(int(self._is_defined(found[1] or found[2]))), asked)
         try:
             expression = self.parse("expression", self.macros.expanded(plain, at))
-            return bool(value_of(expression, {name: self.values.get(name, 0) for name in names_in(expression)}))
+            known = {name: self.values.get(name, 0) for name in names_in(expression)}
+            check_expression(expression, known, expression_type(expression))
+            return bool(value_of(expression, known))
         except (LSystemError, ProblemFound):
             raise self._error("This condition has no value", at,
                               'It is made of numbers, macros that are numbers, and "defined".') from None
