@@ -11,7 +11,7 @@ import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError, read, timed
+from lsys_kit import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError, read, system, timed
 from lsys_kit.derivation.timed.continuity import Continuity, continuity
 from lsys_kit.derivation.timed.equations import growth_base
 
@@ -344,3 +344,18 @@ def test_a_name_that_nobody_knows_is_refused() -> None:
 def test_a_system_without_ages_has_no_growth_functions() -> None:
     with pytest.raises(ModelValueError, match="does not say at which age"):
         continuity(read("axiom: A(0)\nA(t) -> A(t+1)"), {"A": "t"})
+
+
+def test_a_system_of_steps_is_asked_like_a_timed_one() -> None:
+    found = continuity(system("K27"), {"ar al": "A * exp(B*(t+1))", "br bl": "A * exp(B*t)"})
+    assert str(found.solve("B")) == "log(1/2 + sqrt(5)/2)"
+    for name in ("P5", "P6"):
+        assert float(continuity(system(name), {"M": "g^t"}).solve("g")) == pytest.approx(2.167303978, abs=1e-9)
+    assert continuity(system("J4"), {"Al Ar": "t + 1", "Bl Br": "t + 1"}, lifeTimeA=3, lifeTimeB=3).divisions[0].defect == 1
+
+
+def test_ages_may_stand_behind_other_values() -> None:
+    cells = read("dt = 1/4\naxiom: M(LEFT,0)\nM(p,t) -> M(p,t+dt)\ndecomposition:\nM(p,t) : t >= 1 -> M(p,t-1) M(1-p,t-1)"
+                 .replace("LEFT", "0"))
+    assert continuity(cells, {"M": "2^t"}).continuous
+    assert not continuity(cells, {"M": "1 + t^2"}, order=1).continuous

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from fractions import Fraction
@@ -99,6 +100,21 @@ def test_a_diagram_with_too_many_arcs_is_grouped_or_refused() -> None:
 def test_continuity_of_many_ages_is_refused() -> None:
     with pytest.raises(ModelLimitError, match="first and last ages"):
         continuity(read("axiom: A(0)\nA(1) -> repeat(1000, i)<B(i)>\nB(2000) -> ε"), {"A B": "t"})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("growth_function", ["*".join(f"(t+{number})" for number in range(30)),
+                                             "*".join(f"sin(t+{number})" for number in range(25)),
+                                             "*".join(f"log(t+{number})" for number in range(1, 25))])
+def test_continuity_of_products_ends_with_its_budget(growth_function: str) -> None:
+    start = time.process_time()
+    with limits(seconds=0.3), pytest.raises(ModelLimitError, match="was not decided"):
+        continuity(read("axiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)"), {"a": growth_function, "b": "t"}, order=9)
+    assert time.process_time() - start < 2
+
+
+def test_continuity_of_tangents_is_decided() -> None:
+    assert len(continuity(read("axiom: a(0)\na(1) -> a(0)"), {"a": "tan(t)"}).divisions) == 1
 
 
 NUMBERS = ("0", "1", "2", "-1", "1/2", "1/3", "10^9", "1/10^9", "c", "c/3", "sqrt(2)", "1e300", "0 - 1e300", "2^200", "1e-300")

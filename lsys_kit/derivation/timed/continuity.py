@@ -17,6 +17,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from lsys_kit.budget import Task, supervised
 from lsys_kit.derivation.core.rules import real_from, unknown_constant
 from lsys_kit.derivation.timed.ages import AgeModel, births
 from lsys_kit.derivation.timed.equations import roots
@@ -113,7 +114,8 @@ class Continuity:
         if jumps:
             raise ModelValueError(f'Whatever "{name}" is, the length jumps: {jumps[0]}')
         ends = [None if end is None else real_from(end, "limit") for end in (low, high)]
-        found = [root for root in roots(self._equation(name), *ends) if self._is_solved(name, root)]
+        with Task(f"The value of {name} was not found"), supervised():
+            found = [root for root in roots(self._equation(name), *ends) if self._is_solved(name, root)]
         if len(found) == 1:
             return found[0]
         if not found:
@@ -181,6 +183,8 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
         A letter or a name is not there, or a letter has no growth function.
     ModelValueError
         A growth function is not continuous on the life span of its letter.
+    ModelLimitError
+        That takes too long to decide.
 
     Examples
     --------
@@ -198,6 +202,12 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MOST_ORDER:
         raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {order!r}")
+    the_age()  # so that sympy is imported before it is supervised
+    with Task("Whether the length is continuous was not decided"), supervised():
+        return _continuity(system, lengths, order, constants)
+
+
+def _continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int, constants: Mapping[str, object]) -> Continuity:
     growing, given = _timed_with_values(system, constants)
     productions = list(_divisions(growing))
     lives = _life_spans(growing, productions)
@@ -208,6 +218,8 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     divisions = tuple(Division(production, k, *(_total_length(growing.ages, modules, functions, k)
                                                 for modules in ([mother], daughters)))
                       for k in range(order + 1) for production, mother, daughters in productions)
+    for division in divisions:
+        _ = division.defect  # found here, where the time that it takes counts
     return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
 
 
