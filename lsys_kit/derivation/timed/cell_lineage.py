@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_budget, current
 from lsys_kit.derivation.core.interpretation import is_cell, is_filament
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
@@ -101,6 +101,7 @@ class CellDivisions:
 
     def _decomposed(self, module: Module, at_birth: Module, depth: int) -> CellPart:
         """A module with its parts, and theirs."""
+        check_budget()
         self._parts += 1
         if self._parts > MOST_PARTS or depth > min(current().decomposition, MOST_DEPTH):
             raise ModelLimitError(f"{module} is decomposed into too many modules for a lineage", limit=MOST_PARTS,
@@ -144,6 +145,7 @@ class CellGrowth:
 
     def follow(self, part: CellPart, owner: int | None, step: int, span: tuple[Value, Value]) -> None:
         """What becomes of a cell within a step that lasts from one time to another."""
+        check_budget()
         self._parts += 1
         if self._parts > MOST_FOLLOWED:
             raise ModelLimitError(f"More than {MOST_FOLLOWED:,} modules come and go in the steps of this lineage",

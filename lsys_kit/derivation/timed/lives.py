@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import NamedTuple, TypeAlias
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_budget, current
 from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
@@ -165,6 +165,7 @@ def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[V
     found: dict[AgelessModule, dict[Value, dict[Value, Module]]] = {}
     todo = [ages.states.modules[state] for state in ages.states.axiom][::-1]
     while todo:
+        check_budget()
         module = todo.pop()
         age = ages.age(module) or 0
         born = found.setdefault(ages.ageless(module), {}).setdefault(ages.phase(age), {})
