@@ -30,6 +30,15 @@ def test_a_copy_of_a_derivation_goes_on_as_the_original(name: str, how: str) -> 
     assert [str(word) for word in found.to(10)] == [str(word) for word in longer]
 
 
+def test_a_pickled_derivation_goes_on_by_counting_in_columns_and_step_by_step() -> None:
+    for name in ("J1", "columns", "long context"):
+        words = derive(MODELS[name], 8)
+        found = pickle.loads(pickle.dumps(words))
+        assert str(found.to(9)[-1]) == str(words.to(9)[-1])
+        assert found.origins(8) == words.origins(8)
+        assert found.counts(8) == words.counts(8)
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_a_word_can_be_sent_to_another_process(name: str) -> None:
     word = derive(MODELS[name], 8)[-1]

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 import sympy
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
@@ -18,6 +18,7 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import (
     Value,
     bounded_exact,
+    equal_values,
     finite,
     normalised,
     number_text,
@@ -230,6 +231,65 @@ def test_every_operator_can_be_shown_as_mathematics() -> None:
         names = {name for operand in operands for name in names_in(operand)}
         assert {symbol.name for symbol in to_sympy(Apply(operator, operands)).free_symbols} == names
     assert to_sympy(Number(0.5)) == sympy.Float(0.5)
+
+
+MEANT = st.one_of(st.integers(-8, 8), rationals, st.sampled_from((-180, -90, -45, -30, 30, 45, 60, 90, 150, 270)))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("operator", [name for name, entry in OPERATORS.items() if not (entry.random or entry.looks)])
+@settings(max_examples=25)
+@given(data=st.data())
+def test_what_is_shown_as_mathematics_is_what_is_computed(operator: str, data: st.DataObject) -> None:
+    """The formula of every operator, at random values of its names, is what the engine computes in numbers."""
+    entry = OPERATORS[operator]
+    count = data.draw(st.integers(entry.arity[0], min(entry.arity[1], 4)))
+    values: list[Value] = [data.draw(MEANT) for _ in range(count)]
+    names = [f"x{index}" for index in range(count)]
+    operands = tuple(Apply("<", (Name(name), Number(0))) if entry.wanted(index) == "truth" else Name(name)
+                     for index, name in enumerate(names))
+    tree = Apply(operator, operands)
+    try:
+        expected = function_of(tree, {name: index for index, name in enumerate(names)})(tuple(values))
+    except (ArithmeticError, ValueError):
+        return
+    shown = to_sympy(tree).subs({sympy.Symbol(name): sympy.Rational(Fraction(value).numerator, Fraction(value).denominator)
+                                 for name, value in zip(names, values, strict=True)}, simultaneous=True)
+    if isinstance(expected, bool):
+        assert bool(shown) is expected
+    elif isinstance(expected, int | Fraction):
+        assert shown == sympy.Rational(Fraction(expected).numerator, Fraction(expected).denominator)
+    else:
+        assert complex(shown.evalf(20)) == pytest.approx(complex(expected), rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize(("function", "argument", "degrees"), [
+    ("asin", Fraction(1, 2), 30), ("acos", Fraction(1, 2), 60), ("atan", 1, 45), ("asin", -1, -90), ("acos", -1, 180)])
+def test_the_inverse_functions_give_degrees(function: str, argument: Value, degrees: int) -> None:
+    tree = Apply(function, (Number(argument),))
+    assert function_of(tree, {})(()) == degrees
+    assert to_sympy(tree) == degrees
+
+
+@given(rationals, rationals, st.integers(1, 4))
+def test_values_with_unknowns_are_equal_if_they_are_for_every_value_of_these(a: Value, b: Value, factor: int) -> None:
+    t, one, other = sympy.Symbol("t"), sympy.Rational(Fraction(a)), sympy.Rational(Fraction(b))
+    assert equal_values(factor * (t + one), factor * t + factor * other) is (a == b)
+    with pytest.raises(TypeError):
+        equal_values(t + one, other)
+    with pytest.raises(TypeError):
+        equal_values(other, t + one)
+
+
+@pytest.mark.parametrize(("base", "sign"), [(1, 1), (1, -1), (Fraction(1, 2), 1), (-1, -1)])
+def test_the_exponent_may_be_as_great_as_the_limit_and_no_greater(base: Value, sign: int) -> None:
+    with limits(exponent=12):
+        assert power(base, 12 * sign) == Fraction(base) ** (12 * sign)
+        with pytest.raises(OverflowError):
+            power(base, 13 * sign)
+    assert power(1, 1_000 * sign) == 1
+    with pytest.raises(OverflowError):
+        power(1, 1_001 * sign)
 
 
 def test_depth_counts_nested_operations() -> None:

@@ -274,7 +274,7 @@ def test_a_system_of_fractints_can_be_written_in_the_kits_own_notation() -> None
     "Angle 6\nAxiom F" + " " * 999_000, "A" + " " * 999_000 + "{", "Angle 6\nAxiom @" + "1" * 999_000, "=" * 10**6,
 ], ids=range(15))
 def test_a_million_characters_take_less_than_two_seconds(text: str) -> None:
-    started = time.monotonic()
+    started = time.process_time()
     with suppress(LSystemError):
         read(text[:10**6])
-    assert time.monotonic() - started < 2 * 3  # two seconds on a machine of one's own
+    assert time.process_time() - started < 2 * 3  # two seconds on a machine of one's own
