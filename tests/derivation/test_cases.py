@@ -15,13 +15,23 @@ from typing import Any
 
 import pytest
 
+from lsys_kit.budget import limits
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.derive import derive
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 from tests.derivation import reference
+from tests.plugin import AN_HOUR
 
 CASES = {case["name"]: case for case in json.loads((Path(__file__).parent / "cases" / "cpfg.json").read_text(encoding="utf-8"))}
+
+
+@pytest.fixture(autouse=True)
+def _time_enough() -> Iterator[None]:
+    """Words are compared here, however busy the machine is."""
+    with limits(seconds=AN_HOUR):
+        yield
+
 
 
 def printed(word: Iterable[tuple[str, tuple[Any, ...]]]) -> str:
