@@ -48,6 +48,11 @@ class Kept(Generic[_K, _V]):
             self._found[key] = found  # the last one in a dictionary was used last
         return found
 
+    def found(self, key: _K, make: Callable[[], _V]) -> _V:
+        """A result, made now if it is not kept."""
+        known = self.get(key)
+        return self.put(key, make()) if known is None else known
+
     def put(self, key: _K, result: _V) -> _V:
         """Keep a result."""
         self._found[key] = result

@@ -76,7 +76,7 @@ def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: For
     way = relax(initial_vertices(maps[-1], before), tissue(maps[-1]), forces)
     reached, points = 0, next(way)
     for iteration in iterations:
-        points = (deque(islice(way, iteration - reached), maxlen=1) or [points])[0]
+        points = (deque(counted(islice(way, iteration - reached), ITERATIONS_PER_CHECK), maxlen=1) or [points])[0]
         reached = iteration
         yield points
 

@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_bytes, current
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
 from lsys_kit.geometry.triangulation import triangulate
@@ -32,8 +32,8 @@ OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
 RELATIVE_WIDTH, LEAST_WIDTH, GREATEST_WIDTH, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
 """The width of such a stroke relative to the median length of strokes; its bounds, and the least width of any stroke, relative
 to the extent of the scene."""
-MOST_CORNERS = 10_000
-"""A polygon with more corners takes too long to triangulate."""
+MOST_CORNERS, TRIANGLE_BYTES = 10_000, 40
+"""A polygon with more corners takes too long to triangulate. A triangle takes about so much, with its share of vertices."""
 _SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
 
 
@@ -117,6 +117,7 @@ def _check_triangles(scene: Scene) -> None:
         raise ModelLimitError(f"The drawing would have {needed:,} triangles; the limit is {current().triangles:,}",
                               limit=current().triangles, needed=needed,
                               hint="Take fewer steps, or set limits(triangles=...).")
+    check_bytes(needed * TRIANGLE_BYTES, lambda: "The mesh was not made")
     most = int(np.diff(scene.polygons.starts).max(initial=0))
     if most > MOST_CORNERS:
         raise ModelLimitError(f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be triangulated",

@@ -233,6 +233,11 @@ class Scene:
         return int(self.segments.ends.shape[1]) // 2
 
     @property
+    def size(self) -> int:
+        """How many shapes there are to draw, with each corner of a polygon."""
+        return len(self.segments) + len(self.cells) + len(self.walls) + len(self.polygons.points) + len(self.discs)
+
+    @property
     def corners(self) -> tuple[Floats, Floats]:
         """The bounding box: the least and the greatest of each coordinate; zeros for an empty scene."""
         shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
+from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
@@ -82,6 +83,11 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     >>> draw(read("angle: 60\\nheading: 0\\naxiom: F--F--F\\nF -> F+F--F+F"), 3)
     192 segments, width 27, height 31.18
     """
+    with Task("The drawing was not finished"):
+        return _drawn(what, n, **choices)
+
+
+def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
     if isinstance(what, Stages):
         _check_options(choices, ("tokens", "positions"))
         return _net_picture(what, **choices)

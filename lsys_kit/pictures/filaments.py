@@ -12,8 +12,11 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.pictures.display_list import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
@@ -88,20 +91,28 @@ class FilamentLayout:
         """The vertical position of the cells of a row."""
         return MARGIN + self.head + self.pitch * (place + 0.5) + self.above / 2
 
-    def cells(self, row: FilamentRow) -> Iterator[DrawnCell]:
-        """The cells of a row."""
+    def cells(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnCell]:
+        """The cells of a row; no more than so many in a pixel."""
         cells, left = row.scene.cells, self._left(row)
+        some = self._seen(cells.centres[:, 0], most)
         return (DrawnCell(left + x, length / 2, width / 2, way, shade, state) for x, (length, width), way, shade, state in zip(
-            (cells.centres[:, 0] * self.scale).tolist(), (cells.sizes * self.scale).tolist(), cells.polarities.tolist(),
-            cells.shades.tolist(), cells.states.tolist(), strict=True))
+            (cells.centres[some, 0] * self.scale).tolist(), (cells.sizes[some] * self.scale).tolist(),
+            cells.polarities[some].tolist(), cells.shades[some].tolist(), cells.states[some].tolist(), strict=True))
 
-    def walls(self, row: FilamentRow) -> Iterator[DrawnWall]:
-        """The walls of a row."""
+    def walls(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnWall]:
+        """The walls of a row; no more than so many in a pixel."""
         walls, left = row.scene.walls, self._left(row)
+        some = self._seen(walls.places, most)
         return (DrawnWall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
                 for x, height, age, shade, state in zip(
-                    (walls.places * self.scale).tolist(), (walls.heights * self.scale).tolist(), walls.ages.tolist(),
-                    walls.shades.tolist(), walls.states.tolist(), strict=True))
+                    (walls.places[some] * self.scale).tolist(), (walls.heights[some] * self.scale).tolist(),
+                    walls.ages[some].tolist(), walls.shades[some].tolist(), walls.states[some].tolist(), strict=True))
+
+    def _seen(self, places: Floats, most: float) -> Any:
+        """Which of the shapes at some places are drawn, if no more than so many can be seen in a pixel: the first at each."""
+        if len(places) <= WIDTH * most:
+            return slice(None)
+        return np.unique(np.floor(places * self.scale * most), return_index=True)[1]
 
     def _left(self, row: FilamentRow) -> float:
         """The left end of a row: all rows are centred."""

@@ -13,6 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelLimitError, ModelValueError
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
 
 SECONDS, HELD = 0.6, 4
 """The duration of each step in seconds, and the factor by which the last is shown longer."""
+SHAPE_BYTES = 100
+"""About what a shape takes in memory."""
 MOST_FRAMES = 300
 """The greatest number of steps of a film."""
 
@@ -129,10 +132,19 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     if derivation.steps >= MOST_FRAMES:
         raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
                               limit=MOST_FRAMES, needed=derivation.steps + 1)
-    if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-        return _sequence_film(derivation, pace)
-    turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
-    steps = [scene_of(derivation.to(step), turn) for step in range(derivation.steps + 1)]
+    with Task("The film was not finished"):
+        if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
+            return _sequence_film(derivation, pace)
+        turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
+        return _turtle_film(derivation, turn, pace)
+
+
+def _turtle_film(derivation: Derivation, turn: float, pace: float) -> Film:
+    """What the turtle draws, step after step."""
+    steps: list[Scene] = []
+    for step in counted(range(derivation.steps + 1), 1):
+        steps.append(scene_of(derivation.to(step), turn))
+        check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
     scenes = [project(scene) for scene in in_units(steps, derivation.states.system)]
     frame, colour_of = frame_around(scenes), state_colours(derivation)
     return Film(_caption(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)

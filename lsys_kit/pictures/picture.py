@@ -11,9 +11,10 @@ from html import unescape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, current, supervised
 from lsys_kit.derivation.petri.pnml import pnml
 from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
 from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
@@ -73,33 +74,42 @@ class Picture:
         steps = f"steps {self.rows[0].step} to {self.rows[-1].step}" if len(self.rows) > 1 else ""
         return described([steps, ("the last: " if steps else "") + str(self.scene)])
 
+    @property
+    def size(self) -> int:
+        """How many shapes there are to draw."""
+        return sum(row.scene.size for row in self.rows)
+
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        if len(self.scene.cells):
-            sheet = filament_layout(self.rows, self.current is not None, self.time)
-            body, width, height = rows_svg(sheet, self.look, self.colour_of, self.current, self.marked), WIDTH, sheet.height
-        else:
-            frame = frame_around([self.scene])
-            width, height = frame.width, frame.height
-            if len(self.scene.segments) > current().segments:
+        with Task("The picture was not drawn"):
+            pixels = self.size > current().segments
+            if len(self.scene.cells):
+                sheet = filament_layout(self.rows, not pixels and self.current is not None, self.time)
+                width, height = WIDTH, sheet.height
+                body = "" if pixels else rows_svg(sheet, self.look, self.colour_of, self.current, self.marked)
+            else:
+                frame = frame_around([self.scene])
+                width, height = frame.width, frame.height
+                body = "" if pixels else turtle_svg(self.scene, frame, self.colour_of, self.marked)
+            if pixels:
                 data = base64.b64encode(self.png).decode()
                 body = f'<image width="{width * 10}" height="{height * 10}" href="data:image/png;base64,{data}"/>'
-            else:
-                body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
-        return document(background(width, height) + body, width, height, self.text)
+            return document(background(width, height) + body, width, height, self.text)
 
     @cached_property
     def png(self) -> bytes:
         """The picture as PNG, without text."""
-        if len(self.scene.cells):
-            return raster.rows_png(self.rows, self.look, self.colour_of)
-        return raster.turtle_png(self.scene, self.colour_of)
+        with Task("The picture was not drawn"):
+            if len(self.scene.cells):
+                return raster.rows_png(self.rows, self.look, self.colour_of)
+            return raster.turtle_png(self.scene, self.colour_of)
 
     @cached_property
     def mesh(self) -> Mesh:
         """The last step shown as triangles in space."""
-        return mesh_of(self.scene if self.solid is None else self.solid)
+        with Task("The mesh was not made"):
+            return mesh_of(self.scene if self.solid is None else self.solid)
 
     def save(self, path: str | Path) -> None:
         """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.
@@ -171,6 +181,15 @@ class NetPicture:
 
 def plotted(picture: Picture, ax: Axes) -> Axes:
     """The axes with the picture drawn into them, without frame, with equal scales."""
+    if picture.size > current().figure:
+        raise ModelLimitError(f"The figure would have {picture.size:,} shapes; the limit is {current().figure:,}",
+                              limit=current().figure, needed=picture.size,
+                              hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).")
+    with Task("The figure was not drawn"), supervised():
+        return _plotted(picture, ax)
+
+
+def _plotted(picture: Picture, ax: Axes) -> Axes:
     if len(picture.scene.cells):
         plot_rows(ax, picture.rows, picture.look, picture.colour_of)
     else:
@@ -182,6 +201,11 @@ def plotted(picture: Picture, ax: Axes) -> Axes:
 
 
 def _pdf(picture: Picture) -> bytes:
+    with Task("The PDF was not written"), supervised():
+        return _pdf_bytes(picture)
+
+
+def _pdf_bytes(picture: Picture) -> bytes:
     from matplotlib import rc_context
 
     buffer = io.BytesIO()

@@ -15,7 +15,7 @@ from typing import Any
 
 import ipywidgets as widgets
 
-from lsys_kit.budget import current, limits
+from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.panel.canvas import HOW_TO_TURN, packed, widget_classes
 from lsys_kit.classroom.panel.controls import Control, SliderRange, control, slider_ranges
@@ -102,7 +102,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
         super().__init__([self._top(), self._message, self._panels(), self._bottom()],
                          layout=widgets.Layout(width="100%", padding="6px"))
         self.add_class("lsys-explorer")
-        with self._limited():
+        with self._limited(), Task("The step was not shown"):
             self._show_step(self.step.value)
         self._listen()
 
@@ -213,7 +213,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
     def _show(self, _: object = None) -> None:
         """Show the step that the sliders ask for; where it cannot be shown, say why and keep the pictures."""
         try:
-            with self._limited():
+            with self._limited(), Task("The step was not shown"):
                 self._show_step(self.step.value)
             self._message.value = ""
         except LSystemError as error:

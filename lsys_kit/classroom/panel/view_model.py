@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from lsys_kit.derivation.core.words import Word, abridged
@@ -17,6 +18,7 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
+from lsys_kit.kept import Kept
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
@@ -26,6 +28,11 @@ from lsys_kit.pictures.style.labels import place_text
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project
 from lsys_kit.worlds.derive import derive
+
+DERIVATION_BYTES, SHAPE_BYTES = 16 * 2**20, 100
+"""About what a derivation and a shape take in memory."""
+SHARE = 1 / 8
+"""The part of the limit of bytes up to which each kind of result is kept."""
 
 
 @dataclass(frozen=True)
@@ -90,18 +97,16 @@ class ViewModel:
 
     def __init__(self, system: LSystem, seed: int | None = None) -> None:
         self.system, self.seed, self.mode = system, seed, drawing_mode(system)
-        self._known: dict[tuple[object, ...], tuple[Derivation, Stages]] = {}
-        self._rows: dict[tuple[tuple[Value, ...], int], FilamentRow] = {}
-        self._paths: dict[tuple[tuple[Value, ...], int], Path] = {}
-        self._scenes: dict[tuple[tuple[Value, ...], int], tuple[float, Scene]] = {}
+        self._known = Kept[tuple[object, ...], tuple[Derivation, Stages]](lambda _: DERIVATION_BYTES, SHARE)
+        self._rows = Kept[tuple[tuple[Value, ...], int], FilamentRow](lambda row: row.scene.size * SHAPE_BYTES, SHARE)
+        self._paths = Kept[tuple[tuple[Value, ...], int], Path](lambda path: len(path.turns) * SHAPE_BYTES, SHARE)
+        self._scenes = Kept[tuple[tuple[Value, ...], int, float], Scene](lambda scene: scene.size * SHAPE_BYTES, SHARE)
 
     def known(self, constants: Mapping[str, object]) -> tuple[Derivation, Stages]:
         """The derivation and the net for given constants."""
         key = tuple(constants.items())
-        if key not in self._known:
-            given: dict[str, Any] = dict(constants)
-            self._known[key] = derive(self.system, 0, seed=self.seed, **given), stages(self.system, **given)
-        return self._known[key]
+        given: dict[str, Any] = dict(constants)
+        return self._known.found(key, lambda: (derive(self.system, 0, seed=self.seed, **given), stages(self.system, **given)))
 
     def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1,
               around: float = 0.0, above: float = 0.0) -> StepView:
@@ -145,20 +150,17 @@ class ViewModel:
         """The rows of a filament's steps, each made once."""
         constants = derivation.states.constants
         steps = range(max(0, last + 1 - MOST_ROWS), last + 1)
-        for step in steps:
-            if (constants, step) not in self._rows:
-                self._rows[constants, step] = FilamentRow(step, filament(derivation[step]))
-        return tuple(self._rows[constants, step] for step in steps)
+        return tuple(self._rows.found((constants, step), partial(_row, derivation, step)) for step in steps)
 
     def _path(self, derivation: Derivation, step: int) -> Path:
         key = derivation.states.constants, step
-        if key not in self._paths:
-            self._paths[key] = trace(derivation[step])
-        return self._paths[key]
+        return self._paths.found(key, lambda: trace(derivation[step]))
 
     def _scene(self, derivation: Derivation, angle: float) -> Scene:
-        """The scene in space of a derivation's last word, kept for the angle that was asked last."""
-        key = derivation.states.constants, derivation.steps
-        if key not in self._scenes or self._scenes[key][0] != angle:
-            self._scenes[key] = angle, scene_of(derivation, angle)
-        return self._scenes[key][1]
+        """The scene in space of a derivation's last word."""
+        key = derivation.states.constants, derivation.steps, angle
+        return self._scenes.found(key, lambda: scene_of(derivation, angle))
+
+
+def _row(derivation: Derivation, step: int) -> FilamentRow:
+    return FilamentRow(step, filament(derivation[step]))

@@ -113,8 +113,7 @@ class CountingEngine:
         """The word of a known step."""
         if step >= len(self._steps):
             return self._late[step - len(self._steps)]
-        found = self._words.get(step)
-        return self._words.put(step, self._built(step)) if found is None else found
+        return self._words.found(step, lambda: self._built(step))
 
     def _built(self, step: int) -> Word:
         if step == 0:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from operator import attrgetter
 from typing import Any, NamedTuple, TypeAlias
 
-from lsys_kit.budget import current
+from lsys_kit.budget import counted, current
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
@@ -238,7 +238,7 @@ def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
     with _without_garbage_collection():
         compiled = compile_word(word, handlers, prepare)
         turtle.unknown = dict.fromkeys(compiled.unknown)
-        for state in word.numbers():
+        for state in counted(word.numbers()):
             turtle.state = state
             for handler, operand in compiled.calls[state]:
                 handler(turtle, operand)

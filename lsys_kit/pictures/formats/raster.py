@@ -7,12 +7,13 @@ everywhere.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lsys_kit.budget import check_budget, counted
 from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene
 from lsys_kit.pictures.display_list import (
     MARGIN,
@@ -39,10 +40,13 @@ RunsByWidth: TypeAlias = dict[int, list[tuple[int, Integers]]]
 ShapePainter: TypeAlias = Callable[[int, int], tuple[str, str]]
 FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
+CELLS_A_PIXEL = 16
+"""Of more cells than this in one pixel, the others cannot be seen."""
 FLOAT32_RANGE = 1e30
 """Coordinates up to this can be computed in single precision."""
-STROKES_AT_A_TIME = 2**16
-"""Strokes are rasterised in blocks of this size, which stay in the cache of the processor between two operations."""
+STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**20
+"""Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
+operations; a longer stroke is a block of its own."""
 
 
 def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
@@ -76,12 +80,12 @@ def _painted_shapes(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame
                 Rounds: _round_painter(scene.discs, colour_of, frame, pen)}
     strokes: RunsByWidth = {}
     colours = [PAPER]
-    for run in display_list(scene, frame.scale, colour_of):
+    for run in counted(display_list(scene, frame.scale, colour_of)):
         if isinstance(run, Strokes):
             strokes.setdefault(run.width, []).append((len(colours), run.numbers))
             colours.append(run.colour)
         else:
-            for number in run.numbers.tolist():
+            for number in counted(run.numbers.tolist()):
                 colours += painters[type(run)](number, len(colours))
     return np.array(sheet), strokes, colours
 
@@ -148,13 +152,26 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numb
         wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
         steps = np.ceil(np.maximum(np.abs(wide), np.abs(high))).astype(np.int32)
         np.maximum(steps, 1, out=steps)
-        counts = steps + 1
-        along = np.arange(int(counts.sum()), dtype=np.int32) - np.repeat(np.cumsum(counts) - counts, counts)
-        column = (np.repeat(x[:, 0], counts) + np.repeat(wide / steps, counts) * along).astype(np.int32)
-        row = (np.repeat(y[:, 0], counts) + np.repeat(high / steps, counts) * along).astype(np.int32)
-        here = True if numbers is None else np.repeat(numbers[first:first + STROKES_AT_A_TIME], counts)
-        found[row * shape[1] + column] = here
+        for some in _blocks(steps + 1):
+            check_budget()
+            counts = steps[some] + 1
+            along = np.arange(int(counts.sum()), dtype=np.int32) - np.repeat(np.cumsum(counts) - counts, counts)
+            column = (np.repeat(x[some, 0], counts) + np.repeat(wide[some] / steps[some], counts) * along).astype(np.int32)
+            row = (np.repeat(y[some, 0], counts) + np.repeat(high[some] / steps[some], counts) * along).astype(np.int32)
+            here = True if numbers is None else np.repeat(numbers[first:first + STROKES_AT_A_TIME][some], counts)
+            found[row * shape[1] + column] = here
     return found.reshape(shape)
+
+
+def _blocks(counts: NDArray[np.integer[Any]]) -> Iterator[slice]:
+    """Stretches of strokes that have few points together."""
+    ends = np.cumsum(counts, dtype=np.int64)
+    first = 0
+    while first < len(counts):
+        before = ends[first - 1] if first else 0
+        after = max(first + 1, int(np.searchsorted(ends, before + POINTS_AT_A_TIME, side="right")))
+        yield slice(first, after)
+        first = after
 
 
 def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
@@ -166,7 +183,7 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
     [[0, 5, 7, 7]]
     """
     row, side, whole, height = found.copy(), 0, np.zeros_like(found), len(found)  # the row is dilated to both sides
-    for up in range(int(radius), -1, -1):
+    for up in counted(range(int(radius), -1, -1), 1):
         while side < int((radius * radius - up * up) ** 0.5):
             side += 1
             np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])
@@ -185,9 +202,9 @@ def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str
     pen = ImageDraw.Draw(image)
     for place, row in enumerate(rows):
         middle = sheet.middle(place) * FINE
-        for cell in sheet.cells(row):
+        for cell in counted(sheet.cells(row, CELLS_A_PIXEL)):
             _cell(pen, cell, look, middle, colour_of.get(cell.state, GREEN))
-        for wall in sheet.walls(row):
+        for wall in counted(sheet.walls(row, CELLS_A_PIXEL)):
             reach, colour = (wall.height + 2) * FINE, wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
             pen.line([(wall.x * FINE, middle - reach), (wall.x * FINE, middle + reach)], fill=colour,
                      width=round(wall_width(wall.shade) * FINE))
