@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 from types import FrameType
 from typing import Any, TypeVar
 
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, shown
 
 _T = TypeVar("_T")
 
@@ -106,7 +106,7 @@ def limits(**changes: float) -> Iterator[Limits]:
             known = ", ".join(Limits.__dataclass_fields__)
             raise ModelNameError(f'There is no limit called "{name}"', hint=f"Limits are: {known}.")
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
-            raise ModelValueError(f'The limit "{name}" must be a positive number, not {value!r}')
+            raise ModelValueError(f'The limit "{name}" must be a positive number, not {shown(value)}')
     before = current()
     try:  # the limits change within: an interrupt just behind the change puts them back as well
         _current.set(replace(before, **changes))  # type: ignore[arg-type]

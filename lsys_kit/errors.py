@@ -126,6 +126,17 @@ class ModelFileError(LSystemError):
     """A file does not exist, cannot be read, or may not be written."""
 
 
+def require(value: object, kind: type | tuple[type, ...], what: str) -> None:
+    """Refuse a value of another type than a function is for; `what` says what it is for.
+
+    >>> require("F+F", int, "A number of steps")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelValueError: A number of steps is needed, not str.
+    """
+    if not isinstance(value, kind):
+        raise ModelValueError(f"{what} is needed, not {type(value).__name__}")
+
+
 def printable(character: str) -> str:
     """The character, or a blank or question mark for one that is invisible or reverses the text.
 
@@ -149,6 +160,18 @@ def quotable(name: str) -> str:
     ('plant.svg', 'a?b')
     """
     return "".join(map(printable, name if len(name) <= 80 else f"{name[:80]}..."))
+
+
+def shown(value: object) -> str:
+    """Any value as a message shows it: no longer than a line.
+
+    >>> shown("a"), shown(10**10_000)
+    ("'a'", 'a very large int')
+    """
+    try:
+        return quotable(repr(value))
+    except ValueError:  # Python refuses to write numbers of thousands of digits
+        return f"a very large {type(value).__name__}"
 
 
 def named(character: str) -> str:

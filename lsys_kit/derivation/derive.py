@@ -19,7 +19,7 @@ from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
 from lsys_kit.derivation.engines.table import engine_for
 from lsys_kit.derivation.maps.development import Development, develop
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
@@ -78,9 +78,10 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
 def derive_observed(system: LSystem, steps: int, world: Observer | None, /, *, seed: int | None = None,
                     arithmetic: str = "exact", **constants: object) -> Derivation:
     """Derive an L-system; if its modules ask what the turtle sees, an observer looks at each word before the next step."""
+    require(system, LSystem, "An L-system or a map system")
     seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
-        raise ModelValueError(f"The seed must be a whole number, not {seed!r}")
+        raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
     return Derivation(engine_for(States(system, constants, arithmetic), seed, world)).to(steps)
 
 
@@ -108,7 +109,7 @@ class Derivation(Sequence[Word]):
             A step would be too large.
         """
         if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
-            raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {steps!r}")
+            raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {shown(steps)}")
         reached = 0
         try:
             with Task(lambda: f"Step {reached} was not reached"):
@@ -184,6 +185,7 @@ class Derivation(Sequence[Word]):
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
         Origins(parents=[0, 0, 1], productions=[0, 0, 1])
         """
+        require(step, int, "A whole number, the step,")
         if not 1 <= step <= self.steps:
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} have a previous word, not that of step {step}")
         with Task(f"The origins of step {step} were not found"):
@@ -207,6 +209,8 @@ class Derivation(Sequence[Word]):
         >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
         [0, 0, 0, 1, 1, 1, 1, 1]
         """
+        require(step, int, "A whole number, the step,")
+        require(before, int, "A whole number, the earlier step,")
         if not 0 <= before <= step <= self.steps:
             raise ModelValueError(f"Step {before} is not before step {step} of a derivation of {self.steps} steps")
         with Task(f"The ancestors of step {step} were not found"):

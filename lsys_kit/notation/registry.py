@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from lsys_kit.errors import ModelNameError
+from lsys_kit.errors import ModelNameError, require
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
 from lsys_kit.notation.dialects.fractint.dialect import FRACTINT
@@ -30,6 +30,7 @@ def dialect_named(name: str) -> Dialect:
     ModelNameError
         There is no such notation.
     """
+    require(name, str, "The name of a notation")
     if name == "map":
         hint = "A text that begins with the walls of a cell is read by read_map(text)."
         raise ModelNameError("Maps are no L-systems", hint=hint)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from lsys_kit.errors import require
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
@@ -39,7 +40,8 @@ def write(system: LSystem, notation: str | None = None) -> str:
     axiom: A(0)
     A(t) : t < 5 -> A(t + 1)[B]
     """
-    return text_in(dialect_named(notation or system.notation), system)
+    require(system, LSystem, "An L-system")
+    return text_in(dialect_named(system.notation if notation is None else notation), system)
 
 
 def as_written(system: LSystem, part: Any) -> str:

@@ -13,7 +13,7 @@ from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
@@ -151,7 +151,7 @@ def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], cur
     """The picture of the rows of a filament, with the settings of its system."""
     look = what.states.system.cells if cells is None else cells
     if look not in LOOKS:
-        raise ModelValueError(f"Cells are drawn as {' or '.join(LOOKS)}, not as {look!r}")
+        raise ModelValueError(f"Cells are drawn as {' or '.join(LOOKS)}, not as {shown(look)}")
     return Picture(rows, state_colours(what), current, marked, look=look, time=age_model(what.states).step)
 
 
@@ -192,6 +192,9 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     >>> figure(plant, right, n=4) is right
     True
     """
+    from matplotlib.axes import Axes
+
+    require(ax, (Axes, type(None)), "The axes of a figure")
     if ax is not None and ax.name == "3d":
         raise ModelValueError("A drawing needs axes in the plane, and these are in space",
                               hint="A plant in space can be kept as .glb, which other programs turn.")

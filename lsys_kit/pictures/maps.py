@@ -18,7 +18,7 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, shown
 from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
@@ -136,7 +136,8 @@ def _check_iterations(iterations: Sequence[int]) -> None:
     """Iterations are counted from 0, and grow."""
     counted = all(isinstance(one, int) and not isinstance(one, bool) for one in iterations)
     if not counted or [*iterations] != sorted({*iterations}) or iterations[0] < 0:
-        raise ModelValueError(f"Iterations are whole numbers from 0 on, each greater than the one before, not {iterations!r}")
+        raise ModelValueError("Iterations are whole numbers from 0 on, each greater than the one before, "
+                              f"not {shown(iterations)}")
     if len(iterations) > MOST_MAPS:
         raise ModelValueError(f"A picture shows {MOST_MAPS} iterations at most, not {len(iterations)}")
 

@@ -121,8 +121,8 @@ def test_the_kept_steps_are_named() -> None:
         assert refused(TENFOLD, 2).hint == "Step 0 is kept. Take fewer steps, or set limits(modules=...)."
     with limits(modules=2):
         error = refused(read("axiom: A B C"), 2)
-    assert error.message == "Step 0 would have more than 2 modules"
-    assert error.hint == "Set limits(modules=...)."
+    assert error.message == "Step 0 would have 3 modules; the limit is 2"
+    assert error.hint == "Take fewer steps, or set limits(modules=...)."
     assert error.partial is None
 
 

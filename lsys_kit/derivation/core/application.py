@@ -9,7 +9,7 @@ from lsys_kit.budget import check_budget, counted, current
 from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.rule_errors import UNKNOWN, rule_error, undecided_condition
 from lsys_kit.derivation.core.rules import ModuleTemplate, RepeatTemplate, Rule, Rules, constants_of, kind_of
-from lsys_kit.errors import ModelNameError
+from lsys_kit.errors import ModelNameError, require
 from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
@@ -39,6 +39,7 @@ class RuleApplication:
     """
 
     def __init__(self, system: LSystem, constants: dict[str, object] | None = None, arithmetic: str = "exact") -> None:
+        require(system, LSystem, "An L-system")
         if arithmetic not in ("exact", "float"):
             raise ModelNameError(f'There is no arithmetic called "{arithmetic}"', hint='Choose "exact" or "float".')
         self.system, self.arithmetic = system, arithmetic

@@ -184,16 +184,13 @@ class States(RuleApplication):
         for number, made in enumerate(self.apply(rule, module, values, chance)):  # type: ignore[arg-type]
             if self._outgrown and self.inexact is None:
                 self.inexact = Module(*made)
-            if number == most:
+            if number == most and module is not AXIOM:  # the axiom is step 0, which is checked like any step
                 raise self._too_many(rule, module)
             yield made
 
     def _too_many(self, rule: Rule, module: Module) -> ModelLimitError:
         most, (start, end) = current().modules, rule.production.at or (None, None)
-        message = f"{module} becomes more than {most:,} modules in one step"
-        if module is AXIOM:
-            message = f"Step 0 would have more than {most:,} modules"
-        return ModelLimitError(message, limit=most, hint="Set limits(modules=...)." if module is AXIOM else None,
+        return ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
                                source=self.system.source or None, start=start, end=end)
 
     def decompose(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:

@@ -30,15 +30,14 @@ from lsys_kit.derivation.growth.recurrences import (
     shortest_rule,
 )
 from lsys_kit.derivation.growth.slicing import slice_system
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 
 if TYPE_CHECKING:
     import sympy
 
-RECURRENCE_MISSING = "The recurrence of the lengths was not found"
-DIGITS = 3_000_000
+DIGITS, RECURRENCE_MISSING = 3_000_000, "The recurrence of the lengths was not found"
 """The most digits of a count."""
 
 
@@ -83,7 +82,7 @@ class Growth:
         >>> found.counts(10), found.counts(1_000_000)[0].bit_length()
         ((89, 55), 694242)
         """
-        with Task(f"The counts of step {step} were not found"):
+        with Task(f"The counts of step {shown(step)} were not found"):
             self._check(step)
             if step <= 4 * len(self.table):
                 return row_of(self.table, next(islice(counts_of_steps(self.table), step, None)))
@@ -110,6 +109,7 @@ class Growth:
         return self._summed(steps, [state for state, module in enumerate(self.states) if module.symbol == symbol])
 
     def _summed(self, steps: int, states: Sequence[int]) -> list[int]:
+        _check_step(steps)
         with Task("The lengths were not found"):
             followed = islice(counts_of_steps(self.table), steps + 1)
             rows = ((sum(counts.get(state, 0) for state in states),) for counts in followed)
@@ -117,8 +117,7 @@ class Growth:
 
     def _check(self, step: int) -> None:
         """Refuse a step that is no whole number, or so late that its counts would be too long to use."""
-        if isinstance(step, bool) or not isinstance(step, int) or step < 0:
-            raise ModelValueError(f"The step must be a whole number from 0 on, not {step!r}")
+        _check_step(step)
         digits = step * math.log10(max(greatest_root(self.recurrence, exact=False), 1)) if step > DIGITS else 0
         if digits > DIGITS:
             raise ModelLimitError(f"The numbers of step {step:,} would have about {digits:,.0f} digits; "
@@ -131,7 +130,7 @@ class Growth:
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).length(100)
         927372692193078999176
         """
-        with Task(f"The length of step {step} was not found"):
+        with Task(f"The length of step {shown(step)} was not found"):
             self._check(step)
             rule, terms = self._rule
             return sum(c * term for c, term in zip(remainder_of_power(rule, step), terms, strict=True))
@@ -170,7 +169,6 @@ class Growth:
 
     @cached_property
     def _orbit(self) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """The shortest rule that the counts of all states obey together, and as many rows of counts."""
         return orbit(self.table)
 
     @property
@@ -199,8 +197,7 @@ class Growth:
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).generating_function
         (x + 1)/(-x**2 - x + 1)
         """
-        with Task("The generating function was not found"), supervised():
-            return generating_function(*self._rule)
+        return generating_function(*self._rule)
 
     @property
     def closed_form(self) -> sympy.Expr | None:
@@ -254,6 +251,11 @@ class Growth:
                 f"N(t) = {rule or 0}; growth per step {self.rate:.4f}")
 
 
+def _check_step(step: object) -> None:
+    if isinstance(step, bool) or not isinstance(step, int) or step < 0:
+        raise ModelValueError(f"The step must be a whole number from 0 on, not {shown(step)}")
+
+
 def growth(system: LSystem, **constants: object) -> Growth:
     """The growth of a system.
 
@@ -278,6 +280,7 @@ def growth(system: LSystem, **constants: object) -> Growth:
     >>> growth(read("axiom: a\\na -> ab\\nb -> a"))
     2 states; lengths 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, ...; N(t) = N(t-1) + N(t-2); growth per step 1.6180
     """
+    require(system, LSystem, "An L-system")
     with Task("The growth was not found"):
         return _growth(system, constants)
 

@@ -12,9 +12,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.words import Word, state_counts
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelValueError, require
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
@@ -128,9 +129,11 @@ class Stages:
         >>> stages(read("axiom: a\\na -> ab\\nb -> a")).tokens([Module("a"), Module("b"), Module("a")])
         (2, 1)
         """
+        require(word, Iterable, "A word")
         found: Counter[int | None] = Counter()
         counts = Counter({word.states.modules[s]: n for s, n in state_counts(word).items()} if isinstance(word, Word) else word)
         for module, count in counts.items():
+            require(module, Module, "A word of modules")
             found[self.place_of(module)] += count
         return tuple(found[place] for place in range(len(self.places)))
 
@@ -186,9 +189,10 @@ class Stages:
         """
         self._check_moving()
         found = tuple(self.start if tokens is None else tokens)
-        for _ in range(steps):
-            found = self._moved(found, [found[way.place] * (1 if way.chance is None else way.chance)
-                                        for way in self.transitions])
+        with Task("The tokens that are expected were not found"):
+            for _ in counted(range(steps), 1):
+                found = self._moved(found, [found[way.place] * (1 if way.chance is None else way.chance)
+                                            for way in self.transitions])
         return found
 
     def _firings(self, tokens: Sequence[int], chance: Chance | None) -> list[int]:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from lsys_kit.derivation.petri.net import Arc, Stages, Transition, likelihood
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelValueError, require
 from lsys_kit.notation.model.arithmetic import number_text
 
 GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
@@ -75,6 +75,8 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
       </net>
     </pnml>
     """
+    require(net, Stages, "A stage diagram")
+    require(tokens, (Sequence, type(None)), "A row of numbers of tokens")
     marking = net.start if tokens is None else tokens
     if len(marking) != len(net.places):
         raise ModelValueError(f"The net has {len(net.places)} places; {len(marking)} numbers of tokens do not fit it")

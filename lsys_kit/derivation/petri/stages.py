@@ -17,6 +17,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
+from lsys_kit.budget import Task
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
@@ -89,6 +90,11 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     a(0) -> a(0) + b(0) after 2
     b(0) -> a(0) after 1
     """
+    with Task("The stages were not found"):
+        return _stages(system, polarity, durations, constants)
+
+
+def _stages(system: LSystem | Timed, polarity: bool, durations: bool, constants: dict[str, object]) -> Stages:
     if isinstance(system, Timed):
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",

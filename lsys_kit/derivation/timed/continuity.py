@@ -31,7 +31,7 @@ from lsys_kit.derivation.timed.length_functions import (
     written_functions,
 )
 from lsys_kit.derivation.timed.timed import Timed, timed
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
@@ -201,7 +201,9 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     R(1) -> L(1/5)R(0): 2 before, 2.2 after, a jump by 0.2
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MOST_ORDER:
-        raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {order!r}")
+        raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {shown(order)}")
+    require(system, (LSystem, Timed), "An L-system or a timed system")
+    require(lengths, Mapping, "A growth function for each letter, as a dictionary,")
     the_age()  # so that sympy is imported before it is supervised
     with Task("Whether the length is continuous was not decided"), supervised():
         return _continuity(system, lengths, order, constants)

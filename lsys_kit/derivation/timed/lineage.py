@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
@@ -112,6 +113,12 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
 
     See P. Prusinkiewicz, Introduction to Modeling with L-systems, sections 5 and 6, figures 5 and 6.
     """
+    with Task("The lineage was not found"):
+        return _lineage(what, n, seed, arithmetic, constants)
+
+
+def _lineage(what: LSystem | Derivation | Timed, n: object, seed: int | None, arithmetic: str,
+             constants: dict[str, object]) -> Lineage:
     if isinstance(what, LSystem):
         steps: Any = n if n is not None else what.steps if what.steps is not None else 5
         start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
