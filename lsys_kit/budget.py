@@ -257,7 +257,7 @@ def supervised() -> Iterator[None]:
         yield
         return
 
-    def look(_: FrameType, __: str, ___: Any) -> None:
+    def look(frame: FrameType, _: str, __: Any) -> None:
         nonlocal left
         left -= 1
         if left < 0:
@@ -265,7 +265,8 @@ def supervised() -> Iterator[None]:
             try:
                 now[0].check(now[1])
             except ModelLimitError as error:
-                raise _UsedUp(error) from None
+                if not _imports(frame):
+                    raise _UsedUp(error) from None
 
     sys.setprofile(look)
     try:
@@ -274,3 +275,12 @@ def supervised() -> Iterator[None]:
         raise used_up.error from None
     finally:
         sys.setprofile(before)
+
+
+def _imports(frame: FrameType | None) -> bool:
+    """Whether a module is being imported: if it were given up half-way, it could never be used."""
+    while frame is not None:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            return True
+        frame = frame.f_back
+    return False

@@ -98,7 +98,7 @@ def acts(folder: Path) -> Mapping[str, Callable[[Any], object]]:
         "pnml": lambda system: pnml(stages(system)),
         "timed": lambda system: timed(system).word(30),
         "lineage": lambda system: draw(lineage(system, 9)).svg,
-        "continuity": lambda system: continuity(system),
+        "continuity": lambda system: continuity(system, {}),
         "explore": lambda system: explore(system, 9).text,
         "check": lambda system: check("2.1", str(system)),
         "write": lambda system: write(system, "cpfg"),

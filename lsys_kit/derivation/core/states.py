@@ -170,7 +170,7 @@ class States(RuleApplication):
         if not self.decomposition:
             return self.applied_states(rule, module, values, chance)
         found: list[int] = []
-        for made in self._made(rule, module, values, chance):
+        for made in [*self._made(rule, module, values, chance)]:  # all draw their random numbers before any is decomposed
             found += self.decompose(Module(*made), chance)
             if len(found) > current().modules:
                 raise self._too_many(rule, module)
