@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from contextvars import copy_context
 from dataclasses import FrozenInstanceError
 
 import pytest
 
-from lsys_kit.budget import Limits, current, limits
-from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.budget import Limits, Task, check_budget, counted, current, limits, supervised
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 
 
 def test_limits_hold_for_a_stretch_of_code() -> None:
@@ -52,3 +53,55 @@ def test_a_limit_is_a_positive_number(value: object) -> None:
 def test_limits_are_frozen() -> None:
     with pytest.raises(FrozenInstanceError):
         current().modules = 1  # type: ignore[misc]
+
+
+def test_a_task_within_a_task_has_the_same_budget() -> None:
+    def again() -> int:
+        with Task("The inner was not finished"):
+            return sum(counted(range(100_000)))
+
+    with limits(seconds=0.1), pytest.raises(ModelLimitError, match=r"The inner was not finished in 0\.1 seconds"), Task():
+        list(iter(again, 0))
+
+
+def test_what_passes_between_two_parts_of_a_task_is_not_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("lsys_kit.budget._processor_time", lambda: now[0])
+    monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
+    work = Task()
+    with limits(seconds=10):
+        for _ in range(3):
+            now[0] += 100
+            with work:
+                now[0] += 3
+                check_budget()
+        with work:
+            now[0] += 3
+            with pytest.raises(ModelLimitError):
+                check_budget()
+
+
+def test_all_objects_of_a_task_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
+    with limits(bytes=10**6), Task("The list was not made"), pytest.raises(ModelLimitError, match="The list was not made"):
+        list(counted((number,) for number in range(10**7)))
+
+
+def test_outside_of_a_task_nothing_is_refused() -> None:
+    with limits(seconds=1e-9):
+        check_budget()
+        assert list(counted(range(5), 1)) == [0, 1, 2, 3, 4]
+
+
+def test_what_knows_of_no_budget_is_supervised() -> None:
+    def endless() -> None:
+        while True:
+            try:
+                abs(-1)
+            except Exception:  # as a library may do
+                continue
+
+    before = sys.getprofile()
+    with limits(seconds=0.05), Task("It was not found"), pytest.raises(ModelLimitError, match="It was not found"), supervised():
+        endless()
+    assert sys.getprofile() is before
