@@ -44,7 +44,7 @@ CELLS_A_PIXEL = 16
 """Of more cells than this in one pixel, the others cannot be seen."""
 FLOAT32_RANGE = 1e30
 """Coordinates up to this can be computed in single precision."""
-STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**20
+STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
 """Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
 operations; a longer stroke is a block of its own."""
 
