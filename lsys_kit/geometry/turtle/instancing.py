@@ -16,6 +16,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
@@ -132,6 +133,7 @@ class Prototypes:
         todo: list[tuple[Key | None, Generator[Key, Prototype, Prototype]]] = [(None, task)]
         answer: Prototype | None = None
         while True:
+            check_budget()
             key, task = todo[-1]
             try:
                 wanted = task.send(answer)  # type: ignore[arg-type]
