@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages
@@ -18,7 +19,6 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
-from lsys_kit.kept import Kept
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
@@ -97,10 +97,10 @@ class ViewModel:
 
     def __init__(self, system: LSystem, seed: int | None = None) -> None:
         self.system, self.seed, self.mode = system, seed, drawing_mode(system)
-        self._known = Kept[tuple[object, ...], tuple[Derivation, Stages]](lambda _: DERIVATION_BYTES, SHARE)
-        self._rows = Kept[tuple[tuple[Value, ...], int], FilamentRow](lambda row: row.scene.size * SHAPE_BYTES, SHARE)
-        self._paths = Kept[tuple[tuple[Value, ...], int], Path](lambda path: len(path.turns) * SHAPE_BYTES, SHARE)
-        self._scenes = Kept[tuple[tuple[Value, ...], int, float], Scene](lambda scene: scene.size * SHAPE_BYTES, SHARE)
+        self._known = Cache[tuple[object, ...], tuple[Derivation, Stages]](lambda _: DERIVATION_BYTES, SHARE)
+        self._rows = Cache[tuple[tuple[Value, ...], int], FilamentRow](lambda row: row.scene.size * SHAPE_BYTES, SHARE)
+        self._paths = Cache[tuple[tuple[Value, ...], int], Path](lambda path: len(path.turns) * SHAPE_BYTES, SHARE)
+        self._scenes = Cache[tuple[tuple[Value, ...], int, float], Scene](lambda scene: scene.size * SHAPE_BYTES, SHARE)
 
     def known(self, constants: Mapping[str, object]) -> tuple[Derivation, Stages]:
         """The derivation and the net for given constants."""

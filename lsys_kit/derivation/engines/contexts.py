@@ -262,8 +262,7 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int, flat
         passed = np.where(roles == ORDINARY, ORDINARY, PASSED)
         return context_neighbours(codes, roles, none)[0], context_neighbours(codes, passed, none)[1]
     size = len(codes)
-    behind = np.append(codes, codes.dtype.type(none))  # the neighbour found at each place, coming from the right
-    ahead = behind
+    behind = ahead = np.append(codes, codes.dtype.type(none))  # the neighbour found at each place, coming from the right
     hanging = np.flatnonzero(roles)
     if len(hanging):
         back, forth = _looked_at(roles, hanging, size)

@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
+from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
 from lsys_kit.derivation.engines import expansion
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import Origins, check_size, check_step
 from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
-from lsys_kit.kept import Kept
 
 FEWEST_NEW = 50
 """Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
@@ -35,7 +35,7 @@ class CountingEngine:
     def __init__(self, states: States, columnar: bool) -> None:
         self.states = states
         self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
-        self._words = Kept[int, Word](word_bytes)
+        self._words = Cache[int, Word](word_bytes)
         self._bytes = ByteTable(states)
         self._columnar = columnar
         self._new = 0  # so many states were met first at the last step

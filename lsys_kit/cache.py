@@ -1,4 +1,4 @@
-"""Results that are kept as long as there is room for them."""
+"""A cache of results, bounded by their bytes."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ _K = TypeVar("_K")
 _V = TypeVar("_V")
 
 
-class Kept(Generic[_K, _V]):
-    """Results that can be computed again: those used last are kept, as many as the limit of bytes has room for.
+class Cache(Generic[_K, _V]):
+    """Results that can be computed again: those used last are kept, as many as the limit of bytes has room for (LRU).
 
     Parameters
     ----------
@@ -25,10 +25,10 @@ class Kept(Generic[_K, _V]):
     --------
     >>> from lsys_kit.budget import limits
     >>> with limits(bytes=10):
-    ...     kept = Kept(len)
-    ...     for text in ("four", "five5", "six"):
-    ...         _ = kept.put(text, text)
-    >>> kept.get("four"), kept.get("five5"), kept.get("six")
+    ...     cache = Cache(len)
+    ...     for text in ("four", "five5", "six", "six"):
+    ...         _ = cache.put(text, text)
+    >>> cache.get("four"), cache.get("five5"), cache.get("six")
     (None, 'five5', 'six')
     """
 
@@ -55,6 +55,8 @@ class Kept(Generic[_K, _V]):
 
     def put(self, key: _K, result: _V) -> _V:
         """Keep a result."""
+        if key in self._found:
+            self._bytes -= self._size(self._found.pop(key))
         self._found[key] = result
         self._bytes += self._size(result)
         while self._bytes > current().bytes * self._share and len(self._found) > 1:
