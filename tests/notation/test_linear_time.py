@@ -11,7 +11,7 @@ import time
 from contextlib import suppress
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit.errors import LSystemError
@@ -36,7 +36,7 @@ TOKENS = (
     "axiom =", "Axiom:", "Rules:", "i_", "i_ /;", "/;", "Null", "\"", "\"+\"", "\"\\", "\\\"", "Sin[", "ArcTan[", "Degree",
     "RandomReal[", "RandomVariate[", "RandomChoice[", "Show[", "Plot[", "Clear[", "x[", "foo[", "(*", "*)", "(* x *)",
     "(* (* *) *)", "<<", "x/:", ":=", ":>", "/.", "#&", "& ", "*^5", "1*^5", "1.", "]]", "],", "\n", "\n\n", "\t", " ", "\r",
-    "\x0b", "\xa0", "\ufeff", "n=3, ", "n=5, δ=25.7°\n", "Start:", "-  A → ", "• ", "0.5 → ", "1\n", " .5", "\\bar{A}",
+    "\x0b", "\xa0", "\ufeff", "n=3, ", "n=5, δ=25.7°\n", "Start:", "-  A → ", "• ", "0.5 → ", "1\n", " .5", "\\bar{A}", "branches:", "next", "widths:", "pixels",
     "\\quad", "\\begin{array}", "\\\\", "∗", "’", "–", "|-", ">*", "*<", "#include", "A -> B\n", "A\n", "A -> ",
     "A : t < 5 -> ", "B < ", "> B", "A(t)", "A(", "A(1)", "F[+F]", "{A}", "{}", "[]", "()", "&& ", "|| ", "!(",
 )
@@ -46,7 +46,8 @@ BEGINNINGS = {
     "cpfg": ("", "Axiom: A\nA --> ", "Axiom: A\nA(t) : t > "), "grogra": ("", "\\axiom A,\nA # ", "\\axiom A,\n(t > "),
     "fractint": ("", "K {\nAngle 8\nAxiom A\nA="),
     "mathematica": ("", "axiom = AXIOM[A];\nlrules = LRULES[LRule[LEFT[], PRED[A], RIGHT[], SUCC[")}
-MILLION, TEXT, LINE = 1_000_000, 48_000, 12_000
+RECOGNISED, TEXT, LINE = 100_000, 48_000, 12_000
+EXAMPLES = 20
 
 
 def seconds(text: str, notation: str) -> float:
@@ -70,29 +71,23 @@ def test_every_token_of_the_grammar_is_tried(notation: str) -> None:
 
 
 @pytest.mark.slow
-def test_a_million_characters_of_any_token_are_recognised_in_two_seconds() -> None:
+def test_a_long_text_of_any_token_is_recognised_in_linear_time() -> None:
+    """A tenth of a million characters in a second: what takes the square of their number takes longer by far."""
     slow = {}
     for token in TOKENS:
         started = time.process_time()
-        recognise(filled("", token, MILLION))
-        if time.process_time() - started > 2:
+        recognise(filled("", token, RECOGNISED))
+        if time.process_time() - started > 1:
             slow[token] = time.process_time() - started
     assert slow == {}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("notation", DIALECTS)
-def test_a_line_of_any_token_is_read_in_linear_time(notation: str) -> None:
-    seconds("A", notation)  # the first makes the parser
-    taken = {(beginning, token): seconds(filled(beginning, token), notation)
-             for beginning in BEGINNINGS[notation] for token in TOKENS}
-    assert {text: time for text, time in taken.items() if time > 2} == {}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("notation", DIALECTS)
+@settings(max_examples=EXAMPLES)
 @given(st.data())
-def test_a_line_of_any_two_tokens_is_read_in_linear_time(notation: str, data: st.DataObject) -> None:
-    pair = data.draw(st.sampled_from(TOKENS)) + data.draw(st.sampled_from(TOKENS))
-    seconds("A", notation)
-    assert seconds(filled(data.draw(st.sampled_from(BEGINNINGS[notation])), pair), notation) < 2
+def test_a_line_of_any_token_or_any_two_is_read_in_linear_time(notation: str, data: st.DataObject) -> None:
+    """Some tokens, and some pairs of them."""
+    piece = "".join(data.draw(st.lists(st.sampled_from(TOKENS), min_size=1, max_size=2)))
+    seconds("A", notation)  # the first makes the parser
+    assert seconds(filled(data.draw(st.sampled_from(BEGINNINGS[notation])), piece), notation) < 2
