@@ -16,6 +16,7 @@ from lsys_kit.notation.syntax.wording import worded
 
 _NOT_IN_STRINGS = {"(": "values", ":": "conditions", "<": "contexts", ">": "contexts"}
 _OPERATORS = frozenset(("TIMES", "SIGN", "POWER"))
+_GARBLED_ARROW = re.compile(r"\.{2,}|[•…⋯]+|(?<![-–—−~])[-–—−~]*-[ \t]++>|[–—−~]>")
 _CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠]|\\[lgn]eq?)\s*(\w+|\S?)")
 
 
@@ -40,7 +41,7 @@ def diagnose_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
 def _missing_arrow(failure: ParseFailure) -> ModelSyntaxError | None:
     if not {"ARROW", "LESSTHAN"} & failure.accepted or failure.found.startswith("="):
         return None
-    garbled = re.compile(r"\.{2,}|[•…⋯]+|[-–—−~]*-[ \t]+>|[–—−~]>").search(failure.text, failure.start, failure.end)
+    garbled = _GARBLED_ARROW.search(failure.text, failure.start, failure.end)
     if garbled:
         return failure.error("This is not an arrow", f'An arrow is typed "{failure.spelling.arrow}", in one piece.',
                              garbled.start(), len(garbled.group()))
