@@ -320,7 +320,7 @@ def test_stages_tells_how_long_cells_live(shell, tmp_path):
     path = tmp_path / "net.svg"
     assert "2 stages M(0), M(0.2); tokens 2, 5" in shell("stages", "P7", "-n", "4", "--durations", "-o", str(path)).out
     assert "after 0.8" in path.read_text()
-    refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives cannot be told", "line")
+    refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives cannot be told", "lets time pass")
 
 
 def test_a_picture_goes_nowhere_else(shell, tmp_path):

@@ -125,7 +125,7 @@ def test_rare_events_are_counted() -> None:
 
 def test_brackets_without_partners_open_and_close_nothing() -> None:
     system = LSystem(tuple(map(Pattern, "A]B[C")), tuple(
-        Production(Pattern(letter), (Pattern("X"),), left=tuple(map(Pattern, left)), right=tuple(map(Pattern, right)))
+        Production((Pattern(letter),), (Pattern("X"),), left=tuple(map(Pattern, left)), right=tuple(map(Pattern, right)))
         for letter, left, right in (("B", "A", ""), ("C", "B", ""), ("A", "", "[D]"))))
     assert str(derive(system, 1)[1]) == "A]X[X"
     assert str(derive(dataclasses.replace(system, axiom=tuple(map(Pattern, "A[D"))), 1)[1]) == "X[D"

@@ -29,6 +29,7 @@ CALLS = ("timed(s).word(5)", "lineage(timed(s), 5)", "stages(timed(s))", "stages
          "continuity(s, {'A B': 't'})", "lineage(derive(s, 0))")
 CHILD = """
 import resource, sys, time
+import sympy  # which takes most of a second
 from lsys_kit import LSystemError, continuity, derive, lineage, read, stages, timed
 resource.setrlimit(resource.RLIMIT_AS, (2 * 2**30, 2 * 2**30))
 s = read(sys.argv[2])

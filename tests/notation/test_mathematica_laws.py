@@ -94,7 +94,8 @@ def test_the_end_of_a_branch_is_lacking() -> None:
 
 def expressed(system: LSystem) -> LSystem:
     """A system without what Mathematica's notation lacks."""
-    return replace(system, considered=(), productions=tuple(replace(rule, probability=None) for rule in system.productions))
+    productions = tuple(replace(rule, probability=None) for rule in system.productions)
+    return replace(system, considered=(), branches="any", productions=productions)
 
 
 SEEN: Counter[str] = Counter()

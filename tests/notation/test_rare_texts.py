@@ -101,9 +101,9 @@ def test_a_file_has_no_more_systems_than_the_limit(monkeypatch: pytest.MonkeyPat
 
 def test_fractint_has_no_empty_axiom() -> None:
     with pytest.raises(LSystemError, match="empty axiom"):
-        write(LSystem((), (Production(Pattern("F"), (Pattern("F"),)),), turtle="fractint", heading=0), "fractint")
+        write(LSystem((), (Production((Pattern("F"),), (Pattern("F"),)),), turtle="fractint", heading=0), "fractint")
 
 
 def test_a_digit_that_nothing_declares_is_declared() -> None:
-    system = LSystem((Pattern("1"),), (Production(Pattern("1"), (Pattern("F"), Pattern("1"))),), angle=Fraction(90))
+    system = LSystem((Pattern("1"),), (Production((Pattern("1"),), (Pattern("F"), Pattern("1"))),), angle=Fraction(90))
     assert read(write(system, "abop"), "abop").productions == system.productions
