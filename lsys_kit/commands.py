@@ -54,12 +54,16 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     from lsys_kit.derivation.core.states import States
     from lsys_kit.derivation.derive import lengths
 
-    sys.set_int_max_str_digits(0)
     system = _system_with_constants(options)
     counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).traits.d0l else \
         _derivation(system, options).lengths
-    for step, modules in enumerate(counts):
-        yield {"step": step, "modules": modules}
+    digits = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)  # while they are written
+    try:
+        for step, modules in enumerate(counts):
+            yield {"step": step, "modules": modules}
+    finally:
+        sys.set_int_max_str_digits(digits)
 
 
 def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:

@@ -148,5 +148,6 @@ def _room(megabytes: int) -> None:
 
 if __name__ == "__main__":
     wrong = report(float(sys.argv[1]), int(sys.argv[2]), *sys.argv[3:])
-    print(*wrong, sep="\n", file=sys.stderr)
+    for line in wrong:
+        print(line, file=sys.stderr)
     sys.exit(bool(wrong))
