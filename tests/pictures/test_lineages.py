@@ -103,6 +103,9 @@ def test_intervals_are_marked_with_their_lengths() -> None:
     assert [text for text in texts(marked) if text in ("0.7", "1.4")] == ["0.7", "1.4", "0.7", "1.4"]
     with pytest.raises(ModelValueError, match="from 4 to 5"):
         draw(tree, intervals=[(4, 5)])
+    for wrong in (None, [None], [(1, 2, 3)], ["1.4"]):
+        with pytest.raises(ModelValueError, match="pair of times"):
+            draw(tree, intervals=wrong)
 
 
 def test_where_there_is_no_filament_the_modules_stand_below() -> None:

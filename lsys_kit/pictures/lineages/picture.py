@@ -19,7 +19,7 @@ from typing import Any
 from lsys_kit.budget import current
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.files import marked_xml
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.display_list import MARGIN, WIDTH
@@ -76,6 +76,12 @@ class LineagePicture:
         return f"lineage of {self.lineage}"
 
 
+def _interval(given: object) -> tuple[Value, Value]:
+    if not isinstance(given, Sequence) or len(given) != 2:
+        raise ModelValueError(f"An interval is a pair of times, not {shown(given)}")
+    return number_from(given[0], "interval"), number_from(given[1], "interval")
+
+
 def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture:
     """The picture of a lineage, with some intervals of time marked.
 
@@ -93,7 +99,8 @@ def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]]
         raise ModelLimitError(f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have "
                               f"{current().segments:,}", limit=current().segments, needed=len(lineage.cells),
                               hint="Take fewer steps, or set limits(segments=...).")
-    found = tuple((number_from(first, "interval"), number_from(last, "interval")) for first, last in intervals)
+    require(intervals, Iterable, "A list of intervals, each a pair of times,")
+    found = tuple(map(_interval, intervals))
     for first, last in found:
         if not 0 <= first < last <= lineage.times[-1]:
             raise ModelValueError(f"No interval from {time_text(first)} to {time_text(last)} can be marked",
