@@ -156,7 +156,8 @@ def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> No
             if method == "save":
                 value = folder / f"file{chance.choice(('.svg', '.png', '.pdf', '.glb', '.obj', '.gif', '.pnml', '.x', ''))}"
             told.append(f".{method}({shown(value)})")
-            with contextlib.suppress(TypeError) if not isinstance(value, int | Path) else contextlib.nullcontext():
+            odd = method == "counts_of" or not isinstance(value, int | Path)  # it has a second argument
+            with contextlib.suppress(TypeError) if odd else contextlib.nullcontext():
                 getattr(result, method)(value)
 
 
