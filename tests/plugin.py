@@ -41,12 +41,12 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark `browser` whatever needs a browser, and `slow` the benchmarks."""
+    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks."""
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
         if "browser" in fixtures or "lab" in fixtures:
             item.add_marker("browser")
-        if "benchmark" in fixtures or "benchmarks" in item.path.parts:
+        if "benchmark" in fixtures or "benchmarks" in item.path.parts or item.path.suffix == ".ipynb":
             item.add_marker("slow")
 
 

@@ -181,6 +181,7 @@ def shows(found: LSystem) -> None:
         refused(lambda notation=notation: write(found, notation))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_what_is_typed_is_refused_or_shown_as_text(text):
     for model in typed(text):

@@ -63,6 +63,7 @@ def test_columns_give_the_words_of_the_table(system: LSystem, arithmetic: str) -
     check_equal(system, 9, arithmetic)
 
 
+@pytest.mark.slow
 @ARITHMETICS
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
 @given(system=systems())

@@ -75,6 +75,7 @@ def test_a_mother_may_have_many_daughters() -> None:
     assert len(tree.daughters(0)) == 20_000
 
 
+@pytest.mark.slow
 def test_cells_that_are_dead_count() -> None:
     short = timed(read("axiom: A(0)\nA(1) -> A(0) repeat(60000)<B(0)>\nB(1/2) -> ε"))
     with pytest.raises(ModelLimitError, match="may have 100,000 cells"):

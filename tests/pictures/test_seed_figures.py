@@ -94,6 +94,7 @@ def test_every_golden_picture_belongs_to_a_figure() -> None:
     assert {path.stem for path in GOLDEN.glob("*.svg")} == FIGURES.keys()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_figure_is_drawn_as_it_was(name: str, request: pytest.FixtureRequest) -> None:
     caption, drawn = FIGURES[name]
