@@ -251,8 +251,11 @@ def supervised() -> Iterator[None]:
 
     It works in the same thread, since a process of its own would not do everywhere: where one starts, it runs the person's
     program again, unless that is written for it, and in a browser there are none.
+
+    An error may be swallowed there, as in a finalizer, or by the garbage collector; then it is raised again, but not so soon
+    that what is put in order on the way out is disturbed.
     """
-    now, left, before = _task.get(), CALLS_BETWEEN_CHECKS, sys.getprofile()
+    now, left, before, tracer = _task.get(), CALLS_BETWEEN_CHECKS, sys.getprofile(), sys.gettrace()
     if now is None:
         yield
         return
@@ -266,7 +269,13 @@ def supervised() -> Iterator[None]:
                 now[0].check(now[1])
             except ModelLimitError as error:
                 if not _imports(frame):
+                    sys.settrace(go_on)
                     raise _UsedUp(error) from None
+
+    def go_on(_: FrameType, __: str, ___: Any) -> None:
+        """Put the hook back, at the next call: Python takes away one that raises."""
+        sys.settrace(tracer)
+        sys.setprofile(look)
 
     sys.setprofile(look)
     try:
@@ -275,6 +284,8 @@ def supervised() -> Iterator[None]:
         raise used_up.error from None
     finally:
         sys.setprofile(before)
+        if sys.gettrace() is go_on:
+            sys.settrace(tracer)
 
 
 def _imports(frame: FrameType | None) -> bool:

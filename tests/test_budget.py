@@ -105,3 +105,28 @@ def test_what_knows_of_no_budget_is_supervised() -> None:
     with limits(seconds=0.05), Task("It was not found"), pytest.raises(ModelLimitError, match="It was not found"), supervised():
         endless()
     assert sys.getprofile() is before
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_an_error_that_a_finalizer_swallows_is_raised_again() -> None:
+    """The library works on, until it makes more calls than a person waits for; what it leaves is put in order."""
+    put_in_order = []
+
+    class Finalized:
+        def __del__(self) -> None:
+            while True:
+                abs(-1)
+
+    def endless() -> None:
+        Finalized()
+        try:
+            for _ in range(10**7):
+                abs(-1)
+        finally:
+            put_in_order.extend(map(str, range(100)))
+
+    hooks = sys.getprofile(), sys.gettrace()
+    with limits(seconds=0.05), Task("It was not found"), pytest.raises(ModelLimitError, match="It was not found"), supervised():
+        endless()
+    assert len(put_in_order) == 100
+    assert (sys.getprofile(), sys.gettrace()) == hooks
