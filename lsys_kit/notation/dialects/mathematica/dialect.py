@@ -18,8 +18,8 @@ from lsys_kit.notation.model.operators import OPERATORS
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing
-from lsys_kit.notation.syntax.text.subscripts import subscripts
-from lsys_kit.notation.syntax.text.transcript import edited
+from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
+from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed, edited
 
 _MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
                     re.IGNORECASE | re.MULTILINE)
@@ -66,8 +66,15 @@ def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
     return names, functions
 
 
+def _transcribe(source: str) -> Transcript:
+    """A text with each subscript of printed output behind its letter."""
+    if not LINE_OF_SUBSCRIPTS.search(source):
+        return as_typed(source)
+    return edited(source, subscripts(without_nested_comments(source), "", "[]"))
+
+
 MATHEMATICA = Dialect(
     name="mathematica", statements=statements, transformer=transformer, finish=finish, diagnostics=DIAGNOSTICS,
     module=module_text, joined=" ".join, write=system_text, missing_feature=_lacking,
     likely=lambda text: 3 * len(_MARKS.findall(text)), spelling=SPELLING,
-    transcribe=lambda text: edited(text, subscripts(without_nested_comments(text), "", "[]")))
+    transcribe=_transcribe)

@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterator
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, statements, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, blank_parentheses, statements, without_comments
 
 # What labels and sets of productions look like, and what cannot follow a label.
-_LABEL = re.compile(r"([pP]_?(?:\d+|\{\d+\}))[ \t]*:[ \t]*")
+_LABEL = re.compile(rf"({LABEL})[ \t]*:[ \t]*")
 _LABELLED = re.compile(rf"^[ \t]*{_LABEL.pattern}", re.MULTILINE)
 _SET_OPENING = re.compile(r"(?:P[ \t]*=[ \t]*)?\{(?=\s*[A-Za-z\\(])")
 IN_A_SET = re.compile(rf"^[ \t]*{_SET_OPENING.pattern}", re.MULTILINE)

@@ -12,6 +12,8 @@ from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
 _STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
 _CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
+LABEL, OMEGA = r"[pP]_?(?:\d+|\{\d+\})", r"(?:ω|\\omega)"
+"""What a printed production is labelled with, and what the axiom is called there."""
 PER_RULE = 64
 """The greatest number of characters per production of the limit, without blanks and comments."""
 

@@ -9,9 +9,10 @@ from itertools import pairwise
 from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses
 from lsys_kit.notation.syntax.text.transcript import Edit
 
-SUBSCRIPTS = r"[ \t]++[A-Za-z0-9](?:[ \t]++[A-Za-z0-9])*+[ \t]*+"
-"""A line of them."""
-_SUBSCRIPTS = re.compile(SUBSCRIPTS)
+_LINE = r"[ \t]++[A-Za-z0-9](?:[ \t]++[A-Za-z0-9])*+[ \t]*+"
+_SUBSCRIPTS = re.compile(_LINE)
+LINE_OF_SUBSCRIPTS = re.compile(rf"\n{_LINE}(?:\n|\Z)")
+"""What a text with subscripts has."""
 _LETTER = re.compile(r"(?<![\w\\])[A-Za-z](?!\w)")
 _AXIOM = re.compile(r"[ \t]*+(?:axiom|start\w*|ω|\\omega)\b", re.IGNORECASE)
 _BRACKETS = str.maketrans("[]", "()")

@@ -16,8 +16,8 @@ from typing import NamedTuple
 from lsys_kit.budget import current
 from lsys_kit.notation.syntax.text.greek import angle_as_constant, name_of, named_letters
 from lsys_kit.notation.syntax.text.headings import HEADING, RULES, SENTENCE, headings
-from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
-from lsys_kit.notation.syntax.text.subscripts import SUBSCRIPTS, subscripts
+from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.typesetting import MACRO, typesetting
 
@@ -26,8 +26,8 @@ _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
 """Typographic signs, and what is typed for them."""
 _WEDGES = str.maketrans("∧⋀", "^^")
 """Before an arrow a wedge joins two conditions; behind it, it is a turn."""
-_LABEL = re.compile(r"[ \t]*+[pP]_?(?:\d+|\{\d+\})[ \t]*+:")
-_OMEGA = re.compile(r"[ \t]*+(?:ω|\\omega)[ \t]*+[:=]")
+_LABEL = re.compile(rf"[ \t]*+{LABEL}[ \t]*+:")
+_OMEGA = re.compile(rf"[ \t]*+{OMEGA}[ \t]*+[:=]")
 _LABELLED = re.compile(rf"^(?:{_LABEL.pattern}|{_OMEGA.pattern})", re.MULTILINE)
 _AXIOM = re.compile(r"[ \t]*+axiom\b", re.IGNORECASE)
 _DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
@@ -60,7 +60,7 @@ _SIGNS_OF_PRINT = (
     re.compile(rf"\n[ \t]*+(?:{HEADING})(?:\n|\Z)", re.IGNORECASE),
     re.compile(rf"\n[ \t]*+{SENTENCE}(?:\n|\Z)"),
     re.compile(rf"\n[ \t]*+(?:{RULES}|```)", re.IGNORECASE),
-    re.compile(rf"\n{SUBSCRIPTS}(?:\n|\Z)"),
+    LINE_OF_SUBSCRIPTS,
     re.compile(rf"\A\s*+[^:=<>#\n]++\n[^\n]*(?:{_ARROW})"),
     re.compile(r">[ \t]*+\*"),
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),

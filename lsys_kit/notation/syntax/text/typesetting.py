@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from itertools import zip_longest
 from typing import NamedTuple
 
-from lsys_kit.notation.syntax.text.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA
 from lsys_kit.notation.syntax.text.transcript import Edit
 
 MACRO = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|vec|overleftarrow|overrightarrow|begin[ \t]*+\{)")
@@ -38,7 +38,7 @@ _LINE = re.compile(r"[^\n]+")
 _LINE_END = re.compile(r"\\\\[ \t]*+$", re.MULTILINE)
 _ITEM = re.compile(r"[ \t]*+((?:[-–*](?![^\n:]*<)|•|\d+[.)]|\(\d+\))[ \t]++)[A-Za-zωδ\\]")
 """An item of a list, with its dash or its number; before a "<" a dash would be a neighbour."""
-_BEGINS = re.compile(r"[\s,]*+(?:[pP]_?(?:\d+|\{\d+\})[ \t]*+:|(?:ω|\\omega)[ \t]*+[:=])")
+_BEGINS = re.compile(rf"[\s,]*+(?:{LABEL}[ \t]*+:|{OMEGA}[ \t]*+[:=])")
 """What begins a statement: a label, or the name of the axiom."""
 
 
