@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import re
-import shutil
-import subprocess
 from itertools import pairwise
 from pathlib import Path
 
@@ -168,15 +165,17 @@ def test_where_nothing_is_drawn_in_space_the_picture_is_empty():
 
 # --- the canvas in the browser ----------------------------------------------------------------------------------------
 
-NODE = shutil.which("node")
-needs_node = pytest.mark.skipif(not NODE, reason="needs Node.js, which runs the scripts of the canvas here")
+@pytest.fixture(scope="module")
+def page(browser):
+    return browser.new_page()
 
 
-def orders_on_the_canvas(cases, script):
+def orders_on_the_canvas(page, cases, script):
     """The order in which the canvas paints the shapes of some scenes: a number for each polygon, stroke and disc."""
     code = "\n".join((PANEL / name).read_text(encoding="utf-8") for name in ("pen.js", script)) + """
-const found = JSON.parse(require("fs").readFileSync(0, "utf8")).map(({ shapes, around, above, scale, angle, thin }) => {
-  const drawing = unpacked({ get: () => new Uint8Array(Buffer.from(shapes, "base64")) }), { n, real, whole } = drawing;
+return cases.map(({ shapes, around, above, scale, angle, thin }) => {
+  const bytes = Uint8Array.from(atob(shapes), character => character.charCodeAt(0));
+  const drawing = unpacked({ get: () => bytes }), { n, real, whole } = drawing;
   const points = { x: new Float64Array(n + 1), y: new Float64Array(n + 1) };
   if (angle === undefined) {
     points.z = new Float64Array(n);
@@ -186,11 +185,8 @@ const found = JSON.parse(require("fs").readFileSync(0, "utf8")).map(({ shapes, a
   }
   return Array.from(paintingOrder(drawing, points, widthsOf(drawing.strokes, scale, thin)));
 });
-console.log(JSON.stringify(found));
 """
-    code = code.replace("export default { render };", "")
-    done = subprocess.run([NODE, "-e", code], input=json.dumps(cases), capture_output=True, text=True, timeout=60, check=True)
-    return json.loads(done.stdout)
+    return page.evaluate(f"cases => {{ {code.replace('export default { render };', '')} }}", cases)
 
 
 def numbered(scene, order):
@@ -203,24 +199,22 @@ def base64_of(traits):
     return base64.b64encode(traits["shapes"]).decode()
 
 
-@needs_node
 @pytest.mark.slow
 @settings(max_examples=10)
 @given(st.lists(st.tuples(SCENES, SIDES), min_size=8, max_size=8))
-def test_the_canvas_paints_in_the_order_of_the_picture_that_stays(scenes):
+def test_the_canvas_paints_in_the_order_of_the_picture_that_stays(page, scenes):
     cases = [{"shapes": base64_of(packed(scene, None, {})), "around": around, "above": above, "scale": 20.0, "thin": 1}
              for scene, (around, above) in scenes]
     expected = [numbered(scene, painted(project(scene, *side))) for scene, side in scenes]
-    assert orders_on_the_canvas(cases, "space.js") == expected
+    assert orders_on_the_canvas(page, cases, "space.js") == expected
 
 
-@needs_node
 @pytest.mark.slow
 @settings(max_examples=10)
 @given(st.lists(st.text("F;#+-", min_size=1, max_size=20), min_size=8, max_size=8))
-def test_in_the_plane_too(texts):
+def test_in_the_plane_too(page, texts):
     paths = [trace(derive(read(f"axiom: @c(1)F;(3){text}#(1)F{{+F+F}}@o(2)F#(1/2)F"), 0)[0]) for text in texts]
     scenes = [place_path(path, 90) for path in paths]
     cases = [{"shapes": base64_of(packed(scene, path, {})), "scale": 20.0, "thin": 1, "angle": 90}
              for scene, path in zip(scenes, paths, strict=True)]
-    assert orders_on_the_canvas(cases, "flat.js") == [numbered(scene, painted(scene)) for scene in scenes]
+    assert orders_on_the_canvas(page, cases, "flat.js") == [numbered(scene, painted(scene)) for scene in scenes]
