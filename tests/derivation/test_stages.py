@@ -23,6 +23,7 @@ from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
+from tests.derivation.timed_nets import fired_in_time
 
 FILAMENT = """
 a_r(t) : t < {0} -> a_r(t+1)
@@ -320,21 +321,6 @@ def test_a_rule_behind_one_that_always_matches_has_no_transition() -> None:
 CELLS_OF_TWO_AGES = "short = 1/5\naxiom: M(0)\nM(1) -> M(short) M(0)"
 
 
-def moved_in_time(net: Stages, until: Fraction) -> tuple[int, ...]:
-    """The tokens at a time, each of which moves when its time is up."""
-    spans = {transition.place: (number, transition.span) for number, transition in enumerate(net.transitions)}
-    todo = [(place, until) for place, count in enumerate(net.start) for _ in range(count)]
-    found = [0] * len(net.places)
-    while todo:
-        place, left = todo.pop()
-        number, span = spans.get(place, (None, None))
-        if span is None or left <= span:
-            found[place] += 1
-        else:
-            todo += [(arc.place, left - span) for arc in net.arcs if arc.transition == number for _ in range(arc.copies)]
-    return tuple(found)
-
-
 @pytest.mark.parametrize("text", [
     CELLS_OF_TWO_AGES, "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)",
     "axiom: a(0) X\na(2) -> a(0) b(1/3) X W(0)\nb(1) -> a(1/2) [b(0)] W(2)", "axiom: a(1/4)\na(1) -> a(1/4) a(1/2)"])
@@ -343,7 +329,7 @@ def test_tokens_of_a_timed_net_move_when_their_time_is_up(text: str, twelfths: i
     growing = timed(read(text))
     at = Fraction(twelfths, 12) + Fraction(1, 1000)  # at no time at which a cell divides
     net = stages(growing)
-    assert moved_in_time(net, at) == net.tokens(growing.word(at))
+    assert fired_in_time(net, at) == net.tokens(growing.word(at))
 
 
 def test_a_life_is_parted_where_others_begin() -> None:
@@ -385,7 +371,7 @@ def test_durations_hold_whatever_a_step_is(name: str, dt: Fraction, step: int) -
     dt += Fraction(1, 1009)  # so that no step ends at a division
     net = stages(catalogued(name), durations=True, dt=dt)
     word = derive(catalogued(name), step, dt=dt)[-1]
-    assert net.tokens(word) == moved_in_time(net, step * dt)
+    assert net.tokens(word) == fired_in_time(net, step * dt)
     assert sum(net.tokens(word)) == len(word)
 
 
