@@ -1,8 +1,10 @@
 """Whatever a text holds, a reader reads it or explains what is wrong: texts made by a fuzzer that sees which code they reach.
 
-    python -m tests.fuzzing.readers 12               twelve seconds for each notation, the same texts every time
-    python -m tests.fuzzing.readers 600 grogra       ten minutes for one
-    SEED=7 python -m tests.fuzzing.readers 60        other texts
+    python -m tests.fuzzing.readers 8000             eight thousand texts for each notation, the same every time
+    python -m tests.fuzzing.readers 500000 grogra    half a million for one
+    SEED=7 python -m tests.fuzzing.readers 50000     other texts
+
+They are counted, not timed, so that a quick machine and a slow one try the same.
 
 The fuzzer begins with the listings of the seeds and the systems of the catalogue. What is read is written again, must read back
 as the same system, and is derived for two steps. Only the kit's own errors may come of it, within a second; anything else ends
@@ -38,7 +40,7 @@ def seeds(notation: str, folder: Path) -> None:
         (folder / f"seed{number}").write_text(text)
 
 
-def fuzz(notation: str, folder: str, seconds: int) -> None:
+def fuzz(notation: str, folder: str, texts: int) -> None:
     """Fuzz one reader; this never returns."""
     import atheris
 
@@ -55,19 +57,19 @@ def fuzz(notation: str, folder: str, seconds: int) -> None:
         except LSystemError as error:
             str(error)
 
-    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-max_total_time={seconds}", f"-timeout={SLOWEST}",
+    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-runs={texts}", f"-timeout={SLOWEST}",
                    f"-seed={os.environ.get('SEED', '1')}", f"-artifact_prefix={folder}/"], one)
     atheris.Fuzz()
 
 
-def main(seconds: int, *notations: str) -> int:
+def main(texts: int, *notations: str) -> int:
     """Fuzz the readers one after another, each in a process of its own; 0 if all is well."""
     from lsys_kit.notation.registry import DIALECTS
 
     for notation in notations or tuple(DIALECTS):
         with tempfile.TemporaryDirectory() as folder:
             seeds(notation, Path(folder))
-            run = subprocess.run([sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(seconds)],
+            run = subprocess.run([sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(texts)],
                                  capture_output=True, text=True, check=False, env={**os.environ, "PYTHONHASHSEED": "0"})
             told = [line for line in run.stderr.splitlines() if "DONE" in line or "stat::" in line]
             print(notation, *told[-1:], sep=": ", flush=True)

@@ -21,4 +21,4 @@ def test_what_has_no_end_is_refused_in_time_and_within_its_memory() -> None:
 def test_calls_at_random_are_answered_or_refused() -> None:
     from tests.fuzzing.public import run
 
-    assert run(seconds=60, seed=1, calls=60) is None
+    assert run(calls=60, seed=1) is None

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 import time
 
 import pytest
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.syntax.text.greek import name_of
+from lsys_kit.notation.syntax.text.greek import GREEK, name_of
 
 
 @pytest.mark.parametrize(("text", "same"), [
@@ -40,6 +41,7 @@ def test_a_mistake_is_shown_where_the_letter_stands() -> None:
 
 def test_every_letter_has_a_name_of_its_own() -> None:
     letters = "αβγδζηθικλμνξοπρστυφχψωΑΒΓΔΕΖΗΘΙΚΛΜΝΞΟΠΡΣΤΥΦΧΨΩ"
+    assert all(name_of(letter) for letter in map(chr, range(sys.maxunicode)) if GREEK.match(letter))
     assert len({name_of(letter) for letter in letters}) == len(letters)
     assert [name_of(letter) for letter in "λΛϑϕµς"] == ["lambda", "Lambda", "theta", "phi", "mu", "sigma"]
 

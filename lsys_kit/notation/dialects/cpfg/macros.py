@@ -147,7 +147,7 @@ class Macros:
         if _RANDOM.search(index):
             raise ModelValueError("The index of an array cannot be random here", self.text, at, at + 1,
                                   'Make it the parameter of a module, as in "A --> B(ran(3))", and use that in the next step.')
-        if index.strip().isdigit():
+        if index.strip().isdecimal():
             return elements[min(int(index), len(elements) - 1)]
         self._spend(len(index) * len(elements), at)
         return _chosen(elements, 0, index)

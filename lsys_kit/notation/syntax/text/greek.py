@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from lsys_kit.notation.syntax.text.transcript import Edit
 
-GREEK = re.compile(r"[Α-Ωα-δζ-ωϑϕϱµ]|\\(?:[Aa]lpha|[Bb]eta|[Gg]amma|[Dd]elta|theta|lambda|mu|phi|psi|rho|sigma|tau|omega)\b")
+GREEK = re.compile(r"[Α-ΡΣ-Ωα-δζ-ωϑϕϱµ]|\\(?:[Aa]lpha|[Bb]eta|[Gg]amma|[Dd]elta|theta|lambda|mu|phi|psi|rho|sigma|tau|omega)\b")
 """A letter, or its macro in LaTeX."""
 _SETTING = re.compile(
     r"(?:^|[,;])[ \t]*+(?:(?P<axiom>ω|\\omega)[ \t]*+[:=]|(?P<angle>δ|\\delta)[ \t]*+[:=](?:[ \t]*+(?P<value>\d[\d.]*+))?)")
