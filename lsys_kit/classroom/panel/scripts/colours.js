@@ -1,0 +1,59 @@
+// Colours of the panel: the theme of the page around it, and shades that can be seen on its paper.
+
+const CONTRAST = 3; // of lines against the paper (WCAG 2.2, 1.4.11)
+const known = new Map();
+
+// A colour as three numbers from 0 to 255.
+export function channels(colour) {
+  const digits = colour.length === 4 ? [...colour.slice(1)].map((digit) => digit + digit) : colour.slice(1).match(/../g);
+  return digits.map((pair) => parseInt(pair, 16));
+}
+
+function hexadecimal(numbers) {
+  return "#" + numbers.map((number) => Math.round(number).toString(16).padStart(2, "0")).join("");
+}
+
+// A colour mixed with another: 0 is the other, 1 the colour itself.
+export function mixed(colour, other, strength) {
+  const [a, b] = [channels(colour), channels(other)];
+  return hexadecimal(a.map((channel, i) => b[i] + strength * (channel - b[i])));
+}
+
+function luminance(colour) {
+  const [red, green, blue] = channels(colour).map((channel) => {
+    const part = channel / 255;
+    return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
+  });
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
+// The contrast of two colours, from 1 to 21.
+export function contrast(one, other) {
+  const [less, more] = [luminance(one), luminance(other)].sort((a, b) => a - b);
+  return (more + 0.05) / (less + 0.05);
+}
+
+// The shade of a colour in which a line can be seen on the theme's paper: no lighter or darker than needed.
+export function lineColour(colour, theme) {
+  const key = colour + theme.paper;
+  if (!known.has(key)) {
+    let strength = 1, shade = colour;
+    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(colour, theme.ink, (strength -= 0.04));
+    known.set(key, shade);
+  }
+  return known.get(key);
+}
+
+// The fill of what has a colour, on the theme's paper.
+export function fillColour(colour, theme, strength) {
+  return mixed(colour, theme.paper, strength);
+}
+
+// The theme of an element, from the variables of its style.
+export function themeOf(element) {
+  const styles = getComputedStyle(element), read = (name) => styles.getPropertyValue(`--lsys-${name}`).trim();
+  return {
+    ink: read("ink"), quiet: read("quiet"), paper: read("paper"), mark: read("mark"), markEdge: read("mark-edge"),
+    lit: read("lit"), dark: luminance(read("paper")) < 0.2,
+  };
+}

@@ -1,0 +1,118 @@
+// Native controls with names: sliders with number boxes, buttons, lists.
+
+export function made(tag, attributes = {}, ...inside) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name === "class") element.className = value;
+    else if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value === true) element.setAttribute(name, "");
+    else if (value !== false && value !== undefined) element.setAttribute(name, value);
+  }
+  element.append(...inside);
+  return element;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+export function drawn(tag, attributes = {}, ...inside) {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...inside);
+  return element;
+}
+
+let controls = 0;
+
+// A slider over some texts of numbers, with a box in which one can be typed. `chosen` is called with the index.
+export function slider(name, hint, texts, index, chosen) {
+  const id = `lsys-control-${++controls}`;
+  const box = made("input", { id, type: "text", inputmode: "decimal", class: "lsys-box", autocomplete: "off", spellcheck: "false" });
+  const range = made("input", { type: "range", class: "lsys-range", "aria-label": `${name}, slider`, min: 0, step: 1 });
+  const element = made("div", { class: "lsys-control", "data-control": name },
+    made("label", { for: id, title: hint }, name), box, range);
+  let numbers = [];
+
+  function show(at) {
+    index = Math.max(0, Math.min(numbers.length - 1, at));
+    range.value = index;
+    range.setAttribute("aria-valuetext", texts[index]);
+    if (document.activeElement !== box) box.value = texts[index];
+    box.removeAttribute("aria-invalid");
+  }
+
+  function choose(at) {
+    const before = index;
+    show(at);
+    if (index !== before) chosen(index);
+  }
+
+  function typed() {
+    const wanted = valueOf(box.value);
+    if (Number.isNaN(wanted)) {
+      box.setAttribute("aria-invalid", "true");
+      return;
+    }
+    choose(nearest(numbers, wanted));
+    box.value = texts[index];
+  }
+
+  function offer(others, at) {
+    texts = others;
+    numbers = texts.map(valueOf);
+    range.max = texts.length - 1;
+    box.style.width = `${Math.max(3, Math.min(12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length)))) + 2}ch`;
+    show(at);
+  }
+
+  range.addEventListener("input", () => choose(Number(range.value)));
+  range.addEventListener("keydown", (event) => event.stopPropagation()); // arrow keys are the slider's, not the notebook's
+  box.addEventListener("keydown", (event) => {
+    event.stopPropagation();
+    const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+    if (way) {
+      event.preventDefault();
+      choose(index + way);
+      box.value = texts[index];
+    } else if (event.key === "Enter") typed();
+  });
+  box.addEventListener("change", typed);
+  box.addEventListener("blur", () => show(index));
+  offer(texts, index);
+  return { element, range, box, show, offer, get index() { return index; } };
+}
+
+// The value of a number as a person writes it: 0.7, 0,7 or 7/10.
+function valueOf(text) {
+  const parts = text.trim().replace(",", ".").replace("\u2212", "-").split("/");
+  if (parts.length > 2 || parts.some((part) => !/^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(part.trim()))) return NaN;
+  return parts.length === 2 ? Number(parts[0]) / Number(parts[1]) : Number(parts[0]);
+}
+
+function nearest(numbers, wanted) {
+  let best = 0;
+  numbers.forEach((number, at) => {
+    if (Math.abs(number - wanted) < Math.abs(numbers[best] - wanted)) best = at;
+  });
+  return best;
+}
+
+export function button(text, hint, pressed, more = {}) {
+  return made("button", { type: "button", class: "lsys-button", title: hint, "aria-label": hint, onclick: pressed, ...more }, text);
+}
+
+// A list to choose from: `options` are pairs of a value and its text.
+export function list(name, hint, options, value, chosen) {
+  const id = `lsys-control-${++controls}`;
+  const select = made("select", { id, class: "lsys-list" });
+  const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, name), select);
+  select.addEventListener("change", () => chosen(select.value));
+  select.addEventListener("keydown", (event) => event.stopPropagation());
+
+  function offer(others, chosenValue) {
+    select.replaceChildren(...others.map(([each, text]) => made("option", { value: each }, text)));
+    select.value = chosenValue;
+  }
+
+  offer(options, value);
+  return { element, select, offer, show(other) { select.value = other; } };
+}

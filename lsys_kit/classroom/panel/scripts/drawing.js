@@ -1,0 +1,247 @@
+// The drawing of a step on a canvas: a filament's rows, or what the turtle draws, turned, moved and brought nearer by the browser alone.
+
+import { made } from "./controls.js";
+import { sequence, paintSequence, cellAt } from "./filament.js";
+import { frameOf, paint, shapeAt, boundsOf } from "./painter.js";
+import { placed, traced } from "./turtle.js";
+
+const ROWS = 24; // of a developmental sequence
+const TURN = 5, MOVE = 30, ZOOM = 1.25, NEAREST = 40, PULL = 0.5; // of keys and of the pointer
+const REACH = 6; // pixels from a stroke that is pointed at
+const CLICK = 4; // pixels that a pointer may move in a click
+const GLIDE = 350; // milliseconds from one step to the next
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
+
+// `told` has { turned(around, above), traced(step, position), moved() }.
+export function drawingView(parent, told) {
+  const canvas = made("canvas", { class: "lsys-canvas", tabindex: 0, role: "img" });
+  const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
+  parent.append(canvas, hint);
+  const pen = canvas.getContext("2d"), pointers = new Map();
+  let book, now, look, shapes, frame, sheet, waiting = 0, glide = null;
+  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0;
+
+  const inSpace = () => book.data.mode === "space", isFilament = () => book.data.mode === "filament";
+
+  function open(next) {
+    book = next;
+    [near, shift, glide] = [1, [0, 0], null];
+    const turning = inSpace() ? "Drag or arrow keys turn it. " : "";
+    hint.textContent = isFilament() ? "Click a cell to trace it; N and P go to the next and the one before."
+      : `${turning}Plus, minus or the wheel bring it nearer, Shift and arrows move it, Home puts it back. Click a part to trace it; N and P go to the next and the one before.`;
+    canvas.classList.toggle("lsys-turned", inSpace());
+  }
+
+  // Show what is asked for: { step, angle, around, above, boxed: the step whose frame is kept, or null, glides }.
+  function show(asked, nextLook) {
+    const before = now, old = shapes;
+    [now, look] = [{ ...asked }, nextLook];
+    if (!isFilament()) shapes = placed(traced(book, now.step), now.angle);
+    if (asked.glides && before && old && !isFilament() && now.step === before.step + 1 && shapes.strokes.n < 20_000)
+      glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
+    else if (before && before.step !== now.step) glide = null;
+    draw();
+  }
+
+  function mothersOf(step) {
+    const found = new Int32Array(book.length(step));
+    for (let i = 0; i < found.length; i++) found[i] = book.mother(step, i);
+    return found;
+  }
+
+  function draw() {
+    waiting = waiting || requestAnimationFrame(() => {
+      waiting = 0;
+      paintNow();
+    });
+  }
+
+  function paintNow() {
+    const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1;
+    if (!width || !height || !now) return;
+    if (canvas.width !== Math.round(width * density) || canvas.height !== Math.round(height * density)) {
+      canvas.width = Math.round(width * density);
+      canvas.height = Math.round(height * density);
+    }
+    pen.setTransform(density, 0, 0, density, 0, 0);
+    pen.fillStyle = look.theme.paper;
+    pen.fillRect(0, 0, width, height);
+    if (isFilament()) {
+      sheet = sequence(book, now.step, { rows: ROWS, width, height, boxed: now.boxed });
+      paintSequence(pen, sheet, look);
+    } else {
+      const visible = gliding();
+      const box = now.boxed === null ? null : boundsOf(placed(traced(book, Math.max(now.boxed, now.step)), now.angle));
+      frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
+      paint(pen, visible, frame, look);
+      if (empty()) nothing(width, height);
+    }
+    canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
+    canvas.dataset.step = now.step;
+    if (glide) draw();
+  }
+
+  // The shapes on their way from the mothers' places to their own.
+  function gliding() {
+    if (!glide) return shapes;
+    const share = Math.min(1, (performance.now() - glide.started) / GLIDE), eased = share * share * (3 - 2 * share);
+    if (share >= 1) {
+      glide = null;
+      return shapes;
+    }
+    return between(glide.from, shapes, glide.mothers, eased);
+  }
+
+  const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n);
+
+  function nothing(width, height) {
+    pen.fillStyle = look.theme.quiet;
+    pen.font = "14px sans-serif";
+    pen.textAlign = "center";
+    pen.fillText(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width / 2, height / 2, width - 20);
+  }
+
+  function describe(text) {
+    canvas.setAttribute("aria-label", text);
+  }
+
+  // -- the person ---------------------------------------------------------------------------------------------------
+
+  function turn(right, up) {
+    const around = ((((Math.round(now.around + right) + 180) % 360) + 360) % 360) - 180;
+    told.turned(around, Math.max(-90, Math.min(90, Math.round(now.above + up))));
+  }
+
+  function move(right, down) {
+    if (near === 1 || isFilament()) return;
+    shift = [shift[0] + right, shift[1] + down];
+    draw();
+  }
+
+  // Come nearer, so that one point of the canvas stays where it is; by default its middle.
+  function come(nearer, x = canvas.clientWidth / 2, y = canvas.clientHeight / 2) {
+    if (isFilament()) return;
+    const wanted = Math.min(NEAREST, near * nearer), next = wanted < 1.01 ? 1 : wanted;
+    const from = [x - canvas.clientWidth / 2, y - canvas.clientHeight / 2];
+    shift = next === 1 ? [0, 0] : shift.map((places, i) => from[i] + ((places - from[i]) * next) / near);
+    near = next;
+    canvas.dataset.near = near.toFixed(2);
+    draw();
+  }
+
+  function goBack() {
+    [near, shift] = [1, [0, 0]];
+    canvas.dataset.near = "1.00";
+    told.turned(0, 0);
+    draw();
+  }
+
+  function press(event) {
+    const arrow = ARROWS[event.key], nearer = NEARER[event.key], next = { n: 1, N: 1, p: -1, P: -1 }[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey || !(arrow || nearer || next || event.key === "Home" || event.key === "Escape")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (next) told.traced(null, next);
+    else if (event.key === "Escape") told.traced(now.step, -1);
+    else if (nearer) come(nearer);
+    else if (!arrow) goBack();
+    else if (event.shiftKey || !inSpace()) move(-arrow[0] * MOVE, arrow[1] * MOVE);
+    else turn(arrow[0] * TURN, arrow[1] * TURN);
+  }
+
+  function trace(event) {
+    const { x, y } = placeOf(event);
+    if (isFilament()) {
+      const cell = cellAt(sheet, x, y);
+      if (cell) told.traced(cell.step, cell.position);
+      else told.traced(now.step, -1);
+    } else told.traced(now.step, shapeAt(shapes, frame, x, y, REACH));
+  }
+
+  function placeOf(event) {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  canvas.addEventListener("keydown", press);
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, event);
+    pressed = pointers.size === 1 ? { x: event.clientX, y: event.clientY, still: true } : null;
+    spread = 0;
+    pull = [0, 0];
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!pointers.has(event.pointerId)) return;
+    pointers.set(event.pointerId, event);
+    if (pointers.size === 2) return pinch();
+    if (!pressed) return;
+    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > CLICK) pressed.still = false;
+    if (pressed.still) return;
+    if (event.shiftKey || !inSpace()) move(event.movementX, event.movementY);
+    else {
+      pull = [pull[0] - event.movementX * PULL, pull[1] + event.movementY * PULL];
+      const whole = pull.map(Math.trunc);
+      if (whole[0] || whole[1]) turn(...whole);
+      pull = pull.map((part, i) => part - whole[i]);
+    }
+  });
+
+  function pinch() {
+    const [one, other] = [...pointers.values()].map(placeOf), now_ = Math.hypot(one.x - other.x, one.y - other.y);
+    if (spread) come(now_ / spread, (one.x + other.x) / 2, (one.y + other.y) / 2);
+    spread = now_;
+  }
+
+  const released = (event) => {
+    pointers.delete(event.pointerId);
+    if (event.type === "pointerup" && pressed?.still) trace(event);
+    pressed = null;
+  };
+  canvas.addEventListener("pointerup", released);
+  canvas.addEventListener("pointercancel", released);
+  canvas.addEventListener("wheel", (event) => {
+    if (document.activeElement !== canvas || isFilament()) return;
+    event.preventDefault();
+    const { x, y } = placeOf(event);
+    come(ZOOM ** (-event.deltaY / 100), x, y);
+  }, { passive: false });
+  const resized = new ResizeObserver(draw);
+  resized.observe(canvas);
+  return {
+    open, show, describe, canvas,
+    light(nextLook) {
+      look = nextLook;
+      draw();
+    },
+    close() {
+      resized.disconnect();
+      cancelAnimationFrame(waiting);
+    },
+  };
+}
+
+// Shapes whose strokes are on their way from those of their mothers: 0 there, 1 at their own place.
+function between(from, to, mothers, share) {
+  const first = new Map();
+  for (let i = 0; i < from.strokes.n; i++) if (!first.has(from.strokes.positions[i])) first.set(from.strokes.positions[i], i);
+  const many = 2 * to.strokes.n, x = new Float64Array(to.n + many), y = new Float64Array(to.n + many);
+  const z = to.z && new Float64Array(to.n + many), starts = new Int32Array(to.strokes.n), stops = new Int32Array(to.strokes.n);
+  x.set(to.x);
+  y.set(to.y);
+  if (z) z.set(to.z);
+  for (let i = 0; i < to.strokes.n; i++) {
+    const mother = first.get(mothers[to.strokes.positions[i]]), ends = [to.strokes.from[i], to.strokes.to[i]];
+    [starts[i], stops[i]] = [to.n + 2 * i, to.n + 2 * i + 1];
+    ends.forEach((end, k) => {
+      const start = mother === undefined ? ends[0] : [from.strokes.from[mother], from.strokes.to[mother]][k];
+      const there = mother === undefined ? to : from, at = to.n + 2 * i + k;
+      x[at] = there.x[start] + share * (to.x[end] - there.x[start]);
+      y[at] = there.y[start] + share * (to.y[end] - there.y[start]);
+      if (z) z[at] = there.z[start] + share * (to.z[end] - there.z[start]);
+    });
+  }
+  return { ...to, n: to.n + many, x, y, z, strokes: { ...to.strokes, from: starts, to: stops } };
+}

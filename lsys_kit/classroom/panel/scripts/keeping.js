@@ -1,0 +1,40 @@
+// What can be taken along: the pictures, the page, the link, and the line of code that makes the panel as it stands.
+
+import { made, button } from "./controls.js";
+
+// `panel` has { canvas, title(), code(), state() }; `host.keep(kind, state)` gives { name, type, text or bytes }, or null.
+export function keeping(host, { canvas, title, code, state }) {
+  const said = made("output", { class: "lsys-hint" }), field = made("input", { type: "text", readonly: true, hidden: true, class: "lsys-code", "aria-label": "to be copied" });
+  const element = made("div", { class: "lsys-controls lsys-keep", role: "group", "aria-label": "take along" }, made("span", { class: "lsys-hint" }, "take along:"));
+
+  async function keep(kind) {
+    const kept = await host.keep(kind, state());
+    if (!kept || kept.mistake) said.textContent = kept?.mistake ? `${kept.mistake.message}. ${kept.mistake.hint ?? ""}` : "The kernel does not answer.";
+    else if (kept.name) download(kept.name, new Blob([kept.bytes ?? kept.text], { type: kept.type }));
+    else show(kept.text);
+  }
+
+  function show(text) {
+    field.hidden = false;
+    field.value = text;
+    field.focus();
+    field.select();
+    navigator.clipboard?.writeText(text).then(() => (said.textContent = "copied"), () => (said.textContent = "copy it from here:"));
+  }
+
+  function download(name, blob) {
+    const address = URL.createObjectURL(blob), link = made("a", { href: address, download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    said.textContent = `kept as ${name}`;
+  }
+
+  const kinds = { svg: "SVG", page: "page", link: "link" };
+  element.append(button("PNG", "keep the drawing as a PNG picture", () => canvas.toBlob((blob) => download(`${title() || "drawing"}.png`, blob))));
+  for (const [kind, text] of Object.entries(kinds)) {
+    if (host.keeps.includes(kind)) element.append(button(text, `take along: ${text}`, () => keep(kind)));
+  }
+  element.append(button("code", "the line of Python that makes this panel as it stands", () => show(code())), field, said);
+  field.addEventListener("keydown", (event) => event.stopPropagation());
+  return element;
+}

@@ -1,0 +1,97 @@
+// The stage diagram: places with tokens, bars, arcs. A place can be chosen, by mouse and by keyboard.
+
+import { drawn } from "./controls.js";
+import { fillColour, lineColour } from "./colours.js";
+
+const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
+
+export function netView(parent, chosen) {
+  let net, places = new Map();
+
+  function open(next, theme) {
+    net = next;
+    places = new Map();
+    const sheet = drawn("svg", {
+      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group",
+      "aria-label": net.description,
+    });
+    for (const place of net.places) sheet.append(stage(place, theme));
+    for (const arc of net.arcs) sheet.append(
+      drawn("path", { class: "lsys-band", d: arc.band }), drawn("path", { class: "lsys-arc", d: arc.path }), drawn("path", { d: arc.head, class: "lsys-head" }));
+    for (const bar of net.bars) {
+      const group = drawn("g", { class: "lsys-bar-of" }, drawn("path", { class: "lsys-arc", d: bar.line }), drawn("rect",
+        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8, class: "lsys-head" }));
+      if (bar.terms) group.append(drawn("text", { x: bar.tx, y: bar.ty, class: "lsys-terms" }, drawn("title", {}, bar.full || bar.terms), bar.terms));
+      sheet.append(group);
+    }
+    for (const [x, y, width, text] of net.notes) sheet.append(
+      drawn("rect", { x: x - width / 2, y: y - 6, width, height: 12, class: "lsys-band-note" }),
+      drawn("text", { x, y: y + 4, "text-anchor": "middle", class: "lsys-terms" }, text));
+    for (const line of net.besides) sheet.append(drawn("text", { x: line.x, y: line.y, class: "lsys-terms" }, line.text));
+    parent.replaceChildren(sheet);
+  }
+
+  function stage(place, theme) {
+    const { x, y } = place, radius = net.radius;
+    const ring = drawn("circle", { cx: x, cy: y, r: radius + 5, class: "lsys-ring" });
+    const circle = drawn("circle", {
+      cx: x, cy: y, r: radius, class: "lsys-place", fill: fillColour(place.colour, theme, place.strength), stroke: lineColour(place.colour, theme),
+    });
+    const label = drawn("text", { x, y: y + radius + 17, "text-anchor": "middle", class: "lsys-label" }, ...tspans(place));
+    const tokens = drawn("g", { class: "lsys-tokens" });
+    const group = drawn("g", { class: "lsys-stage", "data-place": place.place, role: "button", tabindex: 0, "aria-pressed": "false" },
+      drawn("title", {}, place.name), ring, circle, label, tokens);
+    const toggle = () => chosen(place.place);
+    group.addEventListener("click", toggle);
+    group.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      event.stopPropagation();
+      toggle();
+    });
+    places.set(place.place, { group, tokens, place, shown: -1 });
+    return group;
+  }
+
+  function fill(counts) {
+    for (const [number, entry] of places) {
+      const count = counts[number];
+      if (entry.shown === count) continue;
+      entry.shown = count;
+      entry.tokens.replaceChildren(...tokensAt(entry.place, count));
+      entry.group.setAttribute("aria-label", `stage ${entry.place.name}, ${count.toLocaleString("en")} token${count === 1 ? "" : "s"}`);
+    }
+  }
+
+  function light(marked, lit) {
+    for (const [number, { group }] of places) {
+      group.setAttribute("aria-pressed", String(number === marked));
+      group.classList.toggle("lsys-lit", lit.has(number));
+    }
+  }
+
+  return { open, fill, light };
+}
+
+function tspans({ letter, subscript, values }) {
+  const parts = [drawn("tspan", /^\p{L}/u.test(letter) ? { "font-style": "italic" } : {}, letter)];
+  if (subscript) parts.push(drawn("tspan", { dy: 3, "font-size": "70%" }, subscript));
+  if (values) parts.push(drawn("tspan", subscript ? { dy: -3 } : {}, values));
+  return parts;
+}
+
+// Up to four tokens as dots, more as a number.
+function tokensAt({ x, y }, count) {
+  if (count < 5) return DOTS[count].map(([dx, dy]) => drawn("circle", { cx: x + dx, cy: y + dy, r: 3.6 }));
+  const text = short(count), size = text.length < 3 ? 15 : text.length < 4 ? 13 : 11;
+  return [drawn("text", { x, y: y + 0.36 * size, "font-size": size, "font-weight": "bold", "text-anchor": "middle" }, text)];
+}
+
+// A number of tokens that fits into a circle.
+export function short(count) {
+  if (count < 10_000) return String(count);
+  for (const [size, letter] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]]) {
+    if (count >= size) return `${(count / size).toPrecision(count / size < 10 ? 2 : 3).replace(/\.0$/, "")}${letter}`;
+  }
+  return String(count);
+}

@@ -1,0 +1,279 @@
+// The panel: a system's rules, word, stage diagram, drawing and counts, side by side, for one step.
+//
+// The kernel has sent a book; step, angle, view, mark and trace are turned here. Only a new setting of the constants, or new
+// rules, ask the kernel for another book.
+
+import { openBook } from "./book.js";
+import { themeOf } from "./colours.js";
+import { button, list, made, slider } from "./controls.js";
+import { countsView } from "./counts.js";
+import { drawingView } from "./drawing.js";
+import { keeping } from "./keeping.js";
+import { netView } from "./net.js";
+import { player } from "./player.js";
+import { rulesView } from "./rules.js";
+import { litAt, placesOf, told } from "./tracing.js";
+import { counted, wordView } from "./word.js";
+import { folding } from "./views.js";
+
+const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
+const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
+const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
+const MOST_BYTES = 2e6; // of the books of neighbouring settings
+
+export function openPanel(element, host) {
+  const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
+  element.append(root);
+  const books = new Map(), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
+  let model, book, theme, resting = 0, asking = 0, idle = 0, traced = null, shownTheme = "", boxed = null, fetched = 0;
+  let constants = [];
+
+  // -- what there is --------------------------------------------------------------------------------------------------
+
+  const status = made("div", { class: "lsys-status", role: "status" }), sentence = made("div", { class: "lsys-sentence", role: "status" });
+  const message = made("div", { class: "lsys-message", role: "alert", hidden: true });
+  const step = slider("step", "the step of the derivation", ["0"], 0, (at) => change({ step: at }));
+  const angle = slider("angle", "degrees by which the turtle turns", ANGLES, 900, (at) => change({ angle: at / 10 }));
+  const around = slider("around", "the side from which it is seen: 0 is the front, 90 the right", DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }));
+  const above = slider("above", "the height from which it is seen: 0 is the side, 90 the top", DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }));
+  const mark = list("mark", "the stage that is marked in all views", [["", "no stage"]], "", (name) => change({ mark: name }));
+  const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
+  const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), 0, (at) => { host.set("seed", at); ask(); });
+  const die = button("\u2684", "another seed, at random", () => { seed.show(Math.floor(Math.random() * 1000)); host.set("seed", seed.index); ask(); });
+  const play = player(() => ({ now: host.get("step"), most: book.steps }), (at) => change({ step: at }), () => show());
+  const reset = button("reset", "back to the first settings", goBack);
+  const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
+  const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
+  root.append(top, message, status, views, sentence, bottom);
+
+  const bodies = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", true], ["drawing", "drawing", true], ["counts", "how many", false]], () => show());
+  const rules = rulesView(bodies.rules, (text) => newRules(text));
+  const word = wordView(bodies.word, (position, way) => trace(host.get("step"), position, way));
+  const net = netView(bodies.stages, (place) => toggleMark(place));
+  const drawing = drawingView(bodies.drawing, {
+    turned: (right, up) => change({ around: right, above: up }),
+    traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
+  });
+  const counts = countsView(bodies.counts, (at) => change({ step: at }));
+  root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
+
+  // -- what happens ---------------------------------------------------------------------------------------------------
+
+  // Some settings of the browser's own: they are shown at once; the kernel is told when the movement has come to rest.
+  function change(settings) {
+    for (const [name, value] of Object.entries(settings)) host.set(name, value);
+    clearTimeout(resting);
+    resting = setTimeout(() => host.save(), REST);
+  }
+
+  // Another setting of the constants: its book, which the kernel is asked for at most once.
+  async function ask(quietly = false) {
+    const asked = request(), key = JSON.stringify(asked), number = ++asking;
+    clearTimeout(resting);
+    resting = setTimeout(() => host.save(), REST);
+    if (!books.has(key)) {
+      const answer = await host.book(asked);
+      if (answer.book) keepBook(key, answer.book);
+      else if (number === asking && !quietly) say(answer.mistake);
+    }
+    if (number !== asking || !books.has(key)) return;
+    turnTo(books.get(key));
+    clearTimeout(idle);
+    idle = setTimeout(fetchNeighbours, REST);
+  }
+
+  const request = () => ({ constants: { ...host.get("settings") }, seed: host.get("seed") });
+
+  function keepBook(key, data) {
+    books.set(key, openBook(data));
+    fetched += JSON.stringify(data).length;
+  }
+
+  // The books of the neighbouring settings, while nothing else happens.
+  async function fetchNeighbours() {
+    const now = asking;
+    for (const each of constants) for (const way of [1, -1]) {
+      const index = each.control.index + way;
+      if (index < 0 || index >= each.texts.length || fetched > MOST_BYTES || now !== asking) continue;
+      const asked = { ...request(), constants: { ...host.get("settings"), [each.name]: each.texts[index] } }, key = JSON.stringify(asked);
+      if (books.has(key)) continue;
+      const answer = await host.book(asked);
+      if (answer.book) keepBook(key, answer.book);
+    }
+  }
+
+  async function newRules(text) {
+    const number = ++asking, answer = await host.rules(text);
+    if (number !== asking || answer === null) return;
+    if (answer.mistake) return rules.mistaken(answer.mistake);
+    books.clear();
+    host.set("model", answer.model);
+  }
+
+  // A model was opened: its controls, and its first book.
+  function openModel() {
+    model = host.get("model");
+    books.clear();
+    fetched = 0;
+    const settings = Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]]));
+    if (JSON.stringify(Object.keys(host.get("settings"))) !== JSON.stringify(Object.keys(settings))) host.set("settings", settings);
+    constants = model.constants.map((each) => ({
+      ...each,
+      control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(host.get("settings")[each.name] ?? each.texts[each.index])), (at) => {
+        host.set("settings", { ...host.get("settings"), [each.name]: each.texts[at] });
+        ask();
+      }),
+    }));
+    const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
+    bottom.replaceChildren(...constants.map((each) => each.control.element), ...(model.book.turtle?.["uses angle"] ? [angle.element] : []),
+      ...(model.book.mode === "space" ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
+    keepBook(JSON.stringify(request()), model.book);
+    boxed = Math.min(model.step, books.values().next().value.steps);
+    rules.open(model.book.text, host.editable);
+    turnTo(books.get(JSON.stringify(request())));
+  }
+
+  function turnTo(next) {
+    book = next;
+    traced = null;
+    theme = themeOf(root);
+    shownTheme = JSON.stringify(theme);
+    step.offer(DEGREES(0, book.steps), Math.min(host.get("step"), book.steps));
+    if (host.get("step") > book.steps) host.set("step", book.steps);
+    mark.offer([["", "no stage"], ...book.data.net.places.map((place) => [place.name, place.name])], place(host.get("mark")) ? host.get("mark") : "");
+    net.open(book.data.net, theme);
+    drawing.open(book);
+    counts.open(book);
+    say(null);
+    show();
+  }
+
+  const place = (name) => book.data.net.places.find((each) => each.name === name);
+
+  function toggleMark(number) {
+    const { name } = book.data.net.places.find((each) => each.place === number);
+    change({ mark: host.get("mark") === name ? "" : name });
+  }
+
+  function trace(at, position, way = 0) {
+    if (position === null) {
+      if (traced?.step !== at) traced = { step: at, position: way > 0 ? -1 : book.length(at) };
+      position = Math.max(0, Math.min(book.length(at) - 1, traced.position + way));
+    }
+    traced = position < 0 || position >= book.length(at) ? null : { step: at, position };
+    light();
+    if (traced && at === host.get("step")) word.reveal(position);
+  }
+
+  // -- what is seen ---------------------------------------------------------------------------------------------------
+
+  function show() {
+    if (!book) return;
+    const now = Math.min(host.get("step"), book.steps), tokens = book.tokens(now);
+    step.show(now);
+    angle.show(Math.round(host.get("angle") * 10));
+    around.show(host.get("around") + 180);
+    above.show(host.get("above") + 90);
+    mark.show(host.get("mark"));
+    if (!bodies.word.closest("section").hidden) word.show(book, now);
+    net.fill(tokens);
+    counts.show(now);
+    status.textContent = caption(now, tokens);
+    const one = scale.select.value === "same" || play.playing;
+    drawing.show({ step: now, angle: host.get("angle"), around: host.get("around"), above: host.get("above"), boxed: one ? Math.max(boxed, play.playing ? book.steps : 0) : null,
+      glides: play.playing && !still.matches }, look());
+    drawing.describe(`Drawing of ${status.textContent}`);
+    light();
+  }
+
+  function look() {
+    const marked = place(host.get("mark")), now = host.get("step");
+    const states = new Set(book.data.states.flatMap((state, i) => (marked && state[2] === marked.place ? [i] : [])));
+    return { theme, marked: states, lit: litAt(book, traced, now), litAt: (at) => litAt(book, traced, at), current: now };
+  }
+
+  function light() {
+    const looks = look(), now = host.get("step"), states = book.word(now);
+    word.light(looks.marked, looks.lit);
+    const lit = new Set([...looks.lit.keys()].map((position) => book.data.states[states[position]][2]));
+    net.light(place(host.get("mark"))?.place ?? -1, lit);
+    drawing.light(looks);
+    rules.light(placesOf(book, traced));
+    sentence.textContent = traced ? told(book, traced) : "";
+  }
+
+  function caption(now, tokens) {
+    const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
+    const parts = [`step ${now}: ${counted(book.length(now), "module")}`, `${occupied} of ${counted(stages, "stage")} occupied`];
+    if (book.data.said) parts.push(book.data.said);
+    if (now === book.steps && book.data.end) parts.push(book.data.end);
+    return parts.join("; ");
+  }
+
+  function say(mistake) {
+    message.hidden = !mistake;
+    message.textContent = mistake ? `\u26a0 ${mistake.message}. ${mistake.hint ?? ""}` : "";
+  }
+
+  function goBack() {
+    play.stop();
+    traced = null;
+    for (const each of constants) each.control.show(each.index);
+    host.set("settings", Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]])));
+    host.set("seed", model.seed);
+    seed.show(model.seed);
+    drawing.home?.();
+    change({ step: Math.min(model.step, book.steps), angle: model.angle, around: model.around, above: model.above, mark: "" });
+    ask();
+  }
+
+  function state() {
+    return { ...request(), step: host.get("step"), angle: host.get("angle"), mark: host.get("mark") };
+  }
+
+  // The line of code that makes this panel as it stands.
+  function code() {
+    const changed = model.constants.filter((each) => host.get("settings")[each.name] !== each.texts[each.index]);
+    const first = book.data.title ? JSON.stringify(book.data.title) : `read(${JSON.stringify(book.data.text)}, ${JSON.stringify(book.data.notation)})`;
+    const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
+      ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
+      ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];
+    return `explore(${[first, ...more].join(", ")})`;
+  }
+
+  // -- listening ------------------------------------------------------------------------------------------------------
+
+  let waiting = 0;
+  const later = () => {
+    waiting = waiting || requestAnimationFrame(() => {
+      waiting = 0;
+      show();
+    });
+  };
+  for (const name of ["step", "angle", "around", "above", "mark"]) offs.push(host.on(name, later));
+  offs.push(host.on("settings", () => {
+    for (const each of constants) each.control.show(Math.max(0, each.texts.indexOf(host.get("settings")[each.name])));
+    ask();
+  }));
+  offs.push(host.on("seed", () => { seed.show(host.get("seed")); ask(); }));
+  offs.push(host.on("model", openModel), host.on("gone", (text) => say({ message: text })));
+  const watcher = new MutationObserver(() => {
+    if (book && JSON.stringify(themeOf(root)) !== shownTheme) turnTo(book);
+  });
+  watcher.observe(document.body, { attributes: true });
+  const scheme = matchMedia("(prefers-color-scheme: dark)"), recoloured = () => turnTo(book);
+  scheme.addEventListener("change", recoloured);
+  openModel();
+
+  return () => {
+    play.stop();
+    watcher.disconnect();
+    scheme.removeEventListener("change", recoloured);
+    for (const off of offs) off();
+    for (const timer of [resting, idle]) clearTimeout(timer);
+    cancelAnimationFrame(waiting);
+    drawing.close();
+    rules.close();
+    root.remove();
+  };
+}

@@ -1,0 +1,61 @@
+// Step after step by itself: play, back, single steps, speed, loop.
+
+import { made, button, list } from "./controls.js";
+
+const SPEEDS = [["1200", "slow"], ["600", "normal"], ["250", "fast"]]; // milliseconds a step
+
+// `steps` tells { now, most }; `go` goes to a step.
+export function player(steps, go, moved) {
+  let timer = 0, pause = 600;
+  const play = button("\u25b6", "play", toggle, { class: "lsys-button lsys-play" });
+  const back = button("\u25c0", "one step back", () => one(-1)), forward = button("\u25b6\uff5c", "one step on", () => one(1));
+  const first = button("\uff5c\u25c0", "to step 0", () => { stop(); go(0); });
+  const loop = made("input", { type: "checkbox", id: `lsys-loop-${Math.random().toString(36).slice(2)}` });
+  const speed = list("speed", "how long each step is shown", SPEEDS, "600", (value) => {
+    pause = Number(value);
+    if (timer) start();
+  });
+  const element = made("div", { class: "lsys-player", role: "group", "aria-label": "play" }, first, back, play, forward, speed.element,
+    made("label", { class: "lsys-check", for: loop.id }, loop, "loop"));
+
+  function one(way) {
+    stop();
+    const { now, most } = steps();
+    go(Math.max(0, Math.min(most, now + way)));
+  }
+
+  function tick() {
+    const { now, most } = steps();
+    if (now < most) go(now + 1);
+    else if (loop.checked) go(0);
+    else stop();
+  }
+
+  function start() {
+    clearInterval(timer);
+    timer = setInterval(tick, pause);
+    play.textContent = "\u2759\u2759";
+    play.setAttribute("aria-label", "pause");
+    play.title = "pause";
+    moved(true);
+  }
+
+  function stop() {
+    if (!timer) return;
+    clearInterval(timer);
+    timer = 0;
+    play.textContent = "\u25b6";
+    play.setAttribute("aria-label", "play");
+    play.title = "play";
+    moved(false);
+  }
+
+  function toggle() {
+    if (timer) return stop();
+    const { now, most } = steps();
+    if (now >= most) go(0);
+    start();
+  }
+
+  return { element, stop, get playing() { return timer !== 0; } };
+}

@@ -1,0 +1,72 @@
+// The model's text, to be edited: mistakes are underlined where they stand, traced productions are lit.
+
+import { made, button } from "./controls.js";
+
+const REST = 250; // milliseconds without a key after which a text is read
+
+export function rulesView(parent, asked) {
+  const backdrop = made("pre", { class: "lsys-backdrop", "aria-hidden": "true" });
+  const area = made("textarea", { class: "lsys-rules", spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": "rules of the model" });
+  const said = made("div", { class: "lsys-mistake", role: "status", "aria-live": "polite" });
+  const back = button("back to the first rules", "put back the rules with which the panel was opened", () => put(first), { hidden: true });
+  parent.append(made("div", { class: "lsys-editor" }, backdrop, area), said, back);
+  let first = "", spans = [], waiting = 0;
+
+  function paint() {
+    const text = area.value, parts = [];
+    let at = 0;
+    for (const { start, end, kind } of [...spans].sort((a, b) => a.start - b.start)) {
+      if (start < at || start >= text.length + 1) continue;
+      parts.push(text.slice(at, start), made("mark", { class: `lsys-${kind}` }, text.slice(start, Math.max(end, start + 1)) || " "));
+      at = Math.max(end, start + 1);
+    }
+    backdrop.replaceChildren(...parts, text.slice(at), "\n");
+    backdrop.scrollTop = area.scrollTop;
+    backdrop.scrollLeft = area.scrollLeft;
+  }
+
+  function typed() {
+    spans = [];
+    paint();
+    back.hidden = area.value === first;
+    clearTimeout(waiting);
+    waiting = setTimeout(() => asked(area.value), REST);
+  }
+
+  function put(text) {
+    area.value = text;
+    typed();
+  }
+
+  area.addEventListener("input", typed);
+  area.addEventListener("scroll", paint);
+  area.addEventListener("keydown", (event) => event.stopPropagation());
+
+  return {
+    // The text of a model that was opened; one that was typed stays as it was typed.
+    open(text, editable) {
+      if (!first) first = text;
+      area.readOnly = !editable;
+      if (area.value !== text && document.activeElement !== area) area.value = text;
+      area.rows = Math.max(4, Math.min(18, area.value.split("\n").length + 1));
+      back.hidden = area.value === first;
+      spans = [];
+      said.replaceChildren();
+      area.removeAttribute("aria-invalid");
+      paint();
+    },
+    // What is wrong with the text, where it stands, and what to try.
+    mistaken({ message, hint, start, end }) {
+      spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
+      said.replaceChildren(made("strong", {}, `${message}.`), hint ? ` ${hint}` : "");
+      area.setAttribute("aria-invalid", "true");
+      paint();
+    },
+    light(places) {
+      if (area.hasAttribute("aria-invalid")) return;
+      spans = places.map(([start, end]) => ({ start, end, kind: "applied" }));
+      paint();
+    },
+    close: () => clearTimeout(waiting),
+  };
+}

@@ -1,0 +1,51 @@
+// A module that is traced: its mother in the step before, its daughters in the next, and the sentence that tells of them.
+
+// What is lit at a step when a module of some step is traced: a map from positions to "self", "mother" or "daughter".
+export function litAt(book, traced, step) {
+  const lit = new Map();
+  if (!traced) return lit;
+  if (step === traced.step) lit.set(traced.position, "self");
+  if (step === traced.step - 1) {
+    const mother = book.mother(traced.step, traced.position);
+    if (mother >= 0) lit.set(mother, "mother");
+  }
+  if (step === traced.step + 1) {
+    const [from, to] = book.daughters(traced.step, traced.position) ?? [0, 0];
+    for (let i = from; i < to; i++) lit.set(i, "daughter");
+  }
+  return lit;
+}
+
+// Where in the model's text the productions stand that made a module and that will replace it.
+export function placesOf(book, traced) {
+  if (!traced) return [];
+  const number = productionBefore(book, traced), at = number >= 0 && book.data.productions[number]?.at;
+  return at ? [at] : [];
+}
+
+function productionBefore(book, { step, position }) {
+  return step ? book.production(step, position) : -1;
+}
+
+// What a module is, where it came from and what it becomes, as a sentence.
+export function told(book, { step, position }) {
+  const text = (at, where) => book.label(book.word(at)[where]).text;
+  const parts = [`Module ${(position + 1).toLocaleString("en")} of step ${step}, ${text(step, position)}`];
+  if (step === 0) parts.push("stands in the axiom");
+  else {
+    const mother = book.mother(step, position), number = book.production(step, position);
+    parts.push(`comes from ${text(step - 1, mother)}, module ${(mother + 1).toLocaleString("en")} of step ${step - 1}, ${by(book, number)}`);
+  }
+  const range = book.daughters(step, position);
+  if (range) {
+    const [from, to] = range, many = to - from, next = book.word(step + 1);
+    const made = Array.from(next.subarray(from, Math.min(to, from + 12)), (state) => book.label(state).text).join(" ");
+    const stays = many === 1 && book.production(step + 1, from) < 0;
+    parts.push(stays ? `it stays as it is at step ${step + 1}` : many ? `it becomes ${made}${many > 12 ? " …" : ""} at step ${step + 1}` : `it is gone at step ${step + 1}`);
+  }
+  return `${parts.slice(0, 2).join(" ")}${parts[2] ? `; ${parts[2]}` : ""}.`;
+}
+
+function by(book, number) {
+  return number < 0 ? "for which no production matches, so it stays" : `by production ${number + 1}, ${book.data.productions[number].text}`;
+}

@@ -1,0 +1,29 @@
+// The views side by side: each can be folded away or fill the screen; in a class everything is larger.
+
+import { made, button } from "./controls.js";
+
+// `views` are triples of a name, a title and whether the view is open at first; the bodies are returned by their names.
+export function folding(parent, root, views, changed) {
+  const bodies = {}, tabs = made("div", { class: "lsys-tabs", role: "group", "aria-label": "views" });
+  for (const [name, title, open] of views) {
+    const body = made("div", { class: "lsys-body" });
+    const section = made("section", { class: "lsys-view", "data-view": name, "aria-label": title, hidden: !open });
+    const tab = button(title, `show or hide: ${title}`, () => {
+      section.hidden = !section.hidden;
+      tab.setAttribute("aria-pressed", String(!section.hidden));
+      changed();
+    }, { "aria-pressed": String(open), class: "lsys-button lsys-tab" });
+    const wide = button("\u26f6", `${title} on the whole screen`, () => (document.fullscreenElement ? document.exitFullscreen() : section.requestFullscreen()));
+    section.append(made("div", { class: "lsys-title" }, title, wide), body);
+    parent.append(section);
+    tabs.append(tab);
+    bodies[name] = body;
+  }
+  const large = button("class", "larger, for a projector", () => {
+    large.setAttribute("aria-pressed", String(root.classList.toggle("lsys-class")));
+    changed();
+  }, { "aria-pressed": "false", class: "lsys-button lsys-tab" });
+  tabs.append(large);
+  parent.before(tabs);
+  return bodies;
+}

@@ -1,0 +1,75 @@
+// The word of a step: each module on the tint of its symbol; a long word without its middle.
+
+import { made } from "./controls.js";
+
+const MOST = 240; // modules that are shown
+
+export function wordView(parent, told) {
+  const box = made("div", { class: "lsys-word", tabindex: 0, role: "application", "aria-roledescription": "word" });
+  const help = "Arrow keys go from module to module; Escape ends that.";
+  parent.append(box);
+  let book, word, chips = new Map();
+
+  function chip(position) {
+    const state = word[position], label = book.label(state);
+    const element = made("span", { class: label.steering ? "lsys-steering" : "lsys-module", "data-position": position });
+    if (label.colour) element.style.setProperty("--symbol", label.colour);
+    element.append(...labelled(label));
+    chips.set(position, element);
+    return element;
+  }
+
+  function show(nextBook, step) {
+    [book, word, chips] = [nextBook, nextBook.word(step), new Map()];
+    const n = word.length, half = MOST / 2, parts = [];
+    const from = n > MOST ? half : n;
+    for (let i = 0; i < from; i++) parts.push(chip(i));
+    if (n > MOST) {
+      parts.push(made("span", { class: "lsys-gap" }, `… ${(n - MOST).toLocaleString("en")} more …`));
+      for (let i = n - half; i < n; i++) parts.push(chip(i));
+    }
+    if (!n) parts.push(made("span", { class: "lsys-gap" }, "The word is empty."));
+    box.replaceChildren(...parts);
+    box.setAttribute("aria-label", `Word of step ${step}, ${counted(n, "module")}. ${help}`);
+  }
+
+  // Mark the modules of some states, and light those that are traced: a map from positions to what they are.
+  function light(marked, traced) {
+    for (const [position, element] of chips) {
+      element.classList.toggle("lsys-marked", marked.has(word[position]));
+      const kind = traced.get(position);
+      if (kind) element.dataset.traced = kind;
+      else delete element.dataset.traced;
+    }
+  }
+
+  box.addEventListener("click", (event) => {
+    const found = event.target.closest("[data-position]");
+    if (found) told(Number(found.dataset.position));
+  });
+  box.addEventListener("keydown", (event) => {
+    const way = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 10, ArrowUp: -10 }[event.key];
+    if (!way && !["Home", "End", "Escape"].includes(event.key)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.key === "Escape") told(-1);
+    else if (event.key === "Home") told(0);
+    else if (event.key === "End") told(word.length - 1);
+    else told(null, way);
+  });
+  const reveal = (position) => chips.get(position)?.scrollIntoView({ block: "nearest", inline: "nearest" });
+  return { show, light, reveal, box };
+}
+
+// A label as nodes: an italic letter, a subscript, upright values.
+export function labelled({ letter, subscript, values }) {
+  const parts = [/^\p{L}/u.test(letter) ? made("i", {}, letter) : letter];
+  if (subscript) parts.push(made("sub", {}, subscript));
+  if (values) parts.push(values);
+  return parts;
+}
+
+// A number with its noun: "1 module", "2 modules".
+export function counted(number, noun) {
+  return `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
+}
