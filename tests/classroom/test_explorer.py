@@ -1,153 +1,152 @@
-"""The explorer in the kernel: what the panel shows, keeps and says."""
+"""The explorer in the kernel: what the panel knows, keeps, says and answers."""
 
 import base64
 import io
 import math
-import sys
 
 import pytest
+from ipywidgets import FloatSlider, IntSlider, link
 from PIL import Image
 
-from lsys_kit import LSystemError, ModelValueError, derive, draw, explore, limits, read, system
-from lsys_kit.classroom.panel import view_model as study
-from lsys_kit.classroom.panel.canvas import widget_classes
+from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, explore, limits, read, system
 from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
-from lsys_kit.derivation.core.states import States
-from lsys_kit.geometry.turtle.mode import DrawingMode
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
+WEIGHTED = "axiom: A\nA -> A B : 1/2\nA -> B A : 1/2"
 
 
-def shown(panel):
-    return panel._word.value, panel._diagram.svg, panel._drawing.value
+def answer(panel, monkeypatch, **content):
+    """What the kernel answers to a question of the browser."""
+    replies = []
+    monkeypatch.setattr(panel, "send", replies.append)
+    panel._answer(panel, {"number": 7, **content}, [])
+    [reply] = replies
+    assert reply["number"] == 7
+    return reply
 
 
-def test_commands_that_mean_nothing_are_named_below_the_sliders():
-    panel = explore(read("turtle: plant-string\naxiom: I RH & I"))
-    assert panel._status.value.endswith("passed over, without a meaning here: RH &amp;</span>")
+def book_for(panel, monkeypatch, seed=0, **constants):
+    return answer(panel, monkeypatch, kind="book", constants=constants, seed=seed)
 
 
 def test_the_three_views_show_the_same_step():
     panel = explore("J4", 5)
-    panel.step.value = 9
+    panel.step = 9
     assert panel.text.startswith("Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)")
-    assert "tokens 2, 2, 1, 2, 2" in panel._diagram.svg
-    assert "9 cells" in panel._drawing.value
-    assert "<b>9 modules</b>" in panel._status.value
+    assert panel.sight.tokens == panel.sight.net.tokens(derive(system("J4"), 9)[-1])
+    assert str(panel.sight.picture).startswith("steps 0 to 9")
 
 
-def test_a_life_span_changes_all_three():
+def test_a_life_span_is_an_attribute_that_changes_what_is_shown():
     panel = explore("J4", 9)
-    before = shown(panel)
-    panel.constants["lifeTimeB"].slider.value = 5
-    assert all(new != old for new, old in zip(shown(panel), before, strict=True))
+    panel.lifeTimeB = 5
+    assert panel.settings == {"lifeTimeA": "3", "lifeTimeB": "5"}
     assert str(panel.sight.word) == str(derive(system("J4"), 9, lifeTimeB=5)[-1])
 
 
-def test_a_step_is_computed_once(monkeypatch):
-    panel = explore("J4", 8)
-    panel.step.value = 9
-    calls = []
-    monkeypatch.setattr(States, "matching_rule", lambda *_: calls.append(1))
-    monkeypatch.setattr(study, "filament", lambda *_: calls.append(1))
-    panel.step.value = 8
-    panel.step.value = 9
-    assert not calls
+def test_the_panel_can_be_linked_to_other_widgets():
+    panel, step, life, turn = explore("J4", 9), IntSlider(), IntSlider(), FloatSlider(max=180)
+    link((panel, "step"), (step, "value"))
+    link((panel, "lifeTimeA"), (life, "value"))
+    link((panel, "angle"), (turn, "value"))
+    step.value, life.value, turn.value = 4, 5, 33.3
+    assert (panel.step, panel.settings["lifeTimeA"], panel.angle) == (4, "5", 33.3)
+    panel.settings = {"lifeTimeA": "2"}
+    assert life.value == 2
+    assert panel.settings == {"lifeTimeA": "2", "lifeTimeB": "2"}
 
 
-def test_the_browsers_angle_never_comes_back(monkeypatch):
-    panel = explore("K5", 3)
-    monkeypatch.setattr(panel, "_show_step", lambda _: pytest.fail("the kernel was asked"))
-    panel.angle.value = 40
+def test_a_value_between_those_of_a_slider_is_the_nearest():
+    panel = explore(read("dt = 1/2\naxiom: A(0)\nA(t) -> A(t+dt)"), 4)
+    panel.dt = 0.7000000000000001
+    assert panel.settings == {"dt": "0.7"}
+    assert str(panel.sight.word) == "A(2.8)"
+    panel.dt = 99
+    assert (panel.dt, panel.settings) == (1, {"dt": "1"})
 
 
-def test_a_plant_in_space_is_drawn_in_space():
+def test_a_plant_in_space_is_seen_from_a_side():
     panel = explore("K19", 12)
+    front = str(panel.sight.picture.scene)
+    panel.around = 40
     assert panel.sight.scene.dimension == 3
-    assert "depth" in panel.text
-    assert str(panel.sight.picture) == str(draw(system("K19"), 12))
-    assert "Turn it with the arrow keys" in panel._drawing.description
+    assert str(panel.sight.picture.scene) != front
 
 
-def test_the_side_that_is_seen_never_comes_back(monkeypatch):
-    panel = explore("K19", 5)
-    monkeypatch.setattr(panel, "_show_step", lambda _: pytest.fail("the kernel was asked"))
-    panel.around.value, panel.above.value = 40, -20
-    assert panel._view_model.mode is DrawingMode.SPACE
-
-
-def test_the_angle_of_a_plant_in_space_is_the_kernels():
+def test_the_angle_is_that_of_the_picture():
     panel = explore(read("axiom: F[&F]"), 0)
-    before, panel.angle.value = panel._drawing.shapes, 30
-    assert panel._drawing.shapes != before
+    panel.angle = 30
     assert panel.sight.scene.height == pytest.approx(1 + math.cos(math.radians(30)))
 
 
-@pytest.mark.parametrize(("id", "names"), [
-    ("J1", ["step"]), ("K5", ["step", "angle"]), ("K19", ["step", "angle", "around", "above"])])
-def test_only_what_can_be_turned_has_sliders_for_it(id, names):
-    panel = explore(id, 1)
-    assert [each.box.description for each in panel._controls()] == [*names, *panel.constants]
-
-
-def test_reset_shows_the_whole_plant_from_the_front_again():
-    panel = explore("K19", 5)
-    panel.around.value, panel.above.value = 40, -20
-    panel._reset.click()
-    assert (panel.around.value, panel.above.value, panel._drawing.returns) == (0, 0, 1)
-
-
-def test_a_step_past_the_limit_says_so_and_keeps_the_pictures():
+def test_a_step_beyond_the_last_says_why_there_are_no_more():
     panel = explore("K5", 4)
-    before = panel._word.value, panel._drawing.shapes, panel.text
-    panel.step.value = 9
-    assert "Step 7 would have 195,311 modules; the limit is 100,000" in panel._message.value
-    assert (panel._word.value, panel._drawing.shapes, panel.text) == before
-    panel.step.value = 3
-    assert panel._message.value == ""
+    last = panel.model["book"]["steps"]
+    with pytest.raises(ModelValueError, match=f"The panel shows steps 0 to {last}, not 9.*limit is 100,000"):
+        panel.step = 9
+    assert panel.step == 4
 
 
-def test_a_lower_limit_is_kept():
-    panel = explore("K5", 1)
+def test_a_first_step_past_the_limit_is_refused():
+    with pytest.raises(ModelLimitError, match="195,311 modules; the limit is 100,000"):
+        explore("K5", 7)
+
+
+def test_a_lower_limit_is_kept(monkeypatch):
     with limits(modules=50):
-        panel.step.value = 3
-    assert "the limit is 50" in panel._message.value
+        panel = explore("K5", 1)
+    assert panel.model["book"]["steps"] == 1
+    assert "the limit is 50" in panel.model["book"]["end"]
 
 
-def test_a_value_that_cannot_be_computed_is_named():
+def test_a_step_that_cannot_be_computed_ends_the_book_with_the_reason():
     panel = explore(read(GROWING), 3)
-    panel.step.value = 4
-    assert "division by zero" in panel._message.value
-    assert panel.text.startswith("Step 3")
+    assert panel.model["book"]["steps"] == 3
+    assert "division by zero" in panel.model["book"]["end"]
 
 
-def test_reset_goes_back_to_the_first_settings():
-    panel = explore("J4", 7)
-    first = panel.text
-    panel.step.value, panel._mark.value = 3, 1
-    panel.constants["lifeTimeA"].slider.value = 6
-    panel._reset.click()
-    assert panel.text == first
-    assert panel._mark.value == -1
+def test_the_browser_gets_the_book_of_the_settings_it_asks_for(monkeypatch):
+    panel = explore("J4", 9)
+    reply = book_for(panel, monkeypatch, lifeTimeA="4", lifeTimeB="1")
+    assert reply["book"]["settings"] == {"lifeTimeA": "4", "lifeTimeB": "1"}
+    assert panel.settings == {"lifeTimeA": "3", "lifeTimeB": "2"}  # only asked for, not chosen yet
 
 
-def test_choosing_a_stage_marks_its_cells_in_word_and_drawing():
+def test_what_cannot_be_computed_for_some_settings_is_answered_with_the_reason(monkeypatch):
+    panel = explore(read("c = 2 in 0 .. 4\naxiom: A(1)\nA(t) : t/c < 9 -> A(t+1)"), 3)
+    assert "division by zero" in book_for(panel, monkeypatch, c="0")["mistake"]["message"]
+
+
+def test_another_seed_is_another_book(monkeypatch):
+    panel = explore(read(WEIGHTED), 6)
+    assert panel.model["chance"]
+    one, two, again = (book_for(panel, monkeypatch, seed)["book"]["words"] for seed in (1, 2, 1))
+    assert one == again != two
+
+
+@pytest.mark.parametrize(("text", "told", "place"), [
+    ("axiom: A\nA -> A(t", "is never closed", (15, 16)),
+    ("axiom: A\nA = B C", 'single "="', (11, 12)),
+    ("axiom: A\nA(t) -> B(u)", 'I do not know the name "u"', (19, 20))])
+def test_a_mistake_in_the_rules_is_answered_with_its_place(monkeypatch, text, told, place):
     panel = explore("J1", 4)
-    panel._diagram.chosen = 0
-    assert panel._mark.value == 0
-    assert panel._word.value.count("font-weight:bold") == 5
-    assert panel._drawing.value.count('stroke-width="32"') == 1 + 1 + 2 + 3 + 5
-    panel._mark.value = -1
-    assert panel._diagram.chosen == -1
-    assert "font-weight:bold" not in panel._word.value
+    reply = answer(panel, monkeypatch, kind="rules", text=text)["mistake"]
+    assert told in reply["message"]
+    assert (reply["start"], reply["end"]) == place
+    assert panel.system == system("J1")
 
 
-def test_a_chosen_stage_that_is_gone_is_let_go():
-    panel = explore("J4", 8)
-    panel._mark.value = 4
-    panel.constants["lifeTimeA"].slider.value = 1
-    panel.constants["lifeTimeB"].slider.value = 1
-    assert panel._mark.value == -1
+def test_new_rules_are_a_new_model_with_its_own_sliders(monkeypatch):
+    panel = explore("J4", 4)
+    found = answer(panel, monkeypatch, kind="rules", text="c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(1)")["model"]
+    assert [each["name"] for each in found["constants"]] == ["c"]
+    assert found["book"]["title"] == ""
+    assert str(panel.system.axiom[0]) == "A(1)"
+
+
+def test_rules_may_be_typed_in_another_notation(monkeypatch):
+    panel = explore("J1", 4)
+    assert "model" in answer(panel, monkeypatch, kind="rules", text="#define n 3\nLsystem: 1\nAxiom: F\nF --> F[+F]F\nendlsystem")
 
 
 @pytest.mark.parametrize(("choices", "message"), [
@@ -161,79 +160,30 @@ def test_first_settings_that_make_no_sense_are_errors(choices, message):
     assert message in str(error.value)
 
 
+def test_a_text_is_explored_too():
+    assert str(explore("axiom: A\nA -> A B", 3).sight.word) == "A B B B"
+
+
 def test_a_stored_notebook_shows_a_picture_and_words():
     bundle = explore("J4", 9)._repr_mimebundle_()
     assert bundle["text/plain"].startswith("Step 9: 9 modules.")
-    assert Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))).size[0] == 600
+    assert Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))).size[0] >= 600
     assert "application/vnd.jupyter.widget-view+json" in bundle
 
 
 def test_a_stored_notebook_shows_the_plant_as_it_is_turned():
     panel = explore("K19", 12)
     front = panel._repr_mimebundle_()["image/png"]
-    panel.around.value = 90
+    panel.around = 90
     side = panel._repr_mimebundle_()["image/png"]
-    panel.around.value = 0
+    panel.around = 0
     assert side != front == panel._repr_mimebundle_()["image/png"]
-
-
-@pytest.fixture
-def without_anywidget(monkeypatch):
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    widget_classes.cache_clear()
-    yield
-    widget_classes.cache_clear()
-
-
-def test_without_anywidget_the_drawing_is_svg(without_anywidget):
-    panel = explore("K5", 2)
-    assert panel._drawing.value.startswith("<svg")
-    before = panel._drawing.value
-    panel.angle.value = 60
-    assert panel._drawing.value != before
-    panel._mark.value = 0
-    assert 'class="marked"' in panel._drawing.value
-    assert "is marked" in panel._diagram.value
-
-
-@pytest.mark.parametrize("slider", ["around", "above"])
-def test_without_anywidget_a_plant_is_turned_by_sliders(without_anywidget, slider):
-    panel = explore("K19", 12)
-    front = panel._drawing.value
-    getattr(panel, slider).value = 45
-    assert panel._drawing.value.startswith("<svg")
-    assert panel._drawing.value != front
-    panel._reset.click()
-    assert panel._drawing.value == front
 
 
 def test_a_long_word_is_shortened_in_the_middle_with_its_length():
     html = word_html(derive(system("K5"), 4)[-1])
     assert 'aria-label="Word of 1,561 modules"' in html
     assert f"{1561 - MOST_MODULES_SHOWN:,} more" in html
-
-
-def test_a_system_of_ones_own_is_explored_too():
-    panel = explore(read("dt = 1/2\naxiom: A(0)\nA(t) -> A(t+dt)"), 4)
-    panel.constants["dt"].slider.value = 0.7000000000000001
-    assert str(panel.sight.word) == "A(2.8)"
-
-
-@pytest.mark.slow
-def test_sequential_play_stops_at_the_end():
-    import asyncio
-
-    async def play():
-        panel = explore("J1", 3)
-        panel.step.max = 4
-        panel._play.click()
-        assert panel._play.description == "pause"
-        await asyncio.wait_for(panel._playing, 10)
-        return panel
-
-    panel = asyncio.run(play())
-    assert panel.step.value == 4
-    assert panel._play.description == "play"
 
 
 def test_only_systems_are_explored():

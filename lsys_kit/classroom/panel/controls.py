@@ -1,7 +1,6 @@
 """Sliders made from the model: one for each constant used in calculations, over the range that the model declares.
 
-A slider's handle works in doubles; the value that a model gets is exact. Each slider is paired with a labelled number box,
-because a slider's handle has no accessible name and does not obey the arrow keys everywhere.
+What a slider moves through is a list of exact values; the browser knows only their places in it, and their texts.
 """
 
 from __future__ import annotations
@@ -9,16 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lsys_kit.derivation.core.rules import constants_of
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, function_of
 from lsys_kit.notation.model.system import LSystem
-
-if TYPE_CHECKING:
-    import ipywidgets
 
 
 @dataclass(frozen=True)
@@ -29,15 +25,6 @@ class SliderRange:
     low: Value
     high: Value
     step: Value
-
-    def nearest(self, reading: float) -> Value:
-        """The exact value that a slider's reading stands for.
-
-        >>> SliderRange(Fraction(7, 10), Fraction(1, 10), 2, Fraction(1, 10)).nearest(0.7000000000000001)
-        Fraction(7, 10)
-        """
-        low, step = Fraction(self.low), Fraction(self.step)
-        return normalised(low + round((Fraction(reading) - low) / step) * step)
 
 
 def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, SliderRange]:
@@ -95,46 +82,18 @@ def _operates_on(name: str, expression: Expression) -> bool:
     return (direct and not tells_apart) or any(_operates_on(name, operand) for operand in expression.operands)
 
 
-@dataclass(frozen=True)
-class Control:
-    """A slider with its number box, and the exact values that they stand for."""
-
-    slider: ipywidgets.Widget
-    box: ipywidgets.Widget
-    span: SliderRange
-
-    @property
-    def value(self) -> Value:
-        """The exact value chosen."""
-        return self.span.nearest(self.slider.value)
-
-    def linked(self, in_browser: bool) -> None:
-        """Let slider and number box follow each other.
-
-        In the browser where the kernel is not needed; otherwise in the kernel, after the observers that the slider already has,
-        so that a movement is one message to the kernel and the picture is updated before the box.
-        """
-        import ipywidgets as widgets
-
-        link = widgets.jslink if in_browser else widgets.link
-        link((self.slider, "value"), (self.box, "value"))
-
-    def row(self) -> ipywidgets.Widget:
-        """Both, side by side."""
-        import ipywidgets as widgets
-
-        return widgets.HBox([self.box, self.slider], layout=widgets.Layout(align_items="center"))
+MOST_VALUES = 2_000
+"""A slider has no more values; of a finer range it offers every second, third, ..."""
 
 
-def control(name: str, span: SliderRange) -> Control:
-    """A slider and a labelled number box, not linked yet."""
-    import ipywidgets as widgets
+def slider_values(span: SliderRange) -> tuple[Value, ...]:
+    """The values that a slider offers, its first one among them.
 
-    whole = all(isinstance(part, int) for part in (span.low, span.high, span.step))
-    kind, box_kind = (widgets.IntSlider, widgets.BoundedIntText) if whole else (widgets.FloatSlider, widgets.BoundedFloatText)
-    convert = int if whole else float
-    options = {"value": convert(span.value), "min": convert(span.low), "max": convert(span.high), "step": convert(span.step)}
-    slider = kind(**options, readout=False, continuous_update=True, layout=widgets.Layout(width="180px"))
-    box = box_kind(**options, description=name, style={"description_width": "initial"},
-                   layout=widgets.Layout(width=f"{9 * len(name) + 82}px"))
-    return Control(slider, box, span)
+    >>> [str(value) for value in slider_values(SliderRange(1, Fraction(1, 2), 2, Fraction(1, 2)))]
+    ['1/2', '1', '3/2', '2']
+    """
+    low, high, step = map(Fraction, (span.low, span.high, span.step))
+    many = (high - low) // step if step > 0 else 0
+    coarser = -(-many // MOST_VALUES) or 1
+    grid = {normalised(low + number * coarser * step) for number in range(many // coarser + 1)}
+    return tuple(sorted({*grid, span.value}))

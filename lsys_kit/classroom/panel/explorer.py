@@ -1,51 +1,50 @@
-"""The explorer: a system's word, stage diagram and drawing side by side, with sliders made from the model.
+"""The explorer: a system's rules, word, stage diagram and drawing side by side, with sliders made from the model.
 
-Nothing is computed twice: words, scenes and the texts of panels are kept for every step and every setting of the constants.
-In the plane the angle, in space the side from which a plant is seen never need the kernel: the browser turns the
-drawing by itself.
+The kernel sends a book of the system for a setting of its constants, and the browser turns its pages: neither a step, an angle,
+a point of view, a mark nor a trace asks the kernel (see `book`). What the browser shows, the kernel knows as soon as the sliders
+have come to rest, so that other widgets can be linked to the panel.
 """
 
 from __future__ import annotations
 
-import asyncio
 import base64
+import re
+from collections.abc import Mapping
 from contextlib import AbstractContextManager
-from html import escape
+from dataclasses import dataclass
 from typing import Any
 
-import ipywidgets as widgets
+import anywidget
+import traitlets
 
 from lsys_kit.budget import Task, current, limits
+from lsys_kit.classroom.catalogue import entry
 from lsys_kit.classroom.catalogue import system as catalogued
-from lsys_kit.classroom.panel.canvas import HOW_TO_TURN, packed, widget_classes
-from lsys_kit.classroom.panel.controls import Control, SliderRange, control, slider_ranges
+from lsys_kit.classroom.panel.book import MOST_MODULES, book
+from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.controls import SliderRange, slider_ranges, slider_values
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
-from lsys_kit.classroom.panel.word_view import word_html
-from lsys_kit.derivation.core.rules import number_from, real_from
-from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.classroom.variants import variants
+from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError, shown
-from lsys_kit.geometry.turtle.mode import DrawingMode
-from lsys_kit.geometry.turtle.surfaces import passed_over
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.nets.diagram import drawn_stages
-from lsys_kit.pictures.style.labels import escaped, place_text
-from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION
+from lsys_kit.notation.read import read
+from lsys_kit.pictures.style.labels import place_text
 
-MOST_MODULES = 100_000
-"""The panel refuses larger words: nobody could see more, and a slider must respond at once."""
-SECONDS_A_STEP = 0.6
-"""How long the play button shows each step."""
+USUAL_STEPS = 5
+"""The step that is shown first of a system that names none."""
+_ID = re.compile(r"[\w-]+")
 
 
 def explore(what: LSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
             **constants: object) -> Explorer:
-    """Show a system with its sliders: word, stage diagram and drawing of one step, side by side.
+    """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
 
     Parameters
     ----------
     what
-        A system, or the id or name of one in the catalogue.
+        A system, the id or name of one in the catalogue, or the text of a model.
     step
         The step shown first; by default the system's own.
     angle
@@ -59,235 +58,238 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     ------
     ModelValueError
         A first value lies outside its slider's range.
+    ModelSyntaxError
+        The text makes no sense.
 
     Examples
     --------
     >>> panel = explore("J4", 3)
-    >>> panel.step.value = 9
+    >>> panel.step = 9
     >>> print(panel.text)
     Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
 9 cells, width 14, height 1.
     """
-    system = catalogued(what) if isinstance(what, str) else what
+    title = ""
+    if isinstance(what, str) and _ID.fullmatch(what.strip()):
+        title = entry(what.strip()).id
+        what = catalogued(title)
+    system = read(what) if isinstance(what, str) else what
     if not isinstance(system, LSystem):
-        raise ModelValueError(f"Only a system, or the id or name of one, can be explored, not {type(what).__name__}")
-    return Explorer(ViewModel(system, seed), step, angle, constants)
+        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    return Explorer(system, title, step, angle, seed, constants)
 
 
-class Explorer(widgets.VBox):  # type: ignore[misc]
-    """The panel that `explore` shows.
+@dataclass(frozen=True)
+class _Opened:
+    """A system that the panel shows, with the sliders of its constants."""
+
+    system: LSystem
+    title: str
+    ranges: Mapping[str, SliderRange]
+    values: Mapping[str, tuple[Value, ...]]
+    fixed: Mapping[str, object]
+
+
+class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
+    """The panel that `explore` shows. What it shows can be read, set, observed and linked to other widgets.
 
     Attributes
     ----------
-    step, angle
-        The sliders of the step and, for a turtle, of the angle.
+    step, angle, seed
+        The step, the angle of the turtle's turns in degrees, and the seed of the random numbers.
     around, above
-        For a plant in space the sliders of the side from which it is seen, in degrees: 0 around is the front, 90 the right;
-        0 above is the side, 90 the top.
-    constants
-        For each constant its control.
-    sight
-        What it shows: word, net, tokens, picture.
+        The side from which a plant in space is seen, in degrees: 0 around is the front, 90 the right; 0 above is the side, 90
+        the top.
+    mark
+        The label of the stage that is marked, as "A(2)"; empty for none.
+    settings
+        The values of the constants, as texts; each is also an attribute of its own name, a number.
     """
 
-    def __init__(self, view_model: ViewModel, step: int | None, angle: object, changes: dict[str, object]) -> None:
-        self.system, self._view_model = view_model.system, view_model
-        system = view_model.system
-        self._fixed = {name: value for name, value in changes.items() if name not in slider_ranges(system, changes)}
-        self.constants = {name: control(name, span) for name, span in slider_ranges(system, changes).items()}
-        self._make_controls(step, angle)
-        self._make_views()
-        self._playing: asyncio.Task[None] | None = None
-        self._start = self._readings()
-        super().__init__([self._top(), self._message, self._panels(), self._bottom()],
-                         layout=widgets.Layout(width="100%", padding="6px"))
-        self.add_class("lsys-explorer")
-        with self._limited(), Task("The step was not shown"):
-            self._show_step(self.step.value)
-        self._listen()
+    _esm = bundled("widget")
+    _css = style()
+    model = traitlets.Dict().tag(sync=True)
+    step = traitlets.Int().tag(sync=True)
+    angle = traitlets.Float().tag(sync=True)
+    around = traitlets.Int().tag(sync=True)
+    above = traitlets.Int().tag(sync=True)
+    mark = traitlets.Unicode().tag(sync=True)
+    seed = traitlets.Int().tag(sync=True)
+    settings = traitlets.Dict().tag(sync=True)
 
-    # -- what there is ------------------------------------------------------------------------------------------------
-
-    def _make_controls(self, step: int | None, angle: object) -> None:
-        asked = self.system.steps if self.system.steps is not None else 5
-        first = asked if step is None else step
+    def __init__(self, system: LSystem, title: str, step: int | None, angle: object, seed: int,
+                 changes: Mapping[str, object]) -> None:
+        first = _first_step(system) if step is None else step
         if isinstance(first, bool) or not isinstance(first, int) or first < 0:
             raise ModelValueError(f"The step must be a whole number from 0 on, not {shown(step)}")
-        most = max(2 * asked, 10, first)
-        self._step = control("step", SliderRange(first, 0, most, 1))
-        self.step = self._step.slider
-        turn = real_from(angle, "angle") if angle is not None else float(self.system.angle)
+        turn = real_from(angle, "angle") if angle is not None else float(system.angle)
         if not 0 <= turn <= 180:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
-        self._angle = control("angle", SliderRange(number_from(turn), 0, 180, number_from("0.1")))
-        self.angle = self._angle.slider
-        self._around, self._above = control("around", SliderRange(0, -180, 180, 1)), \
-            control("above", SliderRange(0, -90, 90, 1))
-        self.around, self.above = self._around.slider, self._above.slider
-        self._play = widgets.Button(description="play", tooltip="show one step after another", layout=_button())
-        self._reset = widgets.Button(description="reset", tooltip="back to the first settings", layout=_button())
-        self._mark = widgets.Dropdown(options=[("no stage", -1)], value=-1, description="mark",
-                                      style={"description_width": "initial"}, layout=widgets.Layout(width="170px"))
+        self._ready = False
+        self._opened = _opened(system, title, changes)
+        self._view_model = ViewModel(system, seed)
+        settings = {name: number_text(span.value) for name, span in self._opened.ranges.items()}
+        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=settings)
+        with self._limited(), Task("The step was not shown"):
+            self.model = self._model_of(self._opened, first)
+        self._offer_constants()
+        self._ready = True
+        self.on_msg(self._answer)
 
-    def _make_views(self) -> None:
-        self._word, self._message, self._status = widgets.HTML(), widgets.HTML(), widgets.HTML()
-        kinds = widget_classes()
-        self._diagram = kinds.diagram() if kinds else widgets.HTML()
-        self._drawing, self._by_itself = widgets.HTML(), dict[str, Control]()
-        if kinds and self._view_model.mode is DrawingMode.SPACE:
-            self._drawing, self._by_itself = kinds.space(), {"around": self._around, "above": self._above}
-        elif kinds and self._view_model.mode is DrawingMode.PLANE:
-            self._drawing = kinds.flat(heading=float(self.system.heading), angle=self.angle.value)
-            self._by_itself = {"angle": self._angle}
+    # -- what Python sees -----------------------------------------------------------------------------------------------
 
-    def _top(self) -> widgets.Widget:
-        return widgets.HBox([self._step.row(), self._play, self._reset, self._status], layout=_wrapping("center"))
+    @property
+    def system(self) -> LSystem:
+        """The system that is shown: the one that was given, or the one that was typed."""
+        return self._opened.system
 
-    def _panels(self) -> widgets.Widget:
-        panels = [self._panel("word", self._word, 3), self._panel("stages", self._diagram, 4),
-                  self._panel("drawing", self._drawing, 5)]
-        return widgets.HBox(panels, layout=_wrapping())
-
-    def _panel(self, name: str, view: widgets.Widget, share: int) -> widgets.Widget:
-        heading = widgets.HTML(f'<div style="color:{QUIET};font:12px sans-serif;letter-spacing:.06em">{name}</div>')
-        view.layout.width = "100%"
-        return widgets.VBox([heading, view], layout=widgets.Layout(flex=f"{share} 1 240px", min_width="0", margin="4px 8px"))
-
-    def _bottom(self) -> widgets.Widget:
-        return widgets.HBox([*(each.row() for each in self._controls()[1:]), self._mark], layout=_wrapping())
-
-    # -- what happens -------------------------------------------------------------------------------------------------
-
-    def _listen(self) -> None:
-        for each in self._controls():
-            if each not in self._by_itself.values():
-                each.slider.observe(self._show, "value")
-                each.linked(in_browser=False)
-        for trait, each in self._by_itself.items():
-            widgets.jslink((each.slider, "value"), (self._drawing, trait))
-            each.linked(in_browser=True)
-        self._mark.observe(self._show, "value")
-        if widget_classes():
-            widgets.link((self._diagram, "chosen"), (self._mark, "value"))
-        self._play.on_click(self._toggle_play)
-        self._reset.on_click(self._back)
-
-    def _controls(self) -> list[Control]:
-        turtle = [] if self._view_model.mode is DrawingMode.FILAMENT else [self._angle]
-        viewer = [self._around, self._above] if self._view_model.mode is DrawingMode.SPACE else []
-        return [self._step, *turtle, *viewer, *self.constants.values()]
-
-    def _readings(self) -> list[float]:
-        return [each.slider.value for each in self._controls()]
-
-    def _back(self, _: object = None) -> None:
-        self._stop()
-        self._mark.value = -1
-        for each, reading in zip(self._controls(), self._start, strict=True):
-            each.slider.value = reading
-        if self._view_model.mode is DrawingMode.SPACE and self._by_itself:
-            self._drawing.returns += 1  # the browser may have turned the drawing without telling the kernel
-
-    def _toggle_play(self, _: object = None) -> None:
-        if self._playing:
-            self._stop()
-            return
-        if self.step.value == self.step.max:
-            self.step.value = 0
-        self._play.description = "pause"
-        self._playing = asyncio.get_running_loop().create_task(self._run())
-
-    def _stop(self) -> None:
-        if self._playing:
-            self._playing.cancel()
-        self._playing, self._play.description = None, "play"
-
-    async def _run(self) -> None:
-        while self.step.value < self.step.max:
-            await asyncio.sleep(SECONDS_A_STEP)
-            self.step.value += 1
-            if self._message.value:
-                break
-        self._playing, self._play.description = None, "play"
-
-    def _show(self, _: object = None) -> None:
-        """Show the step that the sliders ask for; where it cannot be shown, say why and keep the pictures."""
-        try:
-            with self._limited(), Task("The step was not shown"):
-                self._show_step(self.step.value)
-            self._message.value = ""
-        except LSystemError as error:
-            said = escape(f"{error.message}. {error.hint or ''}")
-            self._message.value = (f'<div role="alert" style="color:{INK};border-left:5px solid {VERMILION};'
-                                   f'padding:4px 10px;font:14px sans-serif">&#9888; {said}</div>')
-
-    def _limited(self) -> AbstractContextManager[object]:
-        return limits(modules=min(MOST_MODULES, current().modules))
-
-    def _show_step(self, step: int) -> None:
-        constants = {**self._fixed, **{name: each.value for name, each in self.constants.items()}}
-        self._offer_stages(self._view_model.known(constants)[1])
-        sight = self._sight(step, constants)
-        self._show_drawing(sight)
-        self._word.value = word_html(sight.word, sight.marked)
-        diagram = drawn_stages(sight.net, sight.tokens, marked=self._mark.value if self._mark.value >= 0 else None)
-        if widget_classes():
-            self._diagram.svg = diagram
-        else:
-            self._diagram.value = diagram
-        states = sum(count > 0 for count in sight.tokens)
-        said = f"step {step}: <b>{sight.modules}</b>, {states} state{'s' * (states != 1)}; {sight.scene}"
-        if sight.scene.unknown:
-            said += f"; {escaped(passed_over(sight.scene.unknown))}"
-        self._status.value = f'<span role="status" style="font:14px sans-serif;color:{INK}">{said}</span>'
-        self.sight, self._chosen = sight, constants
-
-    def _sight(self, step: int, constants: dict[str, Any]) -> StepView:
-        return self._view_model.sight(step, constants, self.angle.value, self._mark.value, self.around.value, self.above.value)
-
-    def _offer_stages(self, net: Stages) -> None:
-        """The stages that can be chosen are the net's, which change with the constants."""
-        options = [("no stage", -1), *((place_text(place, net.system), number) for number, place in enumerate(net.places))]
-        if [*self._mark.options] != options:
-            chosen = self._mark.value if self._mark.value < len(net.places) else -1
-            with self._mark.hold_trait_notifications():
-                self._mark.options = options
-                self._mark.value = chosen
-
-    def _show_drawing(self, sight: StepView) -> None:
-        """Send shapes to a canvas, once; or a picture to a page that has none."""
-        if not self._by_itself:
-            self._drawing.value = sight.picture.svg
-            return
-        in_space = self._view_model.mode is DrawingMode.SPACE
-        there = f"{sight.scene}. {HOW_TO_TURN}" if in_space else f"{len(sight.scene.segments):,} segments"
-        with self._drawing.hold_sync():
-            self._drawing.description = f"Drawing of step {sight.step}: {there}"
-            for trait, value in packed(sight.scene, sight.path, sight.picture.colour_of, sight.marked).items():
-                setattr(self._drawing, trait, value)
-
-    # -- what is kept -------------------------------------------------------------------------------------------------
+    @property
+    def sight(self) -> StepView:
+        """What the panel shows: word, net, tokens, picture."""
+        with self._limited(), Task("The step was not shown"):
+            constants = self._constants(self.settings)
+            net = self._view_model.known(constants)[1]
+            names = [place_text(place, net.system) for place in net.places]
+            place = names.index(self.mark) if self.mark in names else -1
+            return self._view_model.sight(self.step, constants, self.angle, place, self.around, self.above)
 
     @property
     def text(self) -> str:
         """What the panel shows, in words."""
         return str(self.sight)
 
+    @traitlets.validate("step")
+    def _possible_step(self, proposal: Any) -> int:
+        step: int = proposal["value"]
+        last = self.model["book"]["steps"] if self._ready else step
+        if not 0 <= step <= last:
+            raise ModelValueError(f"The panel shows steps 0 to {last}, not {step}", hint=self.model["book"]["end"] or None)
+        return step
+
+    @traitlets.validate("settings")
+    def _possible_settings(self, proposal: Any) -> dict[str, str]:
+        given = {**self.settings, **proposal["value"]} if self._ready else proposal["value"]
+        return {name: number_text(_nearest(self._opened.values[name], name, text)) for name, text in given.items()
+                if name in self._opened.values}
+
+    # -- what happens ---------------------------------------------------------------------------------------------------
+
+    def _model_of(self, opened: _Opened, first: int) -> dict[str, Any]:
+        """What the browser needs of a system: its sliders and its first book."""
+        constants = {name: span.value for name, span in opened.ranges.items()}
+        sliders = [{"name": name, "texts": [*map(number_text, opened.values[name])], "hint": f"the constant {name}",
+                    "index": opened.values[name].index(opened.ranges[name].value)} for name in opened.ranges]
+        made = book(opened.system, {**opened.fixed, **constants}, self.seed, title=opened.title, least=first)
+        return {"book": made, "constants": sliders, "chance": made["chance"], "step": min(first, made["steps"]),
+                "angle": self.angle, "around": self.around, "above": self.above, "seed": self.seed}
+
+    def _offer_constants(self) -> None:
+        """Each constant with a slider is an attribute that can be set and linked."""
+        for name, span in self._opened.ranges.items():
+            if not hasattr(self, name):
+                whole = all(isinstance(part, int) for part in self._opened.values[name])
+                self.add_traits(**{name: (traitlets.Int if whole else traitlets.Float)(_plain(span.value))})
+                self.observe(self._set_constant, name)
+        self.observe(self._tell_constants, "settings")
+
+    def _set_constant(self, change: Any) -> None:
+        self.settings = {**self.settings, change["name"]: change["new"]}
+
+    def _tell_constants(self, _: object) -> None:
+        for name, text in self.settings.items():
+            if self.has_trait(name) and name not in type(self).class_trait_names(sync=True):
+                setattr(self, name, _plain(_nearest(self._opened.values[name], name, text)))
+
+    def _constants(self, settings: Mapping[str, object]) -> dict[str, Any]:
+        opened = self._opened
+        return {**opened.fixed, **{name: _nearest(values, name, settings.get(name, opened.ranges[name].value))
+                                   for name, values in opened.values.items()}}
+
+    def _limited(self) -> AbstractContextManager[object]:
+        return limits(modules=min(MOST_MODULES, current().modules))
+
+    def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
+        """Answer what the browser asks, by its number; a mistake is an answer too."""
+        kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
+        reply: dict[str, Any]
+        try:
+            with self._limited(), Task("It was not finished"):
+                reply = kinds[content["kind"]](content)
+        except LSystemError as error:
+            reply = {"mistake": mistake(error)}
+        self.send({"number": content["number"], **reply})
+
+    def _book_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
+        opened = self._opened
+        return {"book": book(opened.system, self._constants(content["constants"]), int(content["seed"]), title=opened.title,
+                             least=self.model["step"])}
+
+    def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
+        """The model of a text that was typed."""
+        system = _read_typed(content["text"], self.system.notation)
+        opened = _opened(system, "" if system != self.system else self._opened.title, {})
+        found = self._model_of(opened, _first_step(system))
+        self._opened, self._view_model = opened, ViewModel(system, self.seed)
+        return {"model": found}
+
+    def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
+        """Nine variants of the system, each with its book."""
+        return {"variants": [{"text": str(variant), "book": book(variant, {}, self.seed)} for variant in variants(self.system, 9)]}
+
+    def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
+        """What is taken along."""
+        return {"name": f"{self._opened.title or 'drawing'}.svg", "type": "image/svg+xml", "text": self.sight.picture.svg}
+
+    # -- what is kept ---------------------------------------------------------------------------------------------------
+
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live panel, and for a page without a kernel its picture and its words."""
         bundle = super()._repr_mimebundle_(**options)
         data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
         data["text/plain"] = self.text
-        data["image/png"] = base64.b64encode(self._sight(self.sight.step, self._chosen).picture.png).decode()
+        data["image/png"] = base64.b64encode(self.sight.picture.png).decode()
         return data
 
     def __repr__(self) -> str:
         return self.text
 
 
-def _wrapping(align: str = "flex-start") -> widgets.Layout:
-    return widgets.Layout(flex_flow="row wrap", align_items=align, width="100%")
+def mistake(error: LSystemError) -> dict[str, Any]:
+    """An error as the browser needs it: what is wrong, what to try, and between which offsets of the text it stands."""
+    start = end = None
+    if error.source is not None and error.line and error.column and error.end:
+        line = sum(len(text) + 1 for text in error.source.split("\n")[:error.line - 1])
+        start, end = line + error.column - 1, line + error.end - 1
+    return {"message": error.message, "hint": error.hint or "", "start": start, "end": end, "line": error.line,
+            "column": error.column}
 
 
-def _button() -> widgets.Layout:
-    return widgets.Layout(width="70px")
+def _first_step(system: LSystem) -> int:
+    return USUAL_STEPS if system.steps is None else system.steps
+
+
+def _opened(system: LSystem, title: str, changes: Mapping[str, object]) -> _Opened:
+    ranges = slider_ranges(system, changes)
+    fixed = {name: value for name, value in changes.items() if name not in ranges}
+    return _Opened(system, title, ranges, {name: slider_values(span) for name, span in ranges.items()}, fixed)
+
+
+def _read_typed(text: str, notation: str) -> LSystem:
+    """A text that was typed, in the notation of the system before it, or in the one that it shows."""
+    try:
+        return read(text, notation)
+    except LSystemError as error:
+        try:
+            return read(text)
+        except LSystemError:
+            raise error from None
+
+
+def _nearest(values: tuple[Value, ...], name: str, wanted: object) -> Value:
+    """The value of a slider that is nearest to a number, or to the text of one."""
+    number = real_from(wanted, name)
+    return min(values, key=lambda value: abs(float(value) - number))
+
+
+def _plain(value: Value) -> int | float:
+    return value if isinstance(value, int) else float(value)

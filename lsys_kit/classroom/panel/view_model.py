@@ -51,8 +51,6 @@ class StepView:
         What is drawn, in the plane or in space.
     picture
         The drawing; of a scene in space as it is seen from one side.
-    path
-        The turtle's path in the plane; None for a filament, and in space.
     """
 
     step: int
@@ -62,7 +60,6 @@ class StepView:
     marked: frozenset[int]
     scene: Scene
     picture: Picture
-    path: Path | None
 
     @property
     def modules(self) -> str:
@@ -144,7 +141,7 @@ class ViewModel:
             scene = place_path(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
             [scene] = in_units([scene], self.system)
             picture = Picture((FilamentRow(step, project(scene, around, above)),), state_colours(derivation), None, marked)
-        return StepView(step, word, net, net.tokens(word), marked, scene, picture, path)
+        return StepView(step, word, net, net.tokens(word), marked, scene, picture)
 
     def _sequence(self, derivation: Derivation, last: int) -> tuple[FilamentRow, ...]:
         """The rows of a filament's steps, each made once."""

@@ -131,9 +131,13 @@ export function drawingView(parent, told) {
   }
 
   function goBack() {
+    home();
+    told.turned(0, 0);
+  }
+
+  function home() {
     [near, shift] = [1, [0, 0]];
     canvas.dataset.near = "1.00";
-    told.turned(0, 0);
     draw();
   }
 
@@ -211,7 +215,7 @@ export function drawingView(parent, told) {
   const resized = new ResizeObserver(draw);
   resized.observe(canvas);
   return {
-    open, show, describe, canvas,
+    open, show, describe, canvas, home,
     light(nextLook) {
       look = nextLook;
       draw();

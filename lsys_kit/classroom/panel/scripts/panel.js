@@ -8,6 +8,7 @@ import { themeOf } from "./colours.js";
 import { button, list, made, slider } from "./controls.js";
 import { countsView } from "./counts.js";
 import { drawingView } from "./drawing.js";
+import { galleryView } from "./gallery.js";
 import { keeping } from "./keeping.js";
 import { netView } from "./net.js";
 import { player } from "./player.js";
@@ -26,7 +27,7 @@ export function openPanel(element, host) {
   element.append(root);
   const books = new Map(), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
   let model, book, theme, resting = 0, asking = 0, idle = 0, traced = null, shownTheme = "", boxed = null, fetched = 0;
-  let constants = [];
+  let constants = [], nine = { key: "", first: 0 }, bred = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
 
@@ -38,23 +39,25 @@ export function openPanel(element, host) {
   const above = slider("above", "the height from which it is seen: 0 is the side, 90 the top", DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }));
   const mark = list("mark", "the stage that is marked in all views", [["", "no stage"]], "", (name) => change({ mark: name }));
   const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
-  const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), 0, (at) => { host.set("seed", at); ask(); });
-  const die = button("\u2684", "another seed, at random", () => { seed.show(Math.floor(Math.random() * 1000)); host.set("seed", seed.index); ask(); });
+  const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), 0, (at) => host.set("seed", at));
+  const die = button("\u2684", "another seed, at random", () => sow(Math.floor(Math.random() * 1000)));
   const play = player(() => ({ now: host.get("step"), most: book.steps }), (at) => change({ step: at }), () => show());
   const reset = button("reset", "back to the first settings", goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
   const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
   root.append(top, message, status, views, sentence, bottom);
 
-  const bodies = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", true], ["drawing", "drawing", true], ["counts", "how many", false]], () => show());
-  const rules = rulesView(bodies.rules, (text) => newRules(text));
-  const word = wordView(bodies.word, (position, way) => trace(host.get("step"), position, way));
-  const net = netView(bodies.stages, (place) => toggleMark(place));
-  const drawing = drawingView(bodies.drawing, {
+  const view = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", true],
+    ["drawing", "drawing", true], ["counts", "how many", false], ["seeds", "nine seeds", false], ["variants", "nine variants", false]], () => show());
+  const rules = rulesView(view.rules.body, (text) => newRules(text));
+  const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way));
+  const net = netView(view.stages.body, (place) => toggleMark(place));
+  const drawing = drawingView(view.drawing.body, {
     turned: (right, up) => change({ around: right, above: up }),
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
   });
-  const counts = countsView(bodies.counts, (at) => change({ step: at }));
+  const counts = countsView(view.counts.body, (at) => change({ step: at }));
+  const seeds = galleryView(view.seeds.body, (number) => sow(nine.first + number)), variants = galleryView(view.variants.body, (number) => rules.put(bred[number].text));
   root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
 
   // -- what happens ---------------------------------------------------------------------------------------------------
@@ -121,12 +124,14 @@ export function openPanel(element, host) {
       ...each,
       control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(host.get("settings")[each.name] ?? each.texts[each.index])), (at) => {
         host.set("settings", { ...host.get("settings"), [each.name]: each.texts[at] });
-        ask();
       }),
     }));
     const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
     bottom.replaceChildren(...constants.map((each) => each.control.element), ...(model.book.turtle?.["uses angle"] ? [angle.element] : []),
       ...(model.book.mode === "space" ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
+    view.seeds.offer(model.chance);
+    view.variants.offer(host.editable);
+    [bred, nine] = [[], { key: "", first: 0 }];
     keepBook(JSON.stringify(request()), model.book);
     boxed = Math.min(model.step, books.values().next().value.steps);
     rules.open(model.book.text, host.editable);
@@ -175,7 +180,7 @@ export function openPanel(element, host) {
     around.show(host.get("around") + 180);
     above.show(host.get("above") + 90);
     mark.show(host.get("mark"));
-    if (!bodies.word.closest("section").hidden) word.show(book, now);
+    if (view.word.open) word.show(book, now);
     net.fill(tokens);
     counts.show(now);
     status.textContent = caption(now, tokens);
@@ -184,6 +189,48 @@ export function openPanel(element, host) {
       glides: play.playing && !still.matches }, look());
     drawing.describe(`Drawing of ${status.textContent}`);
     light();
+    if (view.seeds.open) showSeeds();
+    if (view.variants.open) showVariants();
+  }
+
+  // Nine seeds beside each other: those of the row of nine to which the seed belongs.
+  async function showSeeds() {
+    const first = Math.floor(host.get("seed") / 9) * 9, key = JSON.stringify([request().constants, first]);
+    if (nine.key !== key) {
+      nine = { key, first };
+      const entries = [];
+      for (let each = first; each < first + 9; each++) {
+        const asked = { ...request(), seed: each }, known = JSON.stringify(asked);
+        if (!books.has(known)) {
+          const answer = await host.book(asked);
+          if (answer.mistake) return say(answer.mistake);
+          keepBook(known, answer.book);
+        }
+        entries.push({ label: `seed ${each}`, book: books.get(known) });
+      }
+      if (nine.key !== key) return;
+      seeds.open(entries);
+    }
+    seeds.show(settingsSeen(), look(), host.get("seed") - first);
+  }
+
+  // Nine variants of the model, one of which can be taken on.
+  async function showVariants() {
+    if (!bred.length) {
+      bred = [{}];
+      const answer = await host.variants();
+      if (answer.mistake) return say(answer.mistake);
+      bred = answer.variants;
+      variants.open(bred.map((each, number) => ({ label: `variant ${number + 1}`, book: openBook(each.book) })));
+    }
+    if (bred[0]?.text) variants.show({ ...settingsSeen(), angle: null }, look());
+  }
+
+  const settingsSeen = () => ({ step: host.get("step"), angle: host.get("angle"), around: host.get("around"), above: host.get("above") });
+
+  function sow(number) {
+    seed.show(number);
+    host.set("seed", number);
   }
 
   function look() {
@@ -220,11 +267,9 @@ export function openPanel(element, host) {
     traced = null;
     for (const each of constants) each.control.show(each.index);
     host.set("settings", Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]])));
-    host.set("seed", model.seed);
-    seed.show(model.seed);
-    drawing.home?.();
+    sow(model.seed);
+    drawing.home();
     change({ step: Math.min(model.step, book.steps), angle: model.angle, around: model.around, above: model.above, mark: "" });
-    ask();
   }
 
   function state() {

@@ -43,6 +43,7 @@ export function rulesView(parent, asked) {
   area.addEventListener("keydown", (event) => event.stopPropagation());
 
   return {
+    put,
     // The text of a model that was opened; one that was typed stays as it was typed.
     open(text, editable) {
       if (!first) first = text;

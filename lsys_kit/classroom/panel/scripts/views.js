@@ -2,9 +2,10 @@
 
 import { made, button } from "./controls.js";
 
-// `views` are triples of a name, a title and whether the view is open at first; the bodies are returned by their names.
+// `views` are triples of a name, a title and whether the view is open at first. Of each its body is returned, whether it is open,
+// and `offer`, which says whether there is anything to show in it.
 export function folding(parent, root, views, changed) {
-  const bodies = {}, tabs = made("div", { class: "lsys-tabs", role: "group", "aria-label": "views" });
+  const found = {}, tabs = made("div", { class: "lsys-tabs", role: "group", "aria-label": "views" });
   for (const [name, title, open] of views) {
     const body = made("div", { class: "lsys-body" });
     const section = made("section", { class: "lsys-view", "data-view": name, "aria-label": title, hidden: !open });
@@ -17,7 +18,15 @@ export function folding(parent, root, views, changed) {
     section.append(made("div", { class: "lsys-title" }, title, wide), body);
     parent.append(section);
     tabs.append(tab);
-    bodies[name] = body;
+    found[name] = {
+      body,
+      get open() { return !section.hidden; },
+      offer(offered) {
+        tab.hidden = !offered;
+        if (!offered) section.hidden = true;
+        tab.setAttribute("aria-pressed", String(!section.hidden));
+      },
+    };
   }
   const large = button("class", "larger, for a projector", () => {
     large.setAttribute("aria-pressed", String(root.classList.toggle("lsys-class")));
@@ -25,5 +34,5 @@ export function folding(parent, root, views, changed) {
   }, { "aria-pressed": "false", class: "lsys-button lsys-tab" });
   tabs.append(large);
   parent.before(tabs);
-  return bodies;
+  return found;
 }

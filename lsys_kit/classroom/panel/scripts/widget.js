@@ -40,6 +40,7 @@ function hostOf(model) {
     save: () => model.save_changes(),
     book: (settings) => ask({ kind: "book", ...settings }),
     rules: (text) => ask({ kind: "rules", text }),
+    variants: () => ask({ kind: "variants" }),
     keep: (kind, state) => ask({ kind: "keep", what: kind, state }),
     keeps: ["svg", "page", "link"],
     editable: true,

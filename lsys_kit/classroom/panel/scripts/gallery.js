@@ -1,0 +1,45 @@
+// Several small drawings beside each other: nine seeds of one model, or nine variants of which one can be taken on.
+
+import { made } from "./controls.js";
+import { sequence, paintSequence } from "./filament.js";
+import { frameOf, paint } from "./painter.js";
+import { placed, traced } from "./turtle.js";
+
+// `entries` are { label, book }; `chosen` is called with the number of one.
+export function galleryView(parent, chosen) {
+  let tiles = [];
+
+  function open(entries) {
+    tiles = entries.map((entry, number) => {
+      const canvas = made("canvas", { class: "lsys-tile", "aria-hidden": "true" });
+      const tile = made("button", { type: "button", class: "lsys-button lsys-tile-button", onclick: () => chosen(number) }, canvas, made("span", {}, entry.label));
+      return { ...entry, canvas, tile };
+    });
+    parent.replaceChildren(made("div", { class: "lsys-gallery" }, ...tiles.map(({ tile }) => tile)));
+  }
+
+  // Each at the step that is shown, or at its last one where it has fewer; `current` is the number of the one in the panel.
+  function show(now, look, current = -1) {
+    tiles.forEach(({ book, canvas, tile, label }, number) => {
+      const step = Math.min(now.step, book.steps);
+      tile.setAttribute("aria-pressed", String(number === current));
+      tile.setAttribute("aria-label", `${label}: ${book.length(step).toLocaleString("en")} modules at step ${step}`);
+      paintTile(canvas, book, { ...now, step, angle: now.angle ?? book.data.turtle?.angle }, look);
+    });
+  }
+
+  return { open, show };
+}
+
+function paintTile(canvas, book, now, look) {
+  const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1, pen = canvas.getContext("2d");
+  if (!width) return;
+  [canvas.width, canvas.height] = [Math.round(width * density), Math.round(height * density)];
+  pen.setTransform(density, 0, 0, density, 0, 0);
+  pen.fillStyle = look.theme.paper;
+  pen.fillRect(0, 0, width, height);
+  const plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
+  if (book.data.mode === "filament") return paintSequence(pen, sequence(book, now.step, { rows: 12, width, height, boxed: null }), plain);
+  const shapes = placed(traced(book, now.step), now.angle);
+  paint(pen, shapes, frameOf(shapes, width, height, { around: now.around, above: now.above, near: 1, shift: [0, 0], box: null }), plain);
+}
