@@ -22,7 +22,8 @@ const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
 const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
 const MOST_BYTES = 2e6; // of the books of neighbouring settings
 
-export function openPanel(element, host) {
+// `compared` has { first, shown(book, step) } where the panel is one of two beside each other.
+export function openPanel(element, host, compared = null) {
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
   const books = new Map(), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -45,6 +46,7 @@ export function openPanel(element, host) {
   const reset = button("reset", "back to the first settings", goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
   const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
+  if (compared && !compared.first) for (const each of [step.element, play.element, angle.element, around.element, above.element]) each.hidden = true;
   root.append(top, message, status, views, sentence, bottom);
 
   const view = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", true],
@@ -191,6 +193,7 @@ export function openPanel(element, host) {
     light();
     if (view.seeds.open) showSeeds();
     if (view.variants.open) showVariants();
+    compared?.shown(book, now);
   }
 
   // Nine seeds beside each other: those of the row of nine to which the seed belongs.
@@ -310,7 +313,9 @@ export function openPanel(element, host) {
   scheme.addEventListener("change", recoloured);
   openModel();
 
-  return () => {
+  return { differ: word.differ, close };
+
+  function close() {
     play.stop();
     watcher.disconnect();
     scheme.removeEventListener("change", recoloured);
@@ -320,5 +325,5 @@ export function openPanel(element, host) {
     drawing.close();
     rules.close();
     root.remove();
-  };
+  }
 }

@@ -49,9 +49,9 @@ function hostOf(model) {
 }
 
 function render({ model, el }) {
-  const { host, leave } = hostOf(model), close = openPanel(el, host);
+  const { host, leave } = hostOf(model), panel = openPanel(el, host);
   return () => {
-    close();
+    panel.close();
     leave();
   };
 }

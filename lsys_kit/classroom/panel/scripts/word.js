@@ -43,6 +43,11 @@ export function wordView(parent, told) {
     }
   }
 
+  // Mark where another word differs.
+  function differ(positions) {
+    for (const [position, element] of chips) element.classList.toggle("lsys-different", positions.has(position));
+  }
+
   box.addEventListener("click", (event) => {
     const found = event.target.closest("[data-position]");
     if (found) told(Number(found.dataset.position));
@@ -58,7 +63,7 @@ export function wordView(parent, told) {
     else told(null, way);
   });
   const reveal = (position) => chips.get(position)?.scrollIntoView({ block: "nearest", inline: "nearest" });
-  return { show, light, reveal, box };
+  return { show, light, differ, reveal, box };
 }
 
 // A label as nodes: an italic letter, a subscript, upright values.

@@ -1,0 +1,60 @@
+// Two panels side by side with one step slider: two systems, or two settings of one; where their words differ is marked.
+
+import { made } from "./controls.js";
+import { openPanel } from "./panel.js";
+
+const SHARED = ["step", "angle", "around", "above"];
+
+// `hosts` are those of the two panels.
+export function openComparison(element, hosts) {
+  const said = made("div", { class: "lsys-sentence", role: "status" }), sides = made("div", { class: "lsys-comparison" });
+  const seen = [null, null], panels = [], offs = [];
+  element.append(sides, said);
+  hosts.forEach((host, side) => {
+    const column = made("div", { class: "lsys-side" });
+    sides.append(column);
+    panels.push(openPanel(column, host, {
+      first: side === 0,
+      shown(book, step) {
+        seen[side] = { book, step };
+        if (seen[0] && seen[1] && seen[0].step === seen[1].step) tell();
+      },
+    }));
+    for (const name of SHARED) offs.push(host.on(name, () => {
+      const other = hosts[1 - side], value = host.get(name);
+      if (other.get(name) !== value) other.set(name, value);
+    }));
+  });
+
+  function tell() {
+    const found = differences(seen[0], seen[1]);
+    panels.forEach((panel) => panel.differ(found.positions));
+    said.textContent = found.text;
+  }
+
+  return () => {
+    for (const off of offs) off();
+    for (const panel of panels) panel.close();
+    sides.remove();
+    said.remove();
+  };
+}
+
+// Where the words of two books differ at a step, and that in words.
+export function differences({ book: one, step }, { book: other }) {
+  const [a, b] = [one.word(step), other.word(step)], positions = new Set();
+  for (let i = 0; i < Math.max(a.length, b.length); i++) if (textAt(one, a, i) !== textAt(other, b, i)) positions.add(i);
+  const [first] = positions, lengths = a.length === b.length ? `both words have ${a.length.toLocaleString("en")} modules`
+    : `the words have ${a.length.toLocaleString("en")} and ${b.length.toLocaleString("en")} modules`;
+  const where = positions.size ? `they differ first at module ${first + 1}: ${textAt(one, a, first) ?? "none"} and ${textAt(other, b, first) ?? "none"}` : "they are equal";
+  const drawings = positions.size && sameCells(one, other, a, b) ? "; cell by cell they are drawn alike" : "";
+  return { positions, text: `Step ${step}: ${lengths}; ${where}${drawings}.` };
+}
+
+const textAt = (book, word, position) => (position < word.length ? book.label(word[position]).text : undefined);
+
+function sameCells(one, other, a, b) {
+  if (one.data.mode !== "filament" || other.data.mode !== "filament") return false;
+  const cells = (book, word) => JSON.stringify(Array.from(word).flatMap((state) => book.data.cells[state].map((cell) => cell.slice(0, 4))));
+  return cells(one, a) === cells(other, b);
+}
