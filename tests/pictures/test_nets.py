@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, derive, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.pictures.nets import diagram as nets
+from lsys_kit.pictures.nets import diagram, parts
 from lsys_kit.pictures.nets.captions import short, width_of
 from lsys_kit.pictures.nets.diagram import drawn_stages, steering_of
 from lsys_kit.pictures.nets.routes import rows_of, shown_places
@@ -159,7 +159,7 @@ def test_rows_of_stages(name: str, wanted: list[str]) -> None:
     net = stages(system(name))
     steering = steering_of(net.system)
     rows = rows_of(net, shown_places(net, steering))
-    names = dict(zip(nets._diagram(net, False, steering).order, nets._diagram(net, False, steering).names, strict=True))
+    names = {part.place: part.name for part in parts.parts_of(net, False, steering).places}
     assert [" ".join(names[place] for place in row) for row in rows] == wanted
 
 
@@ -232,7 +232,8 @@ def test_hostile_names_are_escaped(name: str) -> None:
 def test_the_same_net_gives_the_same_bytes(name: str) -> None:
     net = stages(system(name))
     first = drawn_stages(net, (2,) * len(net.places))
-    nets._diagram.cache_clear()
+    diagram._diagram.cache_clear()
+    parts.parts_of.cache_clear()
     assert drawn_stages(stages(system(name)), (2,) * len(net.places)) == first
     assert not re.search(r"\d\.\d\d", re.sub(r"<text.*?</text>|aria-label=\"[^\"]*\"|<title>.*?</title>", "", first))
 
@@ -252,7 +253,7 @@ def test_everything_lies_inside_the_picture() -> None:
 def test_moving_tokens_lays_nothing_out_again(monkeypatch: pytest.MonkeyPatch) -> None:
     net = stages(system("J4"))
     drawn_stages(net, (1, 0, 0, 0, 0))
-    monkeypatch.setattr(nets, "layout_of", None)
+    monkeypatch.setattr(parts, "layout_of", None)
     assert drawn_stages(net, (0, 1, 0, 0, 0)) != drawn_stages(net, (1, 0, 0, 0, 0))
 
 

@@ -1,0 +1,198 @@
+"""The parts of a stage diagram before it is written in any format: labels, colours and positions of places, bars and arcs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from string import punctuation
+
+from lsys_kit.derivation.petri.net import Place, Stages
+from lsys_kit.geometry.turtle.actions import Effect
+from lsys_kit.geometry.turtle.commands import COMMANDS, symbols_with
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, terms_of, width_of
+from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, layout_of
+from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
+from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
+from lsys_kit.pictures.style.palette import QUIET, colours
+
+LABEL_SIZE, SMALL = 14, 11
+"""Font sizes, in pixels."""
+LINE = 16.0
+"""The height of a line below the diagram."""
+
+
+@dataclass(frozen=True)
+class PlacePart:
+    """A place: its number and the centre of its circle; its label in parts and in words; its colour and how strong that is."""
+
+    place: int
+    x: float
+    y: float
+    letter: str
+    subscript: str
+    values: str
+    name: str
+    title: str
+    colour: str
+    strength: float
+
+
+@dataclass(frozen=True)
+class BarPart:
+    """The bar of a transition: its centre, half its height, the line to it as an SVG path; its terms, abbreviated and in full,
+    and the left end of their baseline."""
+
+    x: float
+    y: float
+    half: float
+    line: str
+    terms: str
+    full: str
+    tx: float
+    ty: float
+
+
+@dataclass(frozen=True)
+class ArcPart:
+    """An arc: its number in the net; its line, the band that interrupts the lines it crosses, and its head, as SVG paths."""
+
+    arc: int
+    path: str
+    band: str
+    head: str
+
+
+@dataclass(frozen=True)
+class NotePart:
+    """The note of an arc: its centre, its width and its text."""
+
+    x: float
+    y: float
+    width: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Parts:
+    """A stage diagram without its tokens.
+
+    Attributes
+    ----------
+    width, height
+        Of the picture.
+    description
+        What the picture shows, in words.
+    places
+        The places in reading order.
+    bars, arcs, notes
+        The transitions, the arcs and the notes of arcs.
+    besides, foot
+        What else the system does, a line each, and the baseline of the first of these lines.
+    """
+
+    width: int
+    height: int
+    description: str
+    places: tuple[PlacePart, ...]
+    bars: tuple[BarPart, ...]
+    arcs: tuple[ArcPart, ...]
+    notes: tuple[NotePart, ...]
+    besides: tuple[str, ...]
+    foot: float
+
+
+def steering_of(system: LSystem) -> frozenset[str]:
+    """The symbols that only steer the turtle, and so are no stages.
+
+    >>> from lsys_kit.notation.read import read
+    >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
+    ['&', '+', '[', ']']
+    """
+    interpreted = {rule.predecessor.symbol for rule in system.interpretation}
+    invisible = COMMANDS[system.turtle].keys() - symbols_with(Effect.VISIBLE, system.turtle)
+    return frozenset(punctuation) | (invisible - interpreted)
+
+
+@lru_cache(maxsize=64)
+def parts_of(net: Stages, positions: bool, steering: frozenset[str]) -> Parts:
+    """The parts of the diagram of a net; `positions` and `steering` as for `drawn_stages`."""
+    rows = rows_of(net, shown_places(net, steering))
+    plan = planned(net, rows)
+    order = tuple(place for row in rows for place in row)
+    names = {place: place_text(net.places[place], net.system) for place in order}
+    notes = notes_of(net, positions)
+    terms = {number: abbreviated(text) for number, transition in enumerate(net.transitions) if (text := terms_of(transition))}
+    layout = layout_of(net, plan, Texts({place: width_of(name, LABEL_SIZE) for place, name in names.items()},
+                                        {number: width_of(text, SMALL) for number, text in terms.items()},
+                                        {arc: width_of(text, SMALL) for arc, text in notes.items()}))
+    besides = tuple(f"besides: {readable(text)}" for text in net.besides)
+    fills = _fills(net, order)
+    return Parts(
+        math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in besides)])),
+        math.ceil(layout.height + LINE * len(besides)), _description([*names.values()], besides),
+        tuple(_place(net, place, names[place], layout, *fills[place]) for place in order),
+        tuple(_bar(bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()),
+        tuple(_arc(arc, corners) for arc, corners in layout.arcs.items()),
+        tuple(NotePart(*layout.notes[arc], width_of(text, SMALL), text) for arc, text in notes.items() if arc in layout.notes),
+        besides, layout.height)
+
+
+def _description(names: Sequence[str], besides: Sequence[str]) -> str:
+    told = f"Stage diagram: {len(names)} stage{'' if len(names) == 1 else 's'} {', '.join(names)}".rstrip()
+    return "; ".join((told, *besides))
+
+
+def _place(net: Stages, number: int, name: str, layout: Layout, colour: str, strength: float) -> PlacePart:
+    place = net.places[number]
+    letter, subscript, values = place_parts(place, net.system)
+    label = (letter, subscript) if subscript else label_parts(letter, net.system)
+    title = name + (", of either polarity" if len(place.modules) > 1 else "")
+    return PlacePart(number, *layout.circles[number], *label, values, name, title, colour, strength)
+
+
+def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, float]]:
+    """The colour of each circle and how strong its fill is; fills of one symbol darken with its values."""
+    palette = colours(net.system)
+    groups: dict[str, list[int]] = {}
+    for place in sorted(order, key=lambda place: _rank(net.places[place])):
+        groups.setdefault(palette.get(net.places[place].symbol, QUIET), []).append(place)
+    return {place: (colour, 0.14 + 0.3 * number / (len(group) - 1) if len(group) > 1 else 0.2)
+            for colour, group in groups.items() for number, place in enumerate(group)}
+
+
+def _rank(place: Place) -> tuple[float, ...]:
+    return tuple(float(value) for value in place.modules[0].arguments) if place.modules else ()
+
+
+def _bar(bar: BarPosition, terms: str, full: str) -> BarPart:
+    return BarPart(bar.x, bar.y, bar.half, rounded_path(bar.line), terms, full, *bar.terms)
+
+
+def _arc(number: int, corners: Sequence[Point]) -> ArcPart:
+    (x, y), down = corners[-1], corners[-1][0] == corners[-2][0]
+    (a, b), (c, d) = ((-3.4, -8.5), (3.4, -8.5)) if down else ((-8.5, -3.4), (-8.5, 3.4))
+    return ArcPart(number, rounded_path(corners), rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
+                   f"M{x:.1f} {y:.1f}L{x + a:.1f} {y + b:.1f}L{x + c:.1f} {y + d:.1f}Z")
+
+
+def rounded_path(corners: Sequence[Point]) -> str:
+    """A line through corners as an SVG path, the corners rounded.
+
+    >>> rounded_path([(0, 0), (20, 0), (20, 20)])
+    'M0.0 0.0L10.0 0.0Q20.0 0.0 20.0 10.0L20.0 20.0'
+    """
+    path = ["M{:.1f} {:.1f}".format(*corners[0])]
+    for before, corner, after in zip(corners, corners[1:], corners[2:], strict=False):
+        reach = min(ROUND, math.dist(before, corner) / 2, math.dist(corner, after) / 2)
+        start, end = _point_towards(corner, before, reach), _point_towards(corner, after, reach)
+        path.append("L{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}".format(*start, *corner, *end))
+    return "".join(path) + "L{:.1f} {:.1f}".format(*corners[-1])
+
+
+def _point_towards(start: Point, end: Point, reach: float) -> Point:
+    """The point at some distance from the start towards the end."""
+    share = reach / (math.dist(start, end) or 1.0)
+    return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
