@@ -10,11 +10,13 @@ right, `O(length, width, shade)` nowhere. `W(age, shade)` is a wall between two 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.interpretation import interpretations, is_cell
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
@@ -39,8 +41,7 @@ def filament(word: Word) -> Scene:
     3 cells, width 5, height 1
     """
     numbers = word.numbers()
-    shapes = {state: [_cell_or_wall(made, word.states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
-              for state, image in interpretations(word.states, numbers).items()}
+    shapes = shapes_of(word.states, numbers)
     rows = [(*shape, state) for state in numbers for shape in shapes[state]]
     table = np.array(rows, dtype=np.float64).reshape(-1, 6)
     ends = np.cumsum(table[:, 1])
@@ -50,6 +51,26 @@ def filament(word: Word) -> Scene:
     return Scene(cells=Cells(centres, cells[:, 1:3], cells[:, 3].astype(np.int64), cells[:, 4], cells[:, 5].astype(np.int64)),
                  walls=Walls(ends[is_wall], _wall_heights(is_wall, cells[:, 2]), walls[:, 3], walls[:, 4],
                              walls[:, 5].astype(np.int64)))
+
+
+def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[float, float, float, float, float]]]:
+    """For each of some states the cells and walls that it is drawn as: of a cell 0, its length, width, polarity and shade; of a
+    wall 1, 0, 0, its age, which is NaN where it has none, and its shade.
+
+    Raises
+    ------
+    ModelValueError
+        As for `filament`.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: a\\ninterpretation:\\na -> L(2,1) W(3)"))
+    >>> shapes_of(states, states.axiom)
+    {0: [(0, 2.0, 1.0, -1, 0.0), (1, 0, 0, 3.0, 0.0)]}
+    """
+    return {state: [_cell_or_wall(made, states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
+            for state, image in interpretations(states, numbers).items()}
 
 
 def _wall_heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:

@@ -1,0 +1,63 @@
+"""The stage diagram in a book: its parts as lists and texts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.errors import LSystemError
+from lsys_kit.pictures.nets.layout import EDGE, RADIUS
+from lsys_kit.pictures.nets.parts import LINE, ArcPart, BarPart, NotePart, Parts, PlacePart, parts_of, steering_of
+from lsys_kit.pictures.style.labels import place_text
+
+NARROW, LOW = 320, 40
+"""The size of a diagram that has nothing but a sentence, in pixels."""
+
+
+def net_entry(made: Callable[[], Stages]) -> tuple[Stages | None, dict[str, Any]]:
+    """A net and its diagram; where there is none to be drawn, a diagram that says why.
+
+    >>> from lsys_kit.derivation.petri.stages import stages
+    >>> from lsys_kit.notation.read import read
+    >>> net, diagram = net_entry(lambda: stages(read("axiom: a\\na -> ab\\nb -> a")))
+    >>> diagram["names"], [(place["name"], place["x"], place["y"]) for place in diagram["places"]]
+    (['a', 'b'], [('b', 31.0, 73.0), ('a', 109.0, 73.0)])
+    """
+    try:
+        net = made()
+        parts = parts_of(net, False, steering_of(net.system))
+        return net, _diagram(parts, [place_text(place, net.system) for place in net.places])
+    except LSystemError as error:
+        text = f"There is no stage diagram: {error.message}"
+        return None, _diagram(Parts(NARROW, LOW, text, (), (), (), (), (text,), LOW / 2), [])
+
+
+def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
+    return {"width": parts.width, "height": parts.height, "description": parts.description, "radius": RADIUS, "names": names,
+            "places": [*map(_place, parts.places)], "bars": [*map(_bar, parts.bars)], "arcs": [*map(_arc, parts.arcs)],
+            "notes": [*map(_note, parts.notes)],
+            "besides": [{"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": text}
+                        for line, text in enumerate(parts.besides)]}
+
+
+def _place(part: PlacePart) -> dict[str, Any]:
+    return {"place": part.place, "x": _tenths(part.x), "y": _tenths(part.y), "letter": part.letter, "subscript": part.subscript,
+            "values": part.values, "name": part.name, "title": part.title, "colour": part.colour, "strength": part.strength}
+
+
+def _bar(part: BarPart) -> dict[str, Any]:
+    return {"x": _tenths(part.x), "y": _tenths(part.y), "half": _tenths(part.half), "line": part.line, "terms": part.terms,
+            "full": part.full, "tx": _tenths(part.tx), "ty": _tenths(part.ty)}
+
+
+def _arc(part: ArcPart) -> dict[str, Any]:
+    return {"path": part.path, "band": part.band, "head": part.head}
+
+
+def _note(part: NotePart) -> list[Any]:
+    return [_tenths(part.x), _tenths(part.y), _tenths(part.width), part.text]
+
+
+def _tenths(pixels: float) -> float:
+    return round(pixels, 1)
