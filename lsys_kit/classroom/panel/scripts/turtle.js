@@ -1,0 +1,143 @@
+// The turtle: what the words of a book look like, in the plane or in space.
+//
+// `traced` interprets a word once and records a path that depends neither on the angle nor on the heading; `placed` then finds
+// where its points lie, as often as the angle changes.
+
+import { OWN_LOOK, newTurtle } from "./turtle_actions.js";
+import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
+import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
+
+const SIGN_COLOUR = "#009E73"; // of what a sign draws
+const MOST_CALLS = 10_000_000;
+const PATHS_KEPT = 8;
+const PICTURE_WIDTH = 600, PICTURE_HEIGHT = 400, PICTURE_MARGIN = 12, PICTURE_SCALE = 120;
+const BROADEST_PART = 0.5; // of a picture that the broadest stroke may fill before the drawing is made smaller for it
+
+const openedTurtles = new WeakMap();
+
+// The path of a step's word; the last few are kept.
+export function traced(book, step) {
+  const opened = openedTurtle(book), known = opened.paths.get(step), path = known ?? tracedAnew(book, step, opened);
+  opened.paths.delete(step);
+  opened.paths.set(step, path);
+  if (opened.paths.size > PATHS_KEPT) opened.paths.delete(opened.paths.keys().next().value);
+  return path;
+}
+
+// What all words of a book have in common: for each state the calls, the amounts of rotations, and the colours.
+function openedTurtle(book) {
+  if (!openedTurtles.has(book)) openedTurtles.set(book, openTurtle(book.data));
+  return openedTurtles.get(book);
+}
+
+function openTurtle({ mode, turtle, states, symbols }) {
+  const inSpace = mode === "space", actions = inSpace ? spaceActions() : planeActions(), amounts = [], known = new Map();
+  const amountNumber = (factor, addend) => {
+    const key = `${factor} ${addend}`;
+    if (!known.has(key)) known.set(key, amounts.push([factor, addend]) - 1);
+    return known.get(key);
+  };
+  const calls = turtle.calls.map((found) => found.filter(([name]) => Object.hasOwn(actions, name))
+    .map(([name, factor, given, values, surface]) => {
+      const addend = Number(given);
+      return { act: actions[name], factor, addend, values: values || [], faces: surface ? turtle.surfaces[surface] : null,
+        amount: amountNumber(factor, addend) };
+    }));
+  const ofStates = states.map(([symbol]) => symbols[symbol][2] || SIGN_COLOUR);
+  const palette = [...new Set([...ofStates, SIGN_COLOUR, ...turtle.colours])];
+  return { inSpace, calls, amounts, palette, paths: new Map(), chosen: turtle.colours.map((name) => palette.indexOf(name)),
+    ofStates: ofStates.map((name) => palette.indexOf(name)) };
+}
+
+function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofStates }) {
+  const setting = book.data.turtle, trail = inSpace ? spaceTrail(setting) : planeTrail(setting);
+  const turtle = newTurtle(trail, setting);
+  interpretWord(turtle, book.word(step), calls);
+  const colourOf = (state, colour) => (colour === OWN_LOOK ? ofStates[state] : chosen[colour % chosen.length]);
+  return {
+    dimension: inSpace ? 3 : 2, trail: trail.packed(), amounts, palette, heading: setting.heading, pixels: setting.pixels,
+    typical: medianLength(turtle.strokes.lengths), broadest: broadestOf(turtle.strokes.widths, OWN_LOOK),
+    ...shapesOf(turtle, colourOf),
+  };
+}
+
+function interpretWord(turtle, word, calls) {
+  let many = 0;
+  for (const state of word) many += calls[state].length;
+  if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${MOST_CALLS.toLocaleString("en")} commands`);
+  for (let place = 0; place < word.length; place++) {
+    const state = word[place];
+    turtle.place = place;
+    turtle.state = state;
+    for (const call of calls[state]) call.act(turtle, call);
+  }
+}
+
+function shapesOf({ strokes, faces, rounds }, colourOf) {
+  const whole = (numbers) => new Int32Array(numbers);
+  const common = ({ colours, positions, states }) => ({
+    colours: whole(colours.map((colour, i) => colourOf(states[i], colour))), positions: whole(positions),
+    states: whole(states),
+  });
+  return {
+    strokes: { n: strokes.to.length, from: whole(strokes.from), to: whole(strokes.to), orders: whole(strokes.orders),
+      widths: new Float64Array(strokes.widths), ...common(strokes) },
+    faces: { n: faces.states.length, starts: whole(faces.starts), corners: whole(faces.corners), ...common(faces) },
+    rounds: { n: rounds.states.length, centres: whole(rounds.centres), radii: new Float64Array(rounds.radii),
+      kinds: whole(rounds.kinds), ...common(rounds) },
+  };
+}
+
+// The shapes of a path for an angle, in degrees. Their points stay where they are until the path is placed anew.
+export function placed(path, angle) {
+  const { dimension, trail, amounts, palette, heading, typical, faces, rounds } = path, { n, x, y, z } = trail;
+  if (dimension === 2) placeInPlane(trail, angle, heading);
+  else placeInSpace(trail, amounts, angle, heading);
+  const bounds = boundsOf(path, trail), pixel = pixelOf(path, bounds);
+  return { dimension, n, x, y, z, strokes: { ...path.strokes, widths: widthsInUnits(path.strokes.widths, pixel) },
+    faces, rounds, palette, typical, bounds, pixel };
+}
+
+// The least and the greatest of each coordinate of all that is drawn; zeros where that is nothing.
+function boundsOf({ strokes, faces, rounds }, { x, y, z }) {
+  const found = (z ? [x, y, z] : [x, y]).map((places) => {
+    let least = Infinity, most = -Infinity;
+    for (const numbers of [strokes.from, strokes.to, faces.corners]) {
+      for (let i = 0; i < numbers.length; i++) {
+        const place = places[numbers[i]];
+        if (place < least) least = place;
+        if (place > most) most = place;
+      }
+    }
+    for (let i = 0; i < rounds.n; i++) {
+      least = Math.min(least, places[rounds.centres[i]] - rounds.radii[i]);
+      most = Math.max(most, places[rounds.centres[i]] + rounds.radii[i]);
+    }
+    return least <= most ? [least, most] : [0, 0];
+  });
+  return { least: found.map(([least]) => least), most: found.map(([, most]) => most) };
+}
+
+// The length of a pixel, where widths of strokes are in pixels: one of a picture of the usual size, and at most a unit.
+function pixelOf({ broadest, pixels }, { least, most }) {
+  if (!(pixels === "pixels" || (pixels === "auto" && broadest >= 1))) return 1;
+  const up = least.length - 1, room = Math.min(broadest, BROADEST_PART * PICTURE_HEIGHT);
+  const across = Math.max(most[0] - least[0], 1e-9), high = Math.max(most[up] - least[up], 1e-9);
+  const scale = Math.min((PICTURE_WIDTH - room - 2 * PICTURE_MARGIN) / across,
+    (PICTURE_HEIGHT - room - 2 * PICTURE_MARGIN) / high, PICTURE_SCALE);
+  return Math.min(1, 1 / scale);
+}
+
+function widthsInUnits(widths, pixel) {
+  return pixel === 1 ? widths : widths.map((width) => (width === OWN_LOOK ? OWN_LOOK : width * pixel));
+}
+
+function broadestOf(numbers, least) {
+  return numbers.reduce((most, number) => Math.max(most, number), least);
+}
+
+function medianLength(numbers) {
+  if (!numbers.length) return 1;
+  const sorted = Float64Array.from(numbers).sort(), middle = sorted.length >> 1;
+  return sorted.length % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+}

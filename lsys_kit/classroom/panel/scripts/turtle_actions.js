@@ -1,0 +1,201 @@
+// What a turtle carries, and the actions that are the same in the plane and in space, by name.
+//
+// A position is the number of a point, of which 0 is the origin; what an orientation is, the turtle's trail knows, which
+// records where points lie before the angle is known. Neither is ever changed, so that a branch can remember both. A call of
+// an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
+
+export const OWN_LOOK = -1; // stands for the width of a branch order and the colour of a symbol
+export const HOLLOW = 0; // the kind of a circle; discs are 1 and spheres 2
+const LARGEST_VALUE = 1e50;
+const LAST_COLOUR = 2 ** 31 - 1;
+const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
+const FRACTINT_COLOURS = 256, FRACTINT_WHITE = 15;
+const MOST_POINTS = 2_000_000;
+const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
+  "mirror", "secondHeading"];
+
+export function newTurtle(trail, { length, width }) {
+  const initial = { length, width: OWN_LOOK, colour: OWN_LOOK, gravitropism: 0 };
+  return {
+    ...initial, initial, trail, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
+    tropisms: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, openPolygons: [],
+    strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
+    faces: { starts: [0], corners: [], colours: [], positions: [], states: [] },
+    rounds: { centres: [], radii: [], kinds: [], colours: [], positions: [], states: [] },
+  };
+}
+
+// A number rounded to a whole one, halves to the even one, as the kernel does it.
+export function halfToEven(value) {
+  const whole = Math.round(value);
+  return whole - value === 0.5 && whole % 2 !== 0 ? whole - 1 : whole;
+}
+
+const amountOf = (call, quantity) => call.factor * quantity + call.addend;
+
+function bounded(what, value) {
+  if (!(Math.abs(value) <= LARGEST_VALUE))
+    throw new RangeError(`The turtle's ${what} grows too large to draw: ${Number(value.toPrecision(3))}`);
+  return value;
+}
+
+// How many points, corners or brackets there are, if that is not too much.
+export function roomFor(many) {
+  if (many > MOST_POINTS) throw new RangeError(`Too much to draw: more than ${MOST_POINTS.toLocaleString("en")} points`);
+  return many;
+}
+
+function moveAhead(turtle, length, drawn) {
+  const from = turtle.position, to = turtle.trail.step(turtle.orientation, length, from), { strokes } = turtle;
+  turtle.position = to;
+  if (!drawn) return;
+  turtle.last = to;
+  strokes.from.push(from);
+  strokes.to.push(to);
+  strokes.lengths.push(Math.abs(length));
+  strokes.orders.push(turtle.stack.length);
+  strokes.widths.push(turtle.width);
+  strokes.colours.push(turtle.colour);
+  strokes.positions.push(turtle.place);
+  strokes.states.push(turtle.state);
+  if (turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
+}
+
+function recordVertex(turtle) {
+  if (turtle.openPolygons.length) roomFor(turtle.openPolygons.at(-1).corners.push(turtle.position));
+}
+
+// One-time settings end with a stroke; the earliest value is set last, and stays.
+function endOneTimeSettings(turtle) {
+  for (const [name, value] of turtle.restored) turtle[name] = value;
+  turtle.restored = [];
+}
+
+function goAhead(drawn, vertex) {
+  return (turtle, call) => {
+    moveAhead(turtle, amountOf(call, turtle.length), drawn);
+    if (vertex) recordVertex(turtle);
+    if (drawn && turtle.restored.length) endOneTimeSettings(turtle);
+  };
+}
+
+function bySecondHeading(drawn) {
+  const ahead = goAhead(drawn, true);
+  return (turtle, call) => {
+    const { orientation } = turtle;
+    turtle.orientation = turtle.trail.headed(turtle.secondHeading);
+    ahead(turtle, call);
+    turtle.orientation = orientation;
+  };
+}
+
+function setLength(turtle, call) {
+  turtle.length = bounded("step", amountOf(call, turtle.length));
+}
+
+function setWidth(turtle, call) {
+  const before = turtle.width === OWN_LOOK ? turtle.firstWidth : turtle.width;
+  turtle.width = Math.max(0, bounded("width", amountOf(call, before)));
+}
+
+function setGravitropism(turtle, call) {
+  turtle.gravitropism = bounded("strength", amountOf(call, turtle.gravitropism));
+}
+
+function setColour(turtle, call) {
+  turtle.colour = Math.max(0, Math.min(LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour)))));
+}
+
+// Of Fractint's colours a step never leads to 0, that of the background.
+function setPaletteColour(turtle, call) {
+  const before = turtle.colour === OWN_LOOK ? FRACTINT_WHITE : turtle.colour, step = call.factor !== 0;
+  const colour = wrapped(Math.floor(amountOf(call, before)), FRACTINT_COLOURS);
+  turtle.colour = colour || !step ? colour : call.addend > 0 ? 1 : FRACTINT_COLOURS - 1;
+}
+
+// The remainder, which is never negative.
+export function wrapped(value, round) {
+  return (((value % round) + round) % round) + 0;
+}
+
+const resetTo = (name) => (turtle) => {
+  turtle[name] = turtle.initial[name];
+};
+
+const setOnce = (name, change) => (turtle, call) => {
+  turtle.restored = [[name, turtle[name]], ...turtle.restored];
+  change(turtle, call);
+};
+
+function openBranch(turtle) {
+  roomFor(turtle.stack.push(REMEMBERED.map((name) => turtle[name])));
+}
+
+function closeBranch(turtle) {
+  const remembered = turtle.stack.pop();
+  if (remembered) REMEMBERED.forEach((name, i) => (turtle[name] = remembered[i]));
+}
+
+function beginPolygon(turtle) {
+  roomFor(turtle.openPolygons.push({ corners: [], colour: turtle.colour, place: turtle.place, state: turtle.state }));
+}
+
+function endPolygon(turtle) {
+  const outline = turtle.openPolygons.pop();
+  if (outline && outline.corners.length > 2) addFace(turtle.faces, outline);
+}
+
+function addFace(faces, { corners, colour, place, state }) {
+  for (const corner of corners) faces.corners.push(corner);
+  faces.starts.push(roomFor(faces.corners.length));
+  faces.colours.push(colour);
+  faces.positions.push(place);
+  faces.states.push(state);
+}
+
+function drawSurface(turtle, call) {
+  const size = amountOf(call, turtle.length), { colour, place, state } = turtle;
+  if (!size || !call.faces) return;
+  for (const face of call.faces) {
+    const corners = face.map(([ahead, left, up]) =>
+      turtle.trail.local(turtle.orientation, turtle.position, size * ahead, size * left, size * up));
+    addFace(turtle.faces, { corners, colour, place, state });
+  }
+}
+
+function drawExpectedSurface(turtle, call) {
+  if (turtle.expectsSurface) drawSurface(turtle, call);
+  turtle.expectsSurface = false;
+}
+
+function drawRound(kind) {
+  return (turtle, call) => {
+    const width = amountOf(call, turtle.width === OWN_LOOK ? ROUND_WIDTH : turtle.width), { rounds } = turtle;
+    roomFor(rounds.centres.push(turtle.position));
+    rounds.radii.push(Math.abs(width) / 2);
+    rounds.kinds.push(kind);
+    rounds.colours.push(turtle.colour);
+    rounds.positions.push(turtle.place);
+    rounds.states.push(turtle.state);
+  };
+}
+
+export function commonActions() {
+  return {
+    "draw": goAhead(true, true), "move": goAhead(false, true),
+    "draw without vertex": goAhead(true, false), "move without vertex": goAhead(false, false),
+    "draw by second heading": bySecondHeading(true), "move by second heading": bySecondHeading(false),
+    "turn second heading": (turtle, call) => { turtle.secondHeading += turtle.mirror * call.addend; },
+    "mirror turns": (turtle) => { turtle.mirror = -turtle.mirror; },
+    "set length": setLength, "reset length": resetTo("length"), "set length once": setOnce("length", setLength),
+    "set width": setWidth, "reset width": resetTo("width"), "set width once": setOnce("width", setWidth),
+    "set gravitropism": setGravitropism, "reset gravitropism": resetTo("gravitropism"),
+    "set gravitropism once": setOnce("gravitropism", setGravitropism),
+    "set colour": setColour, "reset colour": resetTo("colour"), "set palette colour": setPaletteColour,
+    "push": openBranch, "pop": closeBranch,
+    "begin polygon": beginPolygon, "record vertex": recordVertex, "end polygon": endPolygon,
+    "expect surface": (turtle) => { turtle.expectsSurface = true; },
+    "draw expected surface": drawExpectedSurface, "draw surface": drawSurface,
+    "draw circle": drawRound(HOLLOW), "draw disc": drawRound(1), "draw sphere": drawRound(2),
+  };
+}

@@ -1,0 +1,70 @@
+// A turtle's trail in the plane: for each point how often the turtle has turned by the angle, how many degrees it has turned
+// besides, how far it went, and from which earlier point. None of this depends on the angle.
+//
+// An orientation is [turns, degrees, side]: both to the left, and the side on which its left lies, 1, or -1 after a roll by
+// half a turn. Point 0 is the origin.
+
+import { commonActions, roomFor, wrapped } from "./turtle_actions.js";
+
+const RADIANS_PER_DEGREE = Math.PI / 180;
+const LARGEST_EXACT = 2 ** 40; // greater angles are reduced to less than a full turn: the number of turns is whole
+
+export function planeTrail({ side }) {
+  const turns = [0], degrees = [0], lengths = [0], parents = [0];
+
+  function record(turned, offset, length, parent) {
+    turns.push(turned);
+    degrees.push(offset);
+    lengths.push(length);
+    return roomFor(parents.push(parent)) - 1;
+  }
+
+  return {
+    orientation: [0, 0, side],
+    headed: (offset) => [0, offset, 1],
+    step: ([turned, offset], length, parent) => record(turned, offset, length, parent),
+    local: ([turned, offset, left], parent, ahead, across) =>
+      record(turned, offset + (left * Math.atan2(across, ahead)) / RADIANS_PER_DEGREE, Math.hypot(ahead, across), parent),
+    // A point on the step that leads to another.
+    between: (last, part) => record(turns[last], degrees[last], lengths[last] * part, parents[last]),
+    packed: () => ({
+      n: parents.length, turns: new Float64Array(turns), degrees: new Float64Array(degrees),
+      lengths: new Float64Array(lengths), parents: new Int32Array(parents),
+      x: new Float64Array(parents.length), y: new Float64Array(parents.length),
+    }),
+  };
+}
+
+function turnInPlane(turtle, call) {
+  const [turns, degrees, side] = turtle.orientation;
+  turtle.orientation = [turns + side * call.factor, degrees + side * call.addend, side];
+}
+
+function turnMirroredInPlane(turtle, call) {
+  const [turns, degrees, side] = turtle.orientation;
+  turtle.orientation = [turns + turtle.mirror * call.factor, degrees, side];
+}
+
+function rollInPlane(turtle, call) {
+  const [turns, degrees, side] = turtle.orientation;
+  if (call.factor === 0 && wrapped(call.addend, 360) === 180) turtle.orientation = [turns, degrees, -side];
+}
+
+export function returnToStroke(turtle, call) {
+  if (turtle.last) turtle.position = turtle.trail.between(turtle.last, call.factor + call.addend);
+}
+
+export function planeActions() {
+  return { ...commonActions(), "turn": turnInPlane, "turn back": turnInPlane, "turn by mirrored angle": turnMirroredInPlane,
+    "roll": rollInPlane, "return to stroke": returnToStroke };
+}
+
+// Find where the points of a trail lie for an angle.
+export function placeInPlane({ n, turns, degrees, lengths, parents, x, y }, wanted, heading) {
+  const angle = Math.abs(wanted) > LARGEST_EXACT ? wanted % 360 : wanted;
+  for (let i = 1; i < n; i++) {
+    const direction = (turns[i] * angle + degrees[i] + heading) * RADIANS_PER_DEGREE, from = parents[i];
+    x[i] = x[from] + lengths[i] * Math.cos(direction);
+    y[i] = y[from] + lengths[i] * Math.sin(direction);
+  }
+}

@@ -1,0 +1,65 @@
+"""Books of turtles for the scripts of the panel, and the scripts themselves, in an empty page of a browser."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Page
+
+import lsys_kit.classroom.panel
+from lsys_kit.derivation.core.interpretation import interpretations
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.instructions import Instruction, instructions
+from lsys_kit.geometry.turtle.mode import drawing_mode
+from lsys_kit.geometry.turtle.surfaces import surface_called, surfaces
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+from lsys_kit.pictures.draw import state_colours
+from lsys_kit.pictures.style.palette import CHOSEN
+
+SCRIPTS = Path(lsys_kit.classroom.panel.__file__).parent / "scripts"
+TURTLE = ("turtle_actions", "turtle_plane", "turtle_space", "turtle")
+PAINTER = ("view_frame", "painting_order", "painter")
+IMPORT = re.compile(r"^import .*;$\n", re.MULTILINE)
+
+
+def joined(*names: str) -> str:
+    """Some scripts as one text without imports and exports."""
+    texts = [(SCRIPTS / f"{name}.js").read_text(encoding="utf-8") for name in names]
+    return "\n".join(re.sub(r"^export ", "", IMPORT.sub("", text), flags=re.MULTILINE) for text in texts)
+
+
+def answers(page: Page, code: str, given: Any, *names: str) -> Any:
+    """What some code makes of what is given, with the scripts before it."""
+    return page.evaluate(f"given => {{ {joined(*names)}\n{BOOKS}\n{code} }}", given)
+
+
+BOOKS = "const bookOf = (data) => ({ data, word: (step) => Int32Array.from(data.words[step]) });"
+
+
+def book_of(words: Sequence[Word]) -> dict[str, Any]:
+    """As much of the book of some words of one derivation as a turtle needs."""
+    states, system = words[0].states, words[0].states.system
+    numbers = list(range(len(states.modules)))
+    dialect, colour_of = TURTLE_DIALECTS[system.turtle], state_colours(words[-1])
+    compiled = instructions(interpretations(states, numbers), system.turtle, system.angle)
+    return {
+        "mode": drawing_mode(system).name.lower(), "words": [word.numbers() for word in words],
+        "symbols": [[str(state), "", colour_of[state], 0] for state in numbers], "states": [[state] for state in numbers],
+        "turtle": {
+            "side": dialect.left, "length": initial_step(system), "width": dialect.width, "heading": float(system.heading),
+            "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+            "calls": [[call_of(each) for each in compiled[state]] for state in numbers],
+            "surfaces": {name: surface.faces for name, surface in surfaces().items()}, "colours": CHOSEN}}
+
+
+def call_of(instruction: Instruction) -> list[Any]:
+    """An instruction in a book; an infinite strength is written in letters."""
+    action, factor, addend, values, symbol, surface = instruction
+    if action == "draw expected surface":
+        found = surface_called(symbol)
+        surface = found.name if found else ""
+    return [action, factor, addend if abs(addend) < float("inf") else "Infinity", list(values) or 0, surface or 0]

@@ -1,0 +1,88 @@
+"""The turtle in the browser draws what the turtle of the kit draws: the same shapes at the same points, for every angle."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lsys_kit import derive, read
+from lsys_kit.classroom.catalogue import system, systems
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.plane import place_path, trace
+from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+from lsys_kit.pictures.display_list import numbered_colours
+from lsys_kit.pictures.draw import state_colours
+from lsys_kit.pictures.line_widths import in_units
+from tests.classroom.front_end import TURTLE, answers, book_of
+
+MOST_MODULES, LAST_STEP = 5_000, 6
+SHAPES = """
+const plain = (value) => ArrayBuffer.isView(value) || Array.isArray(value) ? Array.from(value) : value;
+const taken = (group) => Object.fromEntries(Object.entries(group).map(([name, value]) => [name, plain(value)]));
+return given.map(({ book, angles }) => book.words.map((word, step) => {
+  const opened = bookOf(book);
+  return angles.map((angle) => {
+    const { x, y, z, strokes, faces, rounds, palette, typical } = placed(traced(opened, step), angle);
+    return { points: [x, y, z ?? []].map(plain), strokes: taken(strokes), faces: taken(faces), rounds: taken(rounds), palette, typical };
+  });
+}));
+"""
+
+
+@pytest.fixture(scope="module")
+def page(browser):
+    return browser.new_page()
+
+
+def scene_by_kit(word, angle):
+    """The scene that the kit makes of a word, with the widths of its strokes in units."""
+    made_by = word.states.system
+    flat = drawing_mode(made_by) is DrawingMode.PLANE
+    scene = place_path(trace(word), angle, float(made_by.heading)) if flat else trace_in_space(word, angle)
+    return in_units([scene], made_by)[0]
+
+
+def expect_scenes(page, words, *others):
+    """The browser draws the words of a derivation as the kit does, for the system's angle and others."""
+    angles = [float(words[0].states.system.angle), *others]
+    [steps] = answers(page, SHAPES, [{"book": book_of(words), "angles": angles}], *TURTLE)
+    for word, shown in zip(words, steps, strict=True):
+        for angle, shapes in zip(angles, shown, strict=True):
+            expect_same(shapes, scene_by_kit(word, angle), word, words[-1])
+
+
+def expect_same(shapes, scene, word, last):
+    points = np.array([axis for axis in shapes["points"] if axis]).T
+    strokes, faces, rounds = shapes["strokes"], shapes["faces"], shapes["rounds"]
+    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
+    close = functools.partial(pytest.approx, rel=1e-9, abs=1e-9 * max(1.0, *map(np.ptp, scene.corners), np.abs(points).max()))
+    ends = np.concatenate([points[strokes["from"]], points[strokes["to"]]], axis=1)
+    assert ends == close(segments.ends)
+    assert points[faces["corners"]].reshape(-1) == close(polygons.points.reshape(-1))
+    assert points[rounds["centres"]].reshape(-1) == close(discs.centres.reshape(-1))
+    assert strokes["widths"] == pytest.approx(np.broadcast_to(segments.widths, len(segments)), rel=1e-9)
+    assert rounds["radii"] == pytest.approx(discs.radii, rel=1e-9)
+    assert (strokes["orders"], faces["starts"], rounds["kinds"]) == (
+        segments.orders.tolist(), polygons.starts.tolist(), discs.kinds.tolist())
+    for found, kept in ((strokes, segments), (faces, polygons), (rounds, discs)):
+        assert found["states"] == kept.states.tolist() == [word.codes[place] for place in found["positions"]]
+        names, numbers = numbered_colours(kept.states, kept.colours, state_colours(last))
+        assert shapes["palette"] == names
+        assert found["colours"] == np.broadcast_to(numbers, len(kept)).tolist()
+
+
+TURTLES = [id for id in systems() if drawing_mode(system(id)) is not DrawingMode.FILAMENT]
+
+
+@pytest.mark.parametrize("id", TURTLES)
+def test_every_drawing_of_the_catalogue(page, id):
+    words = list(derive(system(id), LAST_STEP, seed=1))
+    expect_scenes(page, [word for word in words if len(word) <= MOST_MODULES], 17.3, 90.0, -144.5)
