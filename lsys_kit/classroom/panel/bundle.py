@@ -1,7 +1,7 @@
 """The scripts of the panel, joined into one text: a widget and a page without a kernel each take a single module.
 
-The scripts are modules of JavaScript that import one another by name. Joined, they share one scope; so what they import is
-there already, and no two of them may define the same name.
+The scripts are modules of JavaScript that import one another by name. Joined, each is a function of its own that returns what the
+module exports, so that their other names do not meet.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from graphlib import TopologicalSorter
 from importlib.resources import files
 
 _IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+)\.js";\n', re.MULTILINE)
-_EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) )", re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 
 
 @cache
 def bundled(name: str) -> str:
-    """A script after all scripts that it needs.
+    """A script after all scripts that it needs; its own names are those of the text.
 
     >>> bundled("widget").count("import ")
     0
@@ -30,7 +30,18 @@ def bundled(name: str) -> str:
             needed[script] = set(_IMPORT.findall(source(script)))
             todo += needed[script]
     order = TopologicalSorter({script: sorted(needed[script]) for script in sorted(needed)}).static_order()
-    return "\n".join(_EXPORT.sub("", _IMPORT.sub("", source(script))) for script in order)
+    return "\n".join(_plain(script) if script == name else _enclosed(script) for script in order)
+
+
+def _plain(name: str) -> str:
+    """A script without the words by which modules import and export."""
+    return _EXPORT.sub("", _IMPORT.sub("", source(name)))
+
+
+def _enclosed(name: str) -> str:
+    """A script as a function that returns what the module exports."""
+    exported = f"{{ {', '.join(_EXPORT.findall(source(name)))} }}"
+    return f"const {exported} = (() => {{\n{_plain(name)}return {exported};\n}})();\n"
 
 
 @cache

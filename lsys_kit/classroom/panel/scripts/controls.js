@@ -96,8 +96,20 @@ function nearest(numbers, wanted) {
   return best;
 }
 
-export function button(text, hint, pressed, more = {}) {
-  return made("button", { type: "button", class: "lsys-button", title: hint, "aria-label": hint, onclick: pressed, ...more }, text);
+// A button with a text, or with an icon.
+export function button(face, hint, pressed, more = {}) {
+  const inside = ICONS[face] ? icon(face) : face, name = ICONS[face] ? { "aria-label": hint } : {};
+  return made("button", { type: "button", class: "lsys-button", title: hint, ...name, onclick: pressed, ...more }, inside);
+}
+
+const ICONS = { // of 16 x 16 pixels
+  first: "M8 3L3 8l5 5zM13 3L8 8l5 5z", back: "M13 3L6 8l7 5zM3.5 3v10", play: "M4 3l9 5-9 5z", pause: "M4 3h2v10H4zM10 3h2v10h-2z",
+  forward: "M5 3l7 5-7 5zM13 3v10", wide: "M2.5 6V2.5H6M10 2.5h3.5V6M13.5 10v3.5H10M6 13.5H2.5V10",
+  die: "M2.5 2.5h11v11h-11zM5 5h1v1H5zM10 5h1v1h-1zM5 10h1v1H5zM10 10h1v1h-1zM7.5 7.5h1v1h-1z",
+};
+
+export function icon(name) {
+  return drawn("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true", class: `lsys-icon lsys-icon-${name}` }, drawn("path", { d: ICONS[name] }));
 }
 
 // A list to choose from: `options` are pairs of a value and its text.

@@ -10,6 +10,7 @@ import { countsView } from "./counts.js";
 import { drawingView } from "./drawing.js";
 import { galleryView } from "./gallery.js";
 import { keeping } from "./keeping.js";
+import { library } from "./library.js";
 import { netView } from "./net.js";
 import { player } from "./player.js";
 import { rulesView } from "./rules.js";
@@ -20,14 +21,13 @@ import { folding } from "./views.js";
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
 const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
 const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
-const MOST_BYTES = 2e6; // of the books of neighbouring settings
 
 // `compared` has { first, shown(book, step) } where the panel is one of two beside each other.
 export function openPanel(element, host, compared = null) {
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
-  const books = new Map(), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, book, theme, resting = 0, asking = 0, idle = 0, traced = null, shownTheme = "", boxed = null, fetched = 0;
+  const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
+  let model, book, theme, resting = 0, asking = 0, idle = 0, traced = null, shownTheme = "", boxed = null;
   let constants = [], nine = { key: "", first: 0 }, bred = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
@@ -41,7 +41,7 @@ export function openPanel(element, host, compared = null) {
   const mark = list("mark", "the stage that is marked in all views", [["", "no stage"]], "", (name) => change({ mark: name }));
   const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
   const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), 0, (at) => host.set("seed", at));
-  const die = button("\u2684", "another seed, at random", () => sow(Math.floor(Math.random() * 1000)));
+  const die = button("die", "another seed, at random", () => sow(Math.floor(Math.random() * 1000)));
   const play = player(() => ({ now: host.get("step"), most: book.steps }), (at) => change({ step: at }), () => show());
   const reset = button("reset", "back to the first settings", goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
@@ -71,47 +71,31 @@ export function openPanel(element, host, compared = null) {
     resting = setTimeout(() => host.save(), REST);
   }
 
-  // Another setting of the constants: its book, which the kernel is asked for at most once.
-  async function ask(quietly = false) {
-    const asked = request(), key = JSON.stringify(asked), number = ++asking;
+  // Another setting of the constants, or another seed: another book.
+  async function ask() {
+    const asked = request(), number = ++asking;
     clearTimeout(resting);
     resting = setTimeout(() => host.save(), REST);
-    if (!books.has(key)) {
-      const answer = await host.book(asked);
-      if (answer.book) keepBook(key, answer.book);
-      else if (number === asking && !quietly) say(answer.mistake);
-    }
-    if (number !== asking || !books.has(key)) return;
-    turnTo(books.get(key));
+    const known = books.known(asked), answer = known ? { book: known } : await books.book(asked);
+    if (number !== asking) return;
+    if (answer.mistake) return say(answer.mistake);
+    turnTo(answer.book);
     clearTimeout(idle);
-    idle = setTimeout(fetchNeighbours, REST);
+    idle = setTimeout(() => books.fetchAhead(neighbours()), REST);
   }
 
   const request = () => ({ constants: { ...host.get("settings") }, seed: host.get("seed") });
 
-  function keepBook(key, data) {
-    books.set(key, openBook(data));
-    fetched += JSON.stringify(data).length;
-  }
-
-  // The books of the neighbouring settings, while nothing else happens.
-  async function fetchNeighbours() {
-    const now = asking;
-    for (const each of constants) for (const way of [1, -1]) {
-      const index = each.control.index + way;
-      if (index < 0 || index >= each.texts.length || fetched > MOST_BYTES || now !== asking) continue;
-      const asked = { ...request(), constants: { ...host.get("settings"), [each.name]: each.texts[index] } }, key = JSON.stringify(asked);
-      if (books.has(key)) continue;
-      const answer = await host.book(asked);
-      if (answer.book) keepBook(key, answer.book);
-    }
+  // The settings that one movement of a slider leads to.
+  function neighbours() {
+    return constants.flatMap((each) => [1, -1].map((way) => each.control.index + way).filter((index) => index >= 0 && index < each.texts.length)
+      .map((index) => ({ ...request(), constants: { ...host.get("settings"), [each.name]: each.texts[index] } })));
   }
 
   async function newRules(text) {
     const number = ++asking, answer = await host.rules(text);
     if (number !== asking || answer === null) return;
     if (answer.mistake) return rules.mistaken(answer.mistake);
-    books.clear();
     host.set("model", answer.model);
   }
 
@@ -119,7 +103,6 @@ export function openPanel(element, host, compared = null) {
   function openModel() {
     model = host.get("model");
     books.clear();
-    fetched = 0;
     const settings = Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]]));
     if (JSON.stringify(Object.keys(host.get("settings"))) !== JSON.stringify(Object.keys(settings))) host.set("settings", settings);
     constants = model.constants.map((each) => ({
@@ -134,10 +117,14 @@ export function openPanel(element, host, compared = null) {
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable);
     [bred, nine] = [[], { key: "", first: 0 }];
-    keepBook(JSON.stringify(request()), model.book);
-    boxed = Math.min(model.step, books.values().next().value.steps);
+    const first = books.keep({ constants: settings, seed: model.seed }, model.book);
+    boxed = Math.min(model.step, first.steps);
     rules.open(model.book.text, host.editable);
-    turnTo(books.get(JSON.stringify(request())));
+    if (books.known(request())) turnTo(books.known(request()));
+    else {
+      turnTo(first);
+      ask();
+    }
   }
 
   function turnTo(next) {
@@ -203,13 +190,9 @@ export function openPanel(element, host, compared = null) {
       nine = { key, first };
       const entries = [];
       for (let each = first; each < first + 9; each++) {
-        const asked = { ...request(), seed: each }, known = JSON.stringify(asked);
-        if (!books.has(known)) {
-          const answer = await host.book(asked);
-          if (answer.mistake) return say(answer.mistake);
-          keepBook(known, answer.book);
-        }
-        entries.push({ label: `seed ${each}`, book: books.get(known) });
+        const answer = await books.book({ ...request(), seed: each });
+        if (answer.mistake) return say(answer.mistake);
+        entries.push({ label: `seed ${each}`, book: answer.book });
       }
       if (nine.key !== key) return;
       seeds.open(entries);

@@ -1,15 +1,15 @@
 // Step after step by itself: play, back, single steps, speed, loop.
 
-import { made, button, list } from "./controls.js";
+import { made, button, icon, list } from "./controls.js";
 
 const SPEEDS = [["1200", "slow"], ["600", "normal"], ["250", "fast"]]; // milliseconds a step
 
 // `steps` tells { now, most }; `go` goes to a step.
 export function player(steps, go, moved) {
   let timer = 0, pause = 600;
-  const play = button("\u25b6", "play", toggle, { class: "lsys-button lsys-play" });
-  const back = button("\u25c0", "one step back", () => one(-1)), forward = button("\u25b6\uff5c", "one step on", () => one(1));
-  const first = button("\uff5c\u25c0", "to step 0", () => { stop(); go(0); });
+  const play = button("play", "play", toggle, { class: "lsys-button lsys-play" });
+  const back = button("back", "one step back", () => one(-1)), forward = button("forward", "one step on", () => one(1));
+  const first = button("first", "to step 0", () => { stop(); go(0); });
   const loop = made("input", { type: "checkbox", id: `lsys-loop-${Math.random().toString(36).slice(2)}` });
   const speed = list("speed", "how long each step is shown", SPEEDS, "600", (value) => {
     pause = Number(value);
@@ -34,7 +34,7 @@ export function player(steps, go, moved) {
   function start() {
     clearInterval(timer);
     timer = setInterval(tick, pause);
-    play.textContent = "\u2759\u2759";
+    play.replaceChildren(icon("pause"));
     play.setAttribute("aria-label", "pause");
     play.title = "pause";
     moved(true);
@@ -44,7 +44,7 @@ export function player(steps, go, moved) {
     if (!timer) return;
     clearInterval(timer);
     timer = 0;
-    play.textContent = "\u25b6";
+    play.replaceChildren(icon("play"));
     play.setAttribute("aria-label", "play");
     play.title = "play";
     moved(false);

@@ -14,7 +14,7 @@ export function folding(parent, root, views, changed) {
       tab.setAttribute("aria-pressed", String(!section.hidden));
       changed();
     }, { "aria-pressed": String(open), class: "lsys-button lsys-tab" });
-    const wide = button("\u26f6", `${title} on the whole screen`, () => (document.fullscreenElement ? document.exitFullscreen() : section.requestFullscreen()));
+    const wide = button("wide", `${title} on the whole screen`, () => (document.fullscreenElement ? document.exitFullscreen() : section.requestFullscreen()));
     section.append(made("div", { class: "lsys-title" }, title, wide), body);
     parent.append(section);
     tabs.append(tab);

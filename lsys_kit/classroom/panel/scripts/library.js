@@ -1,0 +1,44 @@
+// The books of a model, by their settings: each is asked for at most once.
+
+import { openBook } from "./book.js";
+
+const MOST_BYTES = 2e6; // of books that were fetched before anybody asked for them
+
+export function library(host) {
+  const books = new Map();
+  let fetched = 0, fetching = 0;
+
+  const keyOf = (settings) => JSON.stringify([Object.entries(settings.constants).sort(), settings.seed]);
+
+  function keep(settings, data) {
+    const key = keyOf(settings);
+    if (!books.has(key)) fetched += JSON.stringify(data).length;
+    books.set(key, openBook(data));
+    return books.get(key);
+  }
+
+  // A book, or the mistake that there is none.
+  async function book(settings) {
+    const known = books.get(keyOf(settings));
+    if (known) return { book: known };
+    const answer = await host.book(settings);
+    return answer.book ? { book: keep(settings, answer.book) } : { mistake: answer.mistake };
+  }
+
+  // Fetch the books of some settings while nothing else happens; what is fetched later ends it.
+  async function fetchAhead(many) {
+    const number = ++fetching;
+    for (const settings of many) {
+      if (number !== fetching || fetched > MOST_BYTES) return;
+      if (!books.has(keyOf(settings))) await book(settings);
+    }
+  }
+
+  function clear() {
+    books.clear();
+    fetching += 1;
+    fetched = 0;
+  }
+
+  return { book, keep, fetchAhead, clear, known: (settings) => books.get(keyOf(settings)) };
+}
