@@ -8,7 +8,7 @@ import pytest
 from ipywidgets import FloatSlider, IntSlider, link
 from PIL import Image
 
-from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, explore, limits, read, system
+from lsys_kit import LSystemError, ModelValueError, derive, explore, limits, read, system
 from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
@@ -88,7 +88,7 @@ def test_a_step_beyond_the_last_says_why_there_are_no_more():
 
 
 def test_a_first_step_past_the_limit_is_refused():
-    with pytest.raises(ModelLimitError, match="195,311 modules; the limit is 100,000"):
+    with pytest.raises(ModelValueError, match="steps 0 to 6, not 7.*195,311 modules; the limit is 100,000"):
         explore("K5", 7)
 
 
@@ -113,8 +113,15 @@ def test_the_browser_gets_the_book_of_the_settings_it_asks_for(monkeypatch):
 
 
 def test_what_cannot_be_computed_for_some_settings_is_answered_with_the_reason(monkeypatch):
-    panel = explore(read("c = 2 in 0 .. 4\naxiom: A(1)\nA(t) : t/c < 9 -> A(t+1)"), 3)
+    panel = explore(read("c = 2 in 0 .. 4\naxiom: A(6/c)\nA(t) -> A(t+1)"), 3)
     assert "division by zero" in book_for(panel, monkeypatch, c="0")["mistake"]["message"]
+
+
+def test_a_book_ends_before_a_step_that_cannot_be_computed(monkeypatch):
+    panel = explore(read("c = 2 in 0 .. 4\naxiom: A(1)\nA(t) : t/c < 9 -> A(t+1)"), 3)
+    found = book_for(panel, monkeypatch, c="0")["book"]
+    assert found["steps"] == 0
+    assert "division by zero" in found["end"]
 
 
 def test_another_seed_is_another_book(monkeypatch):
@@ -126,7 +133,7 @@ def test_another_seed_is_another_book(monkeypatch):
 
 @pytest.mark.parametrize(("text", "told", "place"), [
     ("axiom: A\nA -> A(t", "is never closed", (15, 16)),
-    ("axiom: A\nA = B C", 'single "="', (11, 12)),
+    ("axiom: A\nA = B C", 'I did not expect "C" here', (15, 16)),
     ("axiom: A\nA(t) -> B(u)", 'I do not know the name "u"', (19, 20))])
 def test_a_mistake_in_the_rules_is_answered_with_its_place(monkeypatch, text, told, place):
     panel = explore("J1", 4)

@@ -132,6 +132,9 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=settings)
         with self._limited(), Task("The step was not shown"):
             self.model = self._model_of(self._opened, first)
+        if step is None:
+            self.step = self.model["step"]
+        self._check_step(self.step)
         self._offer_constants()
         self._ready = True
         self.on_msg(self._answer)
@@ -161,10 +164,13 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:
         step: int = proposal["value"]
-        last = self.model["book"]["steps"] if self._ready else step
-        if not 0 <= step <= last:
-            raise ModelValueError(f"The panel shows steps 0 to {last}, not {step}", hint=self.model["book"]["end"] or None)
+        self._check_step(step)
         return step
+
+    def _check_step(self, step: int) -> None:
+        last, end = (self.model["book"][entry] for entry in ("steps", "end")) if self.model else (step, "")
+        if not 0 <= step <= last:
+            raise ModelValueError(f"The panel shows steps 0 to {last}, not {step}", hint=end or None)
 
     @traitlets.validate("settings")
     def _possible_settings(self, proposal: Any) -> dict[str, str]:

@@ -3,7 +3,7 @@
 import { made, drawn } from "./controls.js";
 import { counted } from "./word.js";
 
-const WIDTH = 640, HEIGHT = 110, LEFT = 52, RIGHT = 12, TOP = 14, BOTTOM = 24;
+const WIDTH = 380, HEIGHT = 150, LEFT = 52, RIGHT = 12, TOP = 14, BOTTOM = 24;
 const STEEP = 50; // from this ratio of the greatest to the least on, the scale is logarithmic
 
 export function countsView(parent, chosen) {

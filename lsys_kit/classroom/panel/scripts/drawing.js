@@ -2,7 +2,7 @@
 
 import { made } from "./controls.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
-import { frameOf, paint, shapeAt } from "./painter.js";
+import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
 import { placed, traced } from "./turtle.js";
 
 const ROWS = 24; // of a developmental sequence
@@ -72,7 +72,7 @@ export function drawingView(parent, told) {
       paintSequence(pen, sheet, look);
     } else {
       const visible = gliding();
-      const box = now.boxed === null ? null : placed(traced(book, Math.max(now.boxed, now.step)), now.angle).bounds;
+      const box = now.boxed === null ? null : boundsOf(placed(traced(book, Math.max(now.boxed, now.step)), now.angle));
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
       paint(pen, visible, frame, look);
       if (empty()) nothing(width, height);

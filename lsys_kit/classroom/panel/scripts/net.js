@@ -3,6 +3,7 @@
 import { drawn } from "./controls.js";
 import { fillColour, lineColour } from "./colours.js";
 
+const LEGIBLE = 0.82; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
 
 export function netView(parent, chosen) {
@@ -12,7 +13,7 @@ export function netView(parent, chosen) {
     net = next;
     places = new Map();
     const sheet = drawn("svg", {
-      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group",
+      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group", style: `min-width:${Math.round(LEGIBLE * net.width)}px`,
       "aria-label": net.description,
     });
     for (const place of net.places) sheet.append(stage(place, theme));

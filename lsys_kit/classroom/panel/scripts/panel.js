@@ -27,14 +27,14 @@ export function openPanel(element, host, compared = null) {
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
   const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, book, theme, resting = 0, asking = 0, idle = 0, traced = null, shownTheme = "", boxed = null;
+  let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, shownTheme = "", boxed = null;
   let constants = [], nine = { key: "", first: 0 }, bred = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
 
   const status = made("div", { class: "lsys-status", role: "status" }), sentence = made("div", { class: "lsys-sentence", role: "status" });
   const message = made("div", { class: "lsys-message", role: "alert", hidden: true });
-  const step = slider("step", "the step of the derivation", ["0"], 0, (at) => change({ step: at }));
+  const step = slider("step", "the step of the derivation", ["0"], 0, goTo);
   const angle = slider("angle", "degrees by which the turtle turns", ANGLES, 900, (at) => change({ angle: at / 10 }));
   const around = slider("around", "the side from which it is seen: 0 is the front, 90 the right", DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }));
   const above = slider("above", "the height from which it is seen: 0 is the side, 90 the top", DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }));
@@ -42,7 +42,7 @@ export function openPanel(element, host, compared = null) {
   const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
   const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), 0, (at) => host.set("seed", at));
   const die = button("die", "another seed, at random", () => sow(Math.floor(Math.random() * 1000)));
-  const play = player(() => ({ now: host.get("step"), most: book.steps }), (at) => change({ step: at }), () => show());
+  const play = player(() => ({ now: host.get("step"), most: book.steps }), goTo, () => show());
   const reset = button("reset", "back to the first settings", goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
   const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
@@ -58,11 +58,16 @@ export function openPanel(element, host, compared = null) {
     turned: (right, up) => change({ around: right, above: up }),
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
   });
-  const counts = countsView(view.counts.body, (at) => change({ step: at }));
+  const counts = countsView(view.counts.body, goTo);
   const seeds = galleryView(view.seeds.body, (number) => sow(nine.first + number)), variants = galleryView(view.variants.body, (number) => rules.put(bred[number].text));
   root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
 
   // -- what happens ---------------------------------------------------------------------------------------------------
+
+  function goTo(at) {
+    wanted = at;
+    change({ step: at });
+  }
 
   // Some settings of the browser's own: they are shown at once; the kernel is told when the movement has come to rest.
   function change(settings) {
@@ -132,8 +137,8 @@ export function openPanel(element, host, compared = null) {
     traced = null;
     theme = themeOf(root);
     shownTheme = JSON.stringify(theme);
-    step.offer(DEGREES(0, book.steps), Math.min(host.get("step"), book.steps));
-    if (host.get("step") > book.steps) host.set("step", book.steps);
+    host.set("step", Math.min(wanted, book.steps)); // a setting with fewer steps does not forget which was wanted
+    step.offer(DEGREES(0, book.steps), host.get("step"));
     mark.offer([["", "no stage"], ...book.data.net.places.map((place) => [place.name, place.name])], place(host.get("mark")) ? host.get("mark") : "");
     net.open(book.data.net, theme);
     drawing.open(book);
@@ -255,7 +260,8 @@ export function openPanel(element, host, compared = null) {
     host.set("settings", Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]])));
     sow(model.seed);
     drawing.home();
-    change({ step: Math.min(model.step, book.steps), angle: model.angle, around: model.around, above: model.above, mark: "" });
+    wanted = model.step;
+    change({ step: Math.min(wanted, book.steps), angle: model.angle, around: model.around, above: model.above, mark: "" });
   }
 
   function state() {
@@ -281,6 +287,7 @@ export function openPanel(element, host, compared = null) {
       show();
     });
   };
+  offs.push(host.on("step", (at) => { if (at !== Math.min(wanted, book.steps)) wanted = at; }));
   for (const name of ["step", "angle", "around", "above", "mark"]) offs.push(host.on(name, later));
   offs.push(host.on("settings", () => {
     for (const each of constants) each.control.show(Math.max(0, each.texts.indexOf(host.get("settings")[each.name])));

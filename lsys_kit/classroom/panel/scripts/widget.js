@@ -34,8 +34,9 @@ function hostOf(model) {
         model.on("comm_live_update", heard);
         return () => model.off("comm_live_update", heard);
       }
-      model.on(`change:${name}`, handler);
-      return () => model.off(`change:${name}`, handler);
+      const heard = () => handler(model.get(name));
+      model.on(`change:${name}`, heard);
+      return () => model.off(`change:${name}`, heard);
     },
     save: () => model.save_changes(),
     book: (settings) => ask({ kind: "book", ...settings }),
