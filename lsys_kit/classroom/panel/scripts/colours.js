@@ -49,9 +49,11 @@ export function fillColour(colour, theme, strength) {
   return mixed(colour, theme.paper, strength);
 }
 
-// The theme of an element, from the variables of its style.
+const LIGHT = { ink: "#22303c", quiet: "#5b6875", paper: "#ffffff", mark: "#fff2c2", "mark-edge": "#8f6400", lit: "#b03a00" };
+
+// The theme of an element, from the variables of its style; the light one while it is not in the page yet.
 export function themeOf(element) {
-  const styles = getComputedStyle(element), read = (name) => styles.getPropertyValue(`--lsys-${name}`).trim();
+  const styles = getComputedStyle(element), read = (name) => styles.getPropertyValue(`--lsys-${name}`).trim() || LIGHT[name];
   return {
     ink: read("ink"), quiet: read("quiet"), paper: read("paper"), mark: read("mark"), markEdge: read("mark-edge"),
     lit: read("lit"), dark: luminance(read("paper")) < 0.2,

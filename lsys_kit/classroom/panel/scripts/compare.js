@@ -7,14 +7,16 @@ const SHARED = ["step", "angle", "around", "above"];
 
 // `hosts` are those of the two panels.
 export function openComparison(element, hosts) {
+  const bar = made("div", { class: "lsys-controls" }), root = made("div", { class: "lsys-panel lsys-both" }, bar);
   const said = made("div", { class: "lsys-sentence", role: "status" }), sides = made("div", { class: "lsys-comparison" });
   const seen = [null, null], panels = [], offs = [];
-  element.append(sides, said);
+  element.append(root);
+  root.append(sides, said);
   hosts.forEach((host, side) => {
     const column = made("div", { class: "lsys-side" });
     sides.append(column);
     panels.push(openPanel(column, host, {
-      first: side === 0,
+      bar: side === 0 ? bar : null,
       shown(book, step) {
         seen[side] = { book, step };
         if (seen[0] && seen[1] && seen[0].step === seen[1].step) tell();
@@ -35,8 +37,7 @@ export function openComparison(element, hosts) {
   return () => {
     for (const off of offs) off();
     for (const panel of panels) panel.close();
-    sides.remove();
-    said.remove();
+    root.remove();
   };
 }
 

@@ -22,7 +22,7 @@ const REST = 400; // milliseconds after which a movement has come to rest, and t
 const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
 const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
 
-// `compared` has { first, shown(book, step) } where the panel is one of two beside each other.
+// Of two panels beside each other `compared` has { bar, shown(book, step) }: where the sliders of both are, or null in the second.
 export function openPanel(element, host, compared = null) {
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
@@ -46,10 +46,11 @@ export function openPanel(element, host, compared = null) {
   const reset = button("reset", "back to the first settings", goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
   const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
-  if (compared && !compared.first) for (const each of [step.element, play.element, angle.element, around.element, above.element]) each.hidden = true;
   root.append(top, message, status, views, sentence, bottom);
+  const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
+  if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
-  const view = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", true],
+  const view = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", !compared],
     ["drawing", "drawing", true], ["counts", "how many", false], ["seeds", "nine seeds", false], ["variants", "nine variants", false]], () => show());
   const rules = rulesView(view.rules.body, (text) => newRules(text));
   const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way));
@@ -60,7 +61,7 @@ export function openPanel(element, host, compared = null) {
   });
   const counts = countsView(view.counts.body, goTo);
   const seeds = galleryView(view.seeds.body, (number) => sow(nine.first + number)), variants = galleryView(view.variants.body, (number) => rules.put(bred[number].text));
-  root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
+  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
 
   // -- what happens ---------------------------------------------------------------------------------------------------
 
@@ -295,11 +296,13 @@ export function openPanel(element, host, compared = null) {
   }));
   offs.push(host.on("seed", () => { seed.show(host.get("seed")); ask(); }));
   offs.push(host.on("model", openModel), host.on("gone", (text) => say({ message: text })));
-  const watcher = new MutationObserver(() => {
+  const recoloured = () => {
     if (book && JSON.stringify(themeOf(root)) !== shownTheme) turnTo(book);
-  });
+  };
+  const watcher = new MutationObserver(recoloured), placed = new ResizeObserver(recoloured); // it may enter the page later
   watcher.observe(document.body, { attributes: true });
-  const scheme = matchMedia("(prefers-color-scheme: dark)"), recoloured = () => turnTo(book);
+  placed.observe(root);
+  const scheme = matchMedia("(prefers-color-scheme: dark)");
   scheme.addEventListener("change", recoloured);
   openModel();
 
@@ -308,6 +311,7 @@ export function openPanel(element, host, compared = null) {
   function close() {
     play.stop();
     watcher.disconnect();
+    placed.disconnect();
     scheme.removeEventListener("change", recoloured);
     for (const off of offs) off();
     for (const timer of [resting, idle]) clearTimeout(timer);

@@ -1,53 +1,7 @@
-// The panel as a widget of Jupyter: its host is the model that the kernel keeps, and the kernel answers by numbered messages.
+// The panel as a widget of Jupyter.
 
+import { hostOf } from "./jupyter.js";
 import { openPanel } from "./panel.js";
-
-const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer is taken to be gone
-const GONE = { message: "The kernel does not answer. Restart it and run the cell again; what the panel has already shown goes on working" };
-
-function hostOf(model) {
-  const waiting = new Map();
-  let last = 0;
-
-  function answered(content) {
-    waiting.get(content.number)?.(content);
-    waiting.delete(content.number);
-  }
-
-  function ask(content) {
-    if (model.comm_live === false) return Promise.resolve({ mistake: GONE });
-    const number = ++last;
-    return new Promise((resolve) => {
-      waiting.set(number, resolve);
-      model.send({ ...content, number });
-      setTimeout(() => answered({ number, mistake: GONE }), PATIENCE);
-    });
-  }
-
-  model.on("msg:custom", answered);
-  const host = {
-    get: (name) => model.get(name),
-    set: (name, value) => model.set(name, value),
-    on(name, handler) {
-      if (name === "gone") {
-        const heard = () => model.comm_live === false && handler(GONE.message);
-        model.on("comm_live_update", heard);
-        return () => model.off("comm_live_update", heard);
-      }
-      const heard = () => handler(model.get(name));
-      model.on(`change:${name}`, heard);
-      return () => model.off(`change:${name}`, heard);
-    },
-    save: () => model.save_changes(),
-    book: (settings) => ask({ kind: "book", ...settings }),
-    rules: (text) => ask({ kind: "rules", text }),
-    variants: () => ask({ kind: "variants" }),
-    keep: (kind, state) => ask({ kind: "keep", what: kind, state }),
-    keeps: ["svg", "page", "link"],
-    editable: true,
-  };
-  return { host, leave: () => model.off("msg:custom", answered) };
-}
 
 function render({ model, el }) {
   const { host, leave } = hostOf(model), panel = openPanel(el, host);

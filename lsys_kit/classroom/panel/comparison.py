@@ -1,0 +1,101 @@
+"""Two panels side by side with one step slider: two systems, or two settings of one."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from typing import Any
+
+import anywidget
+import traitlets
+from ipywidgets import widget_serialization
+
+from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.explorer import Explorer, explore
+from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.system import LSystem
+
+
+def compare(what: LSystem | str, *others: LSystem | str | Mapping[str, object], step: int | None = None) -> Comparison:
+    """Show two systems, or one under two settings of its constants, side by side with one step slider.
+
+    Where the words differ is marked, and said in words below.
+
+    Parameters
+    ----------
+    what
+        A system, as for `explore`.
+    *others
+        Another system; or two settings of this one, each a dictionary of constants. A single dictionary is compared with the
+        system as it is.
+    step
+        The step shown first; by default that of the first system.
+
+    Raises
+    ------
+    ModelValueError
+        It is not clear what is compared with what.
+
+    Examples
+    --------
+    >>> both = compare("J4", {}, {"lifeTimeA": 2, "lifeTimeB": 3}, step=9)
+    >>> both.left.settings, both.right.settings
+    ({'lifeTimeA': '3', 'lifeTimeB': '2'}, {'lifeTimeA': '2', 'lifeTimeB': '3'})
+    >>> both.left.step = 4
+    >>> both.right.step
+    4
+    """
+    match others:
+        case (Mapping() as first, Mapping() as second):
+            sides = (what, first), (what, second)
+        case (Mapping() as second,):
+            sides = (what, {}), (what, second)
+        case (LSystem() | str() as other,):
+            sides = (what, {}), (other, {})
+        case _:
+            raise ModelValueError("Two systems are compared, or one system under two settings",
+                                  hint='For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).')
+    left = explore(sides[0][0], step, **_named(sides[0][1]))
+    return Comparison(left, explore(sides[1][0], left.step, **_named(sides[1][1])))
+
+
+def _named(settings: Mapping[str, object]) -> dict[str, Any]:
+    for name in settings:
+        if not isinstance(name, str):
+            raise ModelValueError(f"Constants have names, not {name!r}", hint='A setting is for example {"lifeTimeA": 2}.')
+    return dict(settings)
+
+
+class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
+    """The two panels that `compare` shows.
+
+    Attributes
+    ----------
+    left, right
+        The panels, as `explore` makes them; their steps are the same.
+    """
+
+    _esm = bundled("comparison")
+    _css = style()
+    left = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
+    right = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
+
+    def __init__(self, left: Explorer, right: Explorer) -> None:
+        super().__init__(left=left, right=right)
+        traitlets.link((left, "step"), (right, "step"))
+
+    @property
+    def text(self) -> str:
+        """What both panels show, in words."""
+        return f"{self.left.text}\n{self.right.text}"
+
+    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+        """The live panels, and for a page without a kernel their words and the picture of the left one."""
+        bundle = super()._repr_mimebundle_(**options)
+        data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
+        data["text/plain"] = self.text
+        data["image/png"] = base64.b64encode(self.left.sight.picture.png).decode()
+        return data
+
+    def __repr__(self) -> str:
+        return self.text
