@@ -6,7 +6,8 @@ say, it holds the words of the steps as numbers, and where their modules come fr
 the stage diagram with its layout. There is no arithmetic of models in the browser, and no grammar: it expands tables and moves
 points.
 
-All text in it is plain text, as it was typed: whoever shows it makes text nodes of it, never markup.
+All text in it is plain text, never markup: whoever shows it makes text nodes of it. What would not show is a question mark, but
+for the text of the model, which can be edited.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 from lsys_kit.pictures.nets.parts import steering_of
-from lsys_kit.pictures.style.labels import label_parts, values_text
+from lsys_kit.pictures.style.labels import label_parts, values_text, visible
 from lsys_kit.pictures.style.palette import colours
 from lsys_kit.worlds.derive import derive
 
@@ -90,10 +91,10 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {
-            "title": title, "text": system.source, "notation": system.notation,
+            "title": visible(title), "text": system.source, "notation": system.notation,
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states), "symbols": symbols, "states": rows,
-            "productions": [{"text": as_written(system, rule), "at": list(rule.at) if rule.at else None}
+            "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}
                             for rule in system.productions],
             "steps": pages.last, "end": pages.end, "axiom": [pages.numbers[state] for state in states.axiom],
             **(_table(states, pages.numbers) if states.traits.d0l else _history(derivation, pages)), "net": diagram,
@@ -173,8 +174,9 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
         module = states.modules[state]
         place = None if net is None else net.place_of(module)
         rows.append([symbols.setdefault(module.symbol, len(symbols)), values_text(module), -1 if place is None else place,
-                     notation.module(module)])
-    return [[*label_parts(symbol, system), palette.get(symbol, ""), int(symbol in steering)] for symbol in symbols], rows
+                     visible(notation.module(module))])
+    return [[*map(visible, label_parts(symbol, system)), palette.get(symbol, ""), int(symbol in steering)]
+            for symbol in symbols], rows
 
 
 def _has_chance(states: States) -> bool:

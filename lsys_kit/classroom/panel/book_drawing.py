@@ -21,6 +21,7 @@ from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.filaments import time_text
+from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.style.palette import CHOSEN
 
 BY_ANGLE = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
@@ -83,7 +84,8 @@ def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any
                 "times": [] if step is None else [time_text(step * number) for number in range(last + 1)],
                 "unknown": [], "said": ""}
     unknown = (*unknown_commands(interpretations(states, numbers), system), *_not_surfaces(system))
-    return {"mode": mode.name.lower(), "turtle": _turtle(system, drawn), "unknown": [*unknown], "said": passed_over(unknown)}
+    return {"mode": mode.name.lower(), "turtle": _turtle(system, drawn), "unknown": [*map(visible, unknown)],
+            "said": passed_over(unknown)}
 
 
 def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
@@ -91,7 +93,8 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
     named = {surface for row in calls for *_, surface in row if surface}
     return {"side": dialect.left, "length": initial_step(system), "width": dialect.width, "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"), "calls": calls,
-            "surfaces": {name: surface.faces for name, surface in surfaces().items() if name in named}, "colours": [*CHOSEN],
+            "surfaces": {name: [[*map(list, face)] for face in surfaces()[name].faces] for name in sorted(named)},
+            "colours": [*CHOSEN],
             "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row)}
 
 

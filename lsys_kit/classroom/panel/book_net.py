@@ -9,7 +9,7 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS
 from lsys_kit.pictures.nets.parts import LINE, ArcPart, BarPart, NotePart, Parts, PlacePart, parts_of, steering_of
-from lsys_kit.pictures.style.labels import place_text
+from lsys_kit.pictures.style.labels import place_text, visible
 
 NARROW, LOW = 320, 40
 """The size of a diagram that has nothing but a sentence, in pixels."""
@@ -34,21 +34,23 @@ def net_entry(made: Callable[[], Stages]) -> tuple[Stages | None, dict[str, Any]
 
 
 def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
-    return {"width": parts.width, "height": parts.height, "description": parts.description, "radius": RADIUS, "names": names,
+    return {"width": parts.width, "height": parts.height, "description": visible(parts.description), "radius": RADIUS,
+            "names": [*map(visible, names)],
             "places": [*map(_place, parts.places)], "bars": [*map(_bar, parts.bars)], "arcs": [*map(_arc, parts.arcs)],
             "notes": [*map(_note, parts.notes)],
-            "besides": [{"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": text}
+            "besides": [{"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": visible(text)}
                         for line, text in enumerate(parts.besides)]}
 
 
 def _place(part: PlacePart) -> dict[str, Any]:
-    return {"place": part.place, "x": _tenths(part.x), "y": _tenths(part.y), "letter": part.letter, "subscript": part.subscript,
-            "values": part.values, "name": part.name, "title": part.title, "colour": part.colour, "strength": part.strength}
+    return {"place": part.place, "x": _tenths(part.x), "y": _tenths(part.y), "letter": visible(part.letter),
+            "subscript": visible(part.subscript), "values": part.values, "name": visible(part.name),
+            "title": visible(part.title), "colour": part.colour, "strength": part.strength}
 
 
 def _bar(part: BarPart) -> dict[str, Any]:
-    return {"x": _tenths(part.x), "y": _tenths(part.y), "half": _tenths(part.half), "line": part.line, "terms": part.terms,
-            "full": part.full, "tx": _tenths(part.tx), "ty": _tenths(part.ty)}
+    return {"x": _tenths(part.x), "y": _tenths(part.y), "half": _tenths(part.half), "line": part.line,
+            "terms": visible(part.terms), "full": visible(part.full), "tx": _tenths(part.tx), "ty": _tenths(part.ty)}
 
 
 def _arc(part: ArcPart) -> dict[str, Any]:
@@ -56,7 +58,7 @@ def _arc(part: ArcPart) -> dict[str, Any]:
 
 
 def _note(part: NotePart) -> list[Any]:
-    return [_tenths(part.x), _tenths(part.y), _tenths(part.width), part.text]
+    return [_tenths(part.x), _tenths(part.y), _tenths(part.width), visible(part.text)]
 
 
 def _tenths(pixels: float) -> float:

@@ -24,7 +24,16 @@ def escaped(text: str) -> str:
     >>> escaped("<b>"), escaped("a\\x1bb")
     ('&lt;b&gt;', 'a?b')
     """
-    return escape("".join(map(printable, text)))
+    return escape(visible(text))
+
+
+def visible(text: str) -> str:
+    """A text without what would not show or would turn it around.
+
+    >>> visible("a\\u202eb")
+    'a?b'
+    """
+    return text if text.isprintable() else "".join(map(printable, text))
 
 
 @lru_cache(maxsize=64)

@@ -1,0 +1,160 @@
+// A book that the kernel has sent, opened at any step: its words, how often each state occurs, mothers and daughters.
+//
+// Where a state alone decides what becomes of it, words are made here, each by copying successors from a table; other books hold
+// the words. A module that was there when several were replaced together counts as a mother with them.
+
+const HELD = 4_000_000; // modules of words that are kept
+const KINDS = { u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, i1: Int8Array, i2: Int16Array, i4: Int32Array };
+
+export function openBook(data) {
+  const { states, steps } = data, settled = "successors" in data;
+  const table = settled && rowsOf(data.successors), lengths = new Float64Array(steps + 1).fill(-1);
+  const words = kept((step) => (settled ? expanded(step) : whole(data.words[step])));
+  const starts = kept((step) => summed(settled ? spread(words(step)) : whole(data.daughters[step])));
+  const made = kept((step) => (settled ? null : whole(data.made[step])));
+  const together = kept((step) => (data.together?.length ? whole(data.together[step]) : null));
+  const labels = states.map(() => null);
+  let counted = [];
+
+  function expanded(step) {
+    if (step === 0) return Int32Array.from(data.axiom);
+    return replaced(words(step - 1), table, length(step));
+  }
+
+  function spread(word) {
+    const sizes = new Int32Array(word.length);
+    for (let i = 0; i < word.length; i++) sizes[i] = table.starts[word[i] + 1] - table.starts[word[i]];
+    return sizes;
+  }
+
+  // How often each state occurs at a step.
+  function counts(step) {
+    if (settled) {
+      if (!counted.length) counted = [occurring(data.axiom, states.length)];
+      while (counted.length <= step) counted.push(following(counted[counted.length - 1], table));
+      return counted[step];
+    }
+    return occurring(words(step), states.length);
+  }
+
+  function length(step) {
+    if (lengths[step] < 0) lengths[step] = settled ? counts(step).reduce((sum, count) => sum + count, 0) : words(step).length;
+    return lengths[step];
+  }
+
+  // How many tokens lie in each place of the stage diagram.
+  function tokens(step) {
+    const found = new Array(data.net.names.length).fill(0);
+    counts(step).forEach((count, state) => {
+      if (states[state][2] >= 0) found[states[state][2]] += count;
+    });
+    return found;
+  }
+
+  // The position, in the word before, of the module from which a module comes; -1 for those of the axiom.
+  function mother(step, position) {
+    return step ? lastUpTo(starts(step - 1), position) : -1;
+  }
+
+  // The positions, from the first up to but without the last, of what a module becomes; null beyond the book.
+  function daughters(step, position) {
+    if (step >= steps) return null;
+    let first = position;
+    const sizes = together(step), ends = starts(step);
+    while (sizes && first && !sizes[first]) first--;
+    return [ends[first], ends[first + 1]];
+  }
+
+  // The number of the production that made a module; -1 where it stayed as it was, or stands in the axiom.
+  function production(step, position) {
+    if (!step) return -1;
+    const from = mother(step, position);
+    return settled ? data.applied[words(step - 1)[from]] : made(step - 1)[from];
+  }
+
+  function label(state) {
+    if (!labels[state]) {
+      const [symbol, values, , text] = states[state], [letter, subscript, colour, steering] = data.symbols[symbol];
+      labels[state] = { letter, subscript, values, text, colour, steering: steering === 1 };
+    }
+    return labels[state];
+  }
+
+  return {
+    data, steps, word: words, length, counts, tokens, mother, daughters, production, label,
+    lengths: () => Array.from(lengths, (_, step) => length(step)),
+  };
+}
+
+// The results of a function of the step, the latest of them kept: no more of them than so many numbers.
+function kept(made) {
+  const known = new Map();
+  let held = 0;
+  return (step) => {
+    if (!known.has(step)) {
+      const found = made(step);
+      held += found?.length ?? 0;
+      for (const [old, row] of held > HELD ? known : []) {
+        if (held <= HELD) break;
+        held -= row?.length ?? 0;
+        known.delete(old);
+      }
+      known.set(step, found);
+    }
+    return known.get(step);
+  };
+}
+
+// Rows of numbers one after another, and where each starts.
+function rowsOf(rows) {
+  return { starts: summed(rows.map((row) => row.length)), numbers: Int32Array.from(rows.flat()) };
+}
+
+// The sums of some numbers up to each of them, from 0.
+function summed(numbers) {
+  const sums = new Int32Array(numbers.length + 1);
+  for (let i = 0; i < numbers.length; i++) sums[i + 1] = sums[i] + numbers[i];
+  return sums;
+}
+
+// The word in which each state of a word is replaced by its row.
+function replaced(word, { starts, numbers }, length) {
+  const found = new Int32Array(length);
+  let at = 0;
+  for (let i = 0; i < word.length; i++) {
+    const end = starts[word[i] + 1];
+    for (let j = starts[word[i]]; j < end; j++) found[at++] = numbers[j];
+  }
+  return found;
+}
+
+function occurring(word, many) {
+  const found = new Float64Array(many);
+  for (const state of word) found[state]++;
+  return found;
+}
+
+// How often each state occurs one step later.
+function following(counts, { starts, numbers }) {
+  const found = new Float64Array(counts.length);
+  for (let state = 0; state < counts.length; state++)
+    if (counts[state]) for (let j = starts[state]; j < starts[state + 1]; j++) found[numbers[j]] += counts[state];
+  return found;
+}
+
+// The last place whose start is not beyond a position.
+function lastUpTo(starts, position) {
+  let low = 0, high = starts.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (starts[middle] <= position) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+// Whole numbers from the text of their bytes, the lowest first.
+function whole({ type, data }) {
+  const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+  return Int32Array.from(new KINDS[type](bytes.buffer));
+}

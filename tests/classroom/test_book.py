@@ -1,0 +1,351 @@
+"""The book: what JavaScript makes of it is what Python derives, counts and draws."""
+
+from __future__ import annotations
+
+import json
+import zlib
+from itertools import product
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from lsys_kit import LSystemError, derive, growth, limits, read, stages, system, systems
+from lsys_kit.classroom.panel.book import MOST_MODULES, book
+from lsys_kit.classroom.panel.bundle import bundled
+from lsys_kit.classroom.panel.growth_rate import rate_text
+from lsys_kit.derivation.core.traits import traits_of
+from lsys_kit.derivation.growth.recurrences import greatest_root
+from lsys_kit.derivation.timed.ages import age_model
+from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.registry import dialect_named
+from lsys_kit.pictures.draw import MOST_ROWS
+from lsys_kit.pictures.filaments import filament_layout
+from lsys_kit.pictures.style.labels import visible
+from lsys_kit.pictures.style.palette import GREEN, colours
+from lsys_kit.pictures.svg import FilamentRow
+from tests.derivation.random_systems import KINDS, systems_with
+from tests.derivation.random_systems import systems as random_systems
+from tests.test_hostile_names import HOSTILE
+
+FILAMENTS = [name for name in systems() if drawing_mode(system(name)) is DrawingMode.FILAMENT]
+SETTLED = [name for name in systems() if traits_of(system(name)).d0l]
+LIFE_SPANS = [{"lifeTimeA": a, "lifeTimeB": b} for a, b in product(range(1, 7), repeat=2)]
+PAGES = """([data, steps]) => {
+  const book = openBook(data), all = (n, of) => Array.from({ length: n }, (_, i) => of(i));
+  return { lengths: book.lengths(), pages: all(steps + 1, (step) => ({
+    word: Array.from(book.word(step)), length: book.length(step),
+    tokens: book.tokens(step), counts: Array.from(book.counts(step)),
+    mothers: all(book.length(step), (at) => book.mother(step, at)),
+    made: all(book.length(step), (at) => book.production(step, at)),
+    daughters: all(book.length(step), (at) => book.daughters(step, at)),
+  })), labels: all(data.states.length, (state) => book.label(state)) };
+}"""
+ROWS = """([data, step, sheet]) => {
+  const { cells, walls, ...rest } = sequence(openBook(data), step, sheet);
+  return { ...rest, cells, walls };
+}"""
+FOUND = """([data, step]) => {
+  const sheet = sequence(openBook(data), step), { cells } = sheet;
+  return Array.from({ length: cells.n }, (_, i) => [cellAt(sheet, cells.x[i], cells.y[i]),
+    { step: sheet.rows[cells.row[i]].step, position: cells.position[i] }]);
+}"""
+PAINTED = """([data, step, look]) => {
+  const canvas = document.createElement("canvas"), sheet = sequence(openBook(data), step);
+  [canvas.width, canvas.height] = [sheet.width, sheet.height];
+  const pen = canvas.getContext("2d"), theme = { ink: "#22303C", quiet: "#7A8794", paper: "#FFFFFF", mark: "#FFF2C2",
+    markEdge: "#B8860B", lit: "#D55E00", dark: false };
+  pen.fillStyle = theme.paper;
+  pen.fillRect(0, 0, sheet.width, sheet.height);
+  paintSequence(pen, sheet, { theme, marked: new Set(look.marked), litAt: (at) => new Map(look.lit[at] ?? []), current: step });
+  const colour = (x, y) => Array.from(pen.getImageData(x, y, 1, 1).data).slice(0, 3);
+  const { cells } = sheet, above = (i) => colour(cells.x[i], cells.y[i] - cells.width[i] / 2);
+  return { band: sheet.rows.map((row) => colour(sheet.width - 8, row.middle)),
+    edges: Array.from({ length: cells.n }, (_, i) => above(i)),
+    states: cells.state, rows: cells.row.map((row) => sheet.rows[row].step), positions: cells.position };
+}"""
+
+
+@pytest.fixture(scope="module")
+def page(browser):
+    tab = browser.new_page()
+    tab.add_script_tag(content=bundled("filament"))
+    tab.add_script_tag(content=bundled("book"))
+    yield tab
+    tab.close()
+
+
+def sent(made):
+    """A book as it comes to the browser."""
+    return json.loads(json.dumps(made, allow_nan=False))
+
+
+def daughters_of(origins, length):
+    """For each module of a word the positions from which and up to which its daughters stand."""
+    leaders, found = list(range(length)), []
+    for at, size in enumerate(origins.sizes):
+        leaders[at] = at if size else leaders[at - 1]
+    for leader in leaders:
+        before = sum(parent < leader for parent in origins.parents)
+        found.append([before, before + origins.parents.count(leader)])
+    return found
+
+
+def check_pages(page, model, most=8, **constants):
+    """All that the browser makes of a book of the first steps is what the derivation says."""
+    made = book(model, constants)
+    steps = min(most, made["steps"])
+    found = page.evaluate(PAGES, [sent(made), steps])
+    derivation, notation = derive(model, made["steps"], **constants), dialect_named(model.notation)
+    assert found["lengths"] == derivation.lengths
+    try:
+        net = stages(model, **constants)
+    except LSystemError:
+        net = None
+    for step, seen in enumerate(found["pages"]):
+        word = derivation[step]
+        assert [made["states"][state][3] for state in seen["word"]] == [visible(notation.module(module)) for module in word]
+        assert seen["length"] == len(word)
+        assert seen["tokens"] == ([] if net is None or not made["net"]["names"] else [*net.tokens(word)])
+        assert sum(seen["counts"]) == len(word)
+        assert all(seen["counts"][state] == seen["word"].count(state) for state in set(seen["word"]))
+        if step:
+            origins = derivation.origins(step)
+            assert seen["mothers"] == [*origins.parents]
+            assert seen["made"] == [-1 if number is None else number for number in origins.productions]
+            before = found["pages"][step - 1]
+            if len(word) < 300:
+                assert before["daughters"] == daughters_of(origins, before["length"])
+        else:
+            assert set(seen["mothers"]) | set(seen["made"]) <= {-1}
+    assert [label["text"] for label in found["labels"]] == [row[3] for row in made["states"]]
+
+
+@pytest.mark.parametrize("name", systems())
+def test_words_counts_and_origins_are_those_of_the_derivation(page, name):
+    with limits(modules=20_000):
+        check_pages(page, system(name))
+
+
+@pytest.mark.parametrize("constants", LIFE_SPANS, ids=str)
+def test_at_every_setting_of_the_life_spans(page, constants):
+    check_pages(page, system("J4"), **constants)
+
+
+@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(random_systems() | systems_with() | st.sampled_from(KINDS).flatmap(systems_with))
+def test_of_random_systems(page, model):
+    with limits(modules=1_000, seconds=2):
+        try:
+            check_pages(page, model, 6)
+        except LSystemError:
+            with pytest.raises(LSystemError):
+                book(model)
+
+
+def test_words_that_answer_questions_are_those_that_are_shown(page):
+    check_pages(page, read("axiom: F A ?P(0,0)\nA > ?P(x,y) : y < 3 -> F A"))
+
+
+def test_modules_that_are_replaced_together_have_the_same_daughters(page):
+    made = book(read("axiom: A B C\nA B -> D E\nC -> C C"))
+    seen = page.evaluate(PAGES, [sent(made), 1])["pages"]
+    assert seen[0]["daughters"] == [[0, 2], [0, 2], [2, 4]]
+    assert seen[1]["mothers"] == [0, 0, 2, 2]
+
+
+def test_the_last_step_of_a_book_has_no_daughters(page):
+    made = book(system("J1"))
+    assert set(map(str, page.evaluate(PAGES, [sent(made), made["steps"]])["pages"][-1]["daughters"])) == {"None"}
+
+
+# -- filaments ------------------------------------------------------------------------------------------------------------
+
+def layout_of(model, step):
+    """The layout of the picture of a developmental sequence."""
+    derivation = derive(model, step)
+    rows = [FilamentRow(at, filament(derivation[at])) for at in range(max(0, step + 1 - MOST_ROWS), step + 1)]
+    return filament_layout(rows, True, age_model(derivation.states).step)
+
+
+@pytest.mark.parametrize("name", FILAMENTS)
+@pytest.mark.parametrize("step", [0, 1, 3, 7, 12, 27])
+def test_rows_are_laid_out_as_in_the_picture(page, name, step):
+    with limits(modules=1_000):
+        made = book(system(name), least=step)
+    step = min(step, made["steps"])
+    found = page.evaluate(ROWS, [sent(made), step, {}])
+    sheet = layout_of(system(name), step)
+    cells = [(cell, sheet.middle(at)) for at, row in enumerate(sheet.rows) for cell in sheet.cells(row)]
+    walls = [(wall, sheet.middle(at)) for at, row in enumerate(sheet.rows) for wall in sheet.walls(row)]
+    for names, expected, drawn in (
+            (("x", "y", "length", "width", "way", "shade"),
+             [(cell.x, y, 2 * cell.length, 2 * cell.width, cell.way, cell.shade) for cell, y in cells], found["cells"]),
+            (("x", "y", "height", "shade"), [(wall.x, y, 2 * wall.height, wall.shade) for wall, y in walls], found["walls"])):
+        rows = [*zip(*(drawn[each] for each in names), strict=True)]
+        assert len(rows) == len(expected)
+        assert not rows or np.abs(np.array(rows, float) - np.array(expected, float)).max() < 1e-6
+    assert [f"{age:.4g}" if age is not None else "" for age in found["walls"]["age"]] == [wall.age for wall, _ in walls]
+    assert (found["scale"], found["pitch"], found["above"]) == pytest.approx((sheet.scale, sheet.pitch, sheet.above))
+    derivation = derive(system(name), step)
+    texts = {cell: str(derivation.states.modules[cell.state]) for cell, _ in cells}
+    assert [made["states"][state][3] for state in found["cells"]["state"]] == [texts[cell] for cell, _ in cells]
+
+
+@pytest.mark.parametrize("name", ["J4", "P2", "K27"])
+@pytest.mark.parametrize("size", [(320, 240), (500, 900), (1800, 1000)])
+def test_rows_lie_on_a_sheet_of_any_size(page, name, size):
+    width, height = size
+    sheet = page.evaluate(ROWS, [sent(book(system(name))), 18, {"width": width, "height": height}])
+    cells = sheet["cells"]
+    assert cells["n"]
+    for x, y, length, across in zip(cells["x"], cells["y"], cells["length"], cells["width"], strict=True):
+        assert 0 < x - length / 2 < x + length / 2 < width
+        assert 0 < y - across / 2 < y + across / 2 < height
+
+
+def test_the_scale_is_kept_as_far_as_a_step(page):
+    made = sent(book(system("J4")))
+    scales = {page.evaluate(ROWS, [made, step, {"boxed": 15}])["scale"] for step in range(16)}
+    assert scales == {page.evaluate(ROWS, [made, 15, {}])["scale"]}
+    assert page.evaluate(ROWS, [made, 3, {}])["scale"] > scales.pop()
+
+
+@pytest.mark.parametrize("name", ["J1", "J4", "P5", "P4"])
+def test_a_point_within_a_cell_finds_its_module(page, name):
+    found = page.evaluate(FOUND, [sent(book(system(name))), 9])
+    assert found
+    assert all(there == expected for there, expected in found)
+
+
+def test_what_is_marked_or_traced_is_painted_so(page):
+    made = book(system("J4"))
+    marked = [state for state, row in enumerate(made["states"]) if row[2] == 0]
+    found = page.evaluate(PAINTED, [sent(made), 6, {"marked": marked, "lit": {"3": [[0, "self"]]}}])
+    assert found["band"][:-1] == [[255, 255, 255]] * 6
+    assert found["band"][-1] == [0xFF, 0xF2, 0xC2]
+    for edge, state, step, position in zip(*(found[each] for each in ("edges", "states", "rows", "positions")), strict=True):
+        traced = step == 3 and position == 0
+        assert (edge == [0xD5, 0x5E, 0x00]) == traced
+        assert (edge == [0xB8, 0x86, 0x0B]) == (state in marked and not traced)
+
+
+# -- the book alone -------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("name", systems())
+def test_a_book_is_small_json_and_always_the_same(name):
+    made = book(system(name))
+    text = json.dumps(made, allow_nan=False)
+    assert json.loads(text) == made
+    assert text == json.dumps(book(system(name)))
+    assert len(text) < 2_000_000
+    assert made["steps"] >= min(system(name).steps or 5, 5)
+    assert made["end"] or made["steps"] >= 10
+
+
+def test_the_tables_of_settled_systems_are_a_few_hundred_bytes():
+    def size(*books):
+        return len(zlib.compress(json.dumps([[each["states"], each["successors"]] for each in books]).encode(), 9))
+
+    sizes = {name: size(book(system(name))) for name in SETTLED}
+    assert max(sizes.values()) < 2_000
+    assert sorted(sizes.values())[len(sizes) // 2] < 200
+    assert size(*(book(system("J4"), constants) for constants in LIFE_SPANS)) < 4_000
+
+
+def test_a_book_ends_before_a_step_that_is_too_large():
+    made = book(read("axiom: F\nF -> F F F F F F F F F F"))
+    assert made["steps"] == 5
+    assert "Step 6 would have 1,000,000 modules; the limit is 100,000" in made["end"]
+    assert MOST_MODULES == 100_000
+
+
+def test_a_book_ends_before_a_step_with_an_error():
+    made = book(read("axiom: A(3)\nA(x) -> A(x - 1) B(1/x)"))
+    assert made["steps"] == 3
+    assert "A(0)" in made["end"]
+
+
+def test_a_book_ends_before_a_step_that_cannot_be_drawn():
+    made = book(read("axiom: A(3)\nA(x) -> A(x - 1)\ninterpretation:\nA(x) -> O(x, 1)"))
+    assert made["steps"] == 2
+    assert "the length and width of a cell must be greater than 0" in made["end"]
+    with pytest.raises(LSystemError, match="greater than 0"):
+        book(read("axiom: A(0)\nA(x) -> A(x)\ninterpretation:\nA(x) -> O(x, 1)"))
+
+
+def test_a_book_is_not_much_larger_than_two_megabytes():
+    made = book(read("axiom: A(1)\nA(x) -> A(2*x) A(2*x + 1)"), least=16)
+    assert 500_000 < len(json.dumps(made)) < 2_500_000
+    assert "The panel ends" in made["end"]
+
+
+def test_a_step_that_is_asked_for_is_in_the_book():
+    assert book(system("J1"), least=17)["steps"] == 17
+
+
+def test_a_book_holds_the_settings_as_exact_texts():
+    assert book(system("P5"), {"dt": "0.7"})["settings"]["dt"] == "0.7"
+    assert book(system("J4"), {"lifeTimeB": 5})["settings"] == {"lifeTimeA": "3", "lifeTimeB": "5"}
+
+
+def test_the_seed_makes_a_difference_where_there_is_chance():
+    assert [book(system(name))["chance"] for name in ("J1", "K7")] == [False, True]
+    assert len({json.dumps(book(system("K7"), seed=seed)["words"]) for seed in range(3)}) == 3
+
+
+def test_colours_are_those_of_the_pictures():
+    model = system("K2")
+    palette = {letter: colour for letter, _, colour, _ in book(model)["symbols"]}
+    assert palette == {letter: colours(model).get(letter, "") for letter in palette}
+    assert {letter for letter, _, _, steering in book(model)["symbols"] if steering} == {"[", "]", "RU"}
+    assert GREEN in palette.values()
+
+
+def test_where_there_is_no_diagram_the_book_says_why():
+    rules = "\n".join(f"X < A_{i} -> {' '.join(f'B_{j}' for j in range(30))}" for i in range(30))
+    made = book(read(f"axiom: X {' '.join(f'A_{i}' for i in range(30))}\n{rules}"))
+    assert made["net"]["places"] == made["net"]["names"] == []
+    assert "900 arcs" in made["net"]["besides"][0]["text"]
+    assert {place for _, _, place, _ in made["states"]} == {-1}
+
+
+@pytest.mark.parametrize("name", HOSTILE, ids=range(len(HOSTILE)))
+def test_hostile_names_are_plain_text(name):
+    module = Pattern(name)
+    hostile = LSystem((module,), (Production((module,), (module, Pattern(name + "2"))),), source=name)
+    made = book(hostile, title=name)
+    assert made["text"] == name
+    assert made["title"] == made["states"][0][3] == visible(name)
+    assert all(text.isprintable() for text in texts_in({**made, "text": ""}))
+    assert json.loads(json.dumps(made)) == made
+
+
+def texts_in(entry):
+    if isinstance(entry, str):
+        return [entry]
+    return [text for part in (entry.values() if isinstance(entry, dict) else entry if isinstance(entry, list) else ())
+            for text in texts_in(part)]
+
+
+# -- the growth rate ------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("name", SETTLED)
+def test_the_growth_rate_is_the_greatest_root(name):
+    told = book(system(name))["growth"]
+    if told:
+        rule = growth(system(name)).recurrence
+        assert told["rate"] == rate_text(rule)
+        assert float(told["rate"].split("≈")[-1]) == pytest.approx(greatest_root(rule), rel=1e-4)
+
+
+@pytest.mark.parametrize(("rule", "text"), [
+    ((1, 1), "(1 + √5)/2 ≈ 1.618"), ((2,), "2"), ((2, -1), "1"), ((0, 2), "√2 ≈ 1.4142"), ((0, 0, 2), "≈ 1.2599"),
+    ((), "0"), ((0, 0), "0"), ((3, 1), "(3 + √13)/2 ≈ 3.3028"), ((4, -2), "2 + √2 ≈ 3.4142"), ((0, 12), "2√3 ≈ 3.4641"),
+    ((1, 1, 0, 0), "(1 + √5)/2 ≈ 1.618"), ((2, 0, -1), "(1 + √5)/2 ≈ 1.618")])
+def test_roots_of_quadratic_equations_are_exact(rule, text):
+    assert rate_text(rule) == text
