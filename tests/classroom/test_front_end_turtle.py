@@ -9,21 +9,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import derive, read
+from lsys_kit import derive
 from lsys_kit.classroom.catalogue import system, systems
-from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.turtle.commands import COMMAND_TABLE
+from lsys_kit.geometry.turtle.actions import Effect
+from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
-from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.display_list import numbered_colours
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.line_widths import in_units
 from tests.classroom.front_end import TURTLE, answers, book_of
 
 MOST_MODULES, LAST_STEP = 5_000, 6
+ANGLES = (17.3, 90.0, -144.5)
 SHAPES = """
 const plain = (value) => ArrayBuffer.isView(value) || Array.isArray(value) ? Array.from(value) : value;
 const taken = (group) => Object.fromEntries(Object.entries(group).map(([name, value]) => [name, plain(value)]));
@@ -50,13 +52,13 @@ def scene_by_kit(word, angle):
     return in_units([scene], made_by)[0]
 
 
-def expect_scenes(page, words, *others):
-    """The browser draws the words of a derivation as the kit does, for the system's angle and others."""
-    angles = [float(words[0].states.system.angle), *others]
-    [steps] = answers(page, SHAPES, [{"book": book_of(words), "angles": angles}], *TURTLE)
-    for word, shown in zip(words, steps, strict=True):
-        for angle, shapes in zip(angles, shown, strict=True):
-            expect_same(shapes, scene_by_kit(word, angle), word, words[-1])
+def expect_drawn(page, derivations, angles):
+    """The browser draws the words of some derivations as the kit does, for each angle."""
+    given = [{"book": book_of(words), "angles": angles} for words in derivations]
+    for words, steps in zip(derivations, answers(page, SHAPES, given, *TURTLE), strict=True):
+        for word, shown in zip(words, steps, strict=True):
+            for angle, shapes in zip(angles, shown, strict=True):
+                expect_same(shapes, scene_by_kit(word, angle), word, words[-1])
 
 
 def expect_same(shapes, scene, word, last):
@@ -85,4 +87,35 @@ TURTLES = [id for id in systems() if drawing_mode(system(id)) is not DrawingMode
 @pytest.mark.parametrize("id", TURTLES)
 def test_every_drawing_of_the_catalogue(page, id):
     words = list(derive(system(id), LAST_STEP, seed=1))
-    expect_scenes(page, [word for word in words if len(word) <= MOST_MODULES], 17.3, 90.0, -144.5)
+    expect_drawn(page, [[word for word in words if len(word) <= MOST_MODULES]], [float(system(id).angle), *ANGLES])
+
+
+VALUES = st.sampled_from([-2, -0.5, 0, 0.25, 0.5, 1, 2, 3, 7.3, 30, 45, 90, 120, 180])
+
+
+def modules(dialect, *, flat):
+    """Modules of any command of a dialect, in the plane or not, with any number of values; and symbols that are none."""
+    known = [symbol for symbol, commands in COMMANDS[dialect].items()
+             if not (flat and any(Effect.LEAVES_PLANE in command.effects for command in commands))]
+    symbols = st.sampled_from([*known, *["[", "]", "F"] * 6, *(["~"] * 4 if "~" in known else ()), "K", "rosette", "X"])
+    values = st.one_of(st.just(()), st.tuples(VALUES), st.tuples(VALUES), st.lists(VALUES, max_size=5).map(tuple))
+    return st.builds(lambda symbol, numbers: Pattern(symbol, tuple(map(Number, numbers))), symbols, values)
+
+
+def words(dialect, *, flat=False):
+    """Words of a dialect's commands."""
+    made = st.builds(lambda axiom, angle, heading, widths: LSystem(
+        tuple(axiom), (), angle=angle, heading=heading, widths=widths, turtle=dialect),
+        st.lists(modules(dialect, flat=flat), min_size=3, max_size=40), st.sampled_from([22.5, 60, 90, 97]),
+        st.sampled_from([90, 0, -30]), st.sampled_from(["", "pixels", "units"]))
+    return made.map(lambda made: derive(made, 0)[0])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("flat", [False, True], ids=["space", "plane"])
+@pytest.mark.parametrize("dialect", COMMANDS)
+@settings(max_examples=10)
+@given(data=st.data())
+def test_words_of_all_commands(page, dialect, flat, data):
+    found = data.draw(st.lists(words(dialect, flat=flat), min_size=8, max_size=8))
+    expect_drawn(page, [[word] for word in found], [60.0, *ANGLES])

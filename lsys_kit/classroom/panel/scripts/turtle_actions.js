@@ -9,7 +9,6 @@ export const HOLLOW = 0; // the kind of a circle; discs are 1 and spheres 2
 const LARGEST_VALUE = 1e50;
 const LAST_COLOUR = 2 ** 31 - 1;
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
-const FRACTINT_COLOURS = 256, FRACTINT_WHITE = 15;
 const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading"];
@@ -31,7 +30,7 @@ export function halfToEven(value) {
   return whole - value === 0.5 && whole % 2 !== 0 ? whole - 1 : whole;
 }
 
-const amountOf = (call, quantity) => call.factor * quantity + call.addend;
+export const amountOf = (call, quantity) => call.factor * quantity + call.addend;
 
 function bounded(what, value) {
   if (!(Math.abs(value) <= LARGEST_VALUE))
@@ -71,21 +70,11 @@ function endOneTimeSettings(turtle) {
   turtle.restored = [];
 }
 
-function goAhead(drawn, vertex) {
+export function goAhead(drawn, vertex) {
   return (turtle, call) => {
     moveAhead(turtle, amountOf(call, turtle.length), drawn);
     if (vertex) recordVertex(turtle);
     if (drawn && turtle.restored.length) endOneTimeSettings(turtle);
-  };
-}
-
-function bySecondHeading(drawn) {
-  const ahead = goAhead(drawn, true);
-  return (turtle, call) => {
-    const { orientation } = turtle;
-    turtle.orientation = turtle.trail.headed(turtle.secondHeading);
-    ahead(turtle, call);
-    turtle.orientation = orientation;
   };
 }
 
@@ -104,18 +93,6 @@ function setGravitropism(turtle, call) {
 
 function setColour(turtle, call) {
   turtle.colour = Math.max(0, Math.min(LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour)))));
-}
-
-// Of Fractint's colours a step never leads to 0, that of the background.
-function setPaletteColour(turtle, call) {
-  const before = turtle.colour === OWN_LOOK ? FRACTINT_WHITE : turtle.colour, step = call.factor !== 0;
-  const colour = wrapped(Math.floor(amountOf(call, before)), FRACTINT_COLOURS);
-  turtle.colour = colour || !step ? colour : call.addend > 0 ? 1 : FRACTINT_COLOURS - 1;
-}
-
-// The remainder, which is never negative.
-export function wrapped(value, round) {
-  return (((value % round) + round) % round) + 0;
 }
 
 const resetTo = (name) => (turtle) => {
@@ -184,14 +161,11 @@ export function commonActions() {
   return {
     "draw": goAhead(true, true), "move": goAhead(false, true),
     "draw without vertex": goAhead(true, false), "move without vertex": goAhead(false, false),
-    "draw by second heading": bySecondHeading(true), "move by second heading": bySecondHeading(false),
-    "turn second heading": (turtle, call) => { turtle.secondHeading += turtle.mirror * call.addend; },
-    "mirror turns": (turtle) => { turtle.mirror = -turtle.mirror; },
     "set length": setLength, "reset length": resetTo("length"), "set length once": setOnce("length", setLength),
     "set width": setWidth, "reset width": resetTo("width"), "set width once": setOnce("width", setWidth),
     "set gravitropism": setGravitropism, "reset gravitropism": resetTo("gravitropism"),
     "set gravitropism once": setOnce("gravitropism", setGravitropism),
-    "set colour": setColour, "reset colour": resetTo("colour"), "set palette colour": setPaletteColour,
+    "set colour": setColour, "reset colour": resetTo("colour"),
     "push": openBranch, "pop": closeBranch,
     "begin polygon": beginPolygon, "record vertex": recordVertex, "end polygon": endPolygon,
     "expect surface": (turtle) => { turtle.expectsSurface = true; },

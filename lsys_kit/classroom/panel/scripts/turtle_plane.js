@@ -2,11 +2,12 @@
 // besides, how far it went, and from which earlier point. None of this depends on the angle.
 //
 // An orientation is [turns, degrees, side]: both to the left, and the side on which its left lies, 1, or -1 after a roll by
-// half a turn. Point 0 is the origin.
+// half a turn. Point 0 is the origin. Fractint's turtle, which never leaves the plane, has a second heading, in degrees.
 
-import { commonActions, roomFor, wrapped } from "./turtle_actions.js";
+import { OWN_LOOK, amountOf, commonActions, goAhead, roomFor } from "./turtle_actions.js";
 
 const RADIANS_PER_DEGREE = Math.PI / 180;
+const FRACTINT_COLOURS = 256, FRACTINT_WHITE = 15;
 const LARGEST_EXACT = 2 ** 40; // greater angles are reduced to less than a full turn: the number of turns is whole
 
 export function planeTrail({ side }) {
@@ -54,9 +55,36 @@ export function returnToStroke(turtle, call) {
   if (turtle.last) turtle.position = turtle.trail.between(turtle.last, call.factor + call.addend);
 }
 
+function bySecondHeading(drawn) {
+  const ahead = goAhead(drawn, true);
+  return (turtle, call) => {
+    const { orientation } = turtle;
+    turtle.orientation = turtle.trail.headed(turtle.secondHeading);
+    ahead(turtle, call);
+    turtle.orientation = orientation;
+  };
+}
+
+// Of Fractint's colours a step never leads to 0, that of the background.
+function setPaletteColour(turtle, call) {
+  const before = turtle.colour === OWN_LOOK ? FRACTINT_WHITE : turtle.colour, step = call.factor !== 0;
+  const colour = wrapped(Math.floor(amountOf(call, before)), FRACTINT_COLOURS);
+  turtle.colour = colour || !step ? colour : call.addend > 0 ? 1 : FRACTINT_COLOURS - 1;
+}
+
+// The remainder, which is never negative.
+function wrapped(value, round) {
+  return ((value % round) + round) % round;
+}
+
 export function planeActions() {
-  return { ...commonActions(), "turn": turnInPlane, "turn back": turnInPlane, "turn by mirrored angle": turnMirroredInPlane,
-    "roll": rollInPlane, "return to stroke": returnToStroke };
+  return {
+    ...commonActions(), "turn": turnInPlane, "turn back": turnInPlane, "roll": rollInPlane, "return to stroke": returnToStroke,
+    "draw by second heading": bySecondHeading(true), "move by second heading": bySecondHeading(false),
+    "turn second heading": (turtle, call) => { turtle.secondHeading += turtle.mirror * call.addend; },
+    "mirror turns": (turtle) => { turtle.mirror = -turtle.mirror; },
+    "turn by mirrored angle": turnMirroredInPlane, "set palette colour": setPaletteColour,
+  };
 }
 
 // Find where the points of a trail lie for an angle.

@@ -7,7 +7,7 @@
 import { commonActions, roomFor } from "./turtle_actions.js";
 import { returnToStroke } from "./turtle_plane.js";
 
-const TURNED = 0, PITCHED = 1, ROLLED = 2, LEVELLED = 3, BENT_DOWN = 4, BENT_TOWARDS = 5, HEADED = 6; // how a frame is made
+const TURNED = 0, PITCHED = 1, ROLLED = 2, LEVELLED = 3, BENT_DOWN = 4, BENT_TOWARDS = 5; // how a frame is made
 const ABSOLUTE = -1, BETWEEN = -2; // points that lie in no frame: given by coordinates, or as a part of the way to another
 const HEAD_AT = 0, LEFT_AT = 3, UP_AT = 6, FRAME_SIZE = 9; // where the vectors of a frame stand, and how many numbers it has
 const NEGLIGIBLE = 1e-12; // smaller sines are taken for 0
@@ -16,14 +16,13 @@ const DEGREES_PER_TURN = 360, QUARTER = 90;
 const QUARTERS = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
 export function spaceTrail(setting) {
-  const frames = { parents: [0], kinds: [TURNED], numbers: [0], signs: [0], values: [0] };
+  const frames = { parents: [0], kinds: [TURNED], numbers: [0], values: [0] };
   const points = { parents: [0], frames: [ABSOLUTE], a: [0], b: [0], c: [0] }, pulls = [];
 
   // A rotation by an amount, by gravitropism of a strength, by a tropism; the meaning of number and value depends on the kind.
-  function frame(parent, kind, number, sign, value) {
+  function frame(parent, kind, number, value) {
     frames.kinds.push(kind);
     frames.numbers.push(number);
-    frames.signs.push(sign);
     frames.values.push(value);
     return roomFor(frames.parents.push(parent)) - 1;
   }
@@ -37,13 +36,12 @@ export function spaceTrail(setting) {
   }
 
   function bent(orientation, tropisms) {
-    for (const pull of tropisms.values()) orientation = frame(orientation, BENT_TOWARDS, pulls.push(pull) - 1, 1, 0);
+    for (const pull of tropisms.values()) orientation = frame(orientation, BENT_TOWARDS, pulls.push(pull) - 1, 0);
     return orientation;
   }
 
   return {
     frame, bent, orientation: 0,
-    headed: (degrees) => frame(0, HEADED, 0, 1, degrees),
     step: (orientation, length, parent) => point(parent, orientation, length, 0, 0),
     local: (orientation, parent, ahead, left, up) => point(parent, orientation, ahead, left, up),
     between: (last, part) => point(points.parents[last], BETWEEN, part, last, 0),
@@ -59,27 +57,22 @@ function packedTrail({ side }, points, frames, pulls) {
     a: real(points.a), b: real(points.b), c: real(points.c),
     rotations: {
       n: m, side, pulls, axes: real(FRAME_SIZE * m), since: new Int32Array(m), parents: new Int32Array(frames.parents),
-      kinds: new Uint8Array(frames.kinds), numbers: new Int32Array(frames.numbers), signs: new Int8Array(frames.signs),
-      values: real(frames.values),
+      kinds: new Uint8Array(frames.kinds), numbers: new Int32Array(frames.numbers), values: real(frames.values),
     },
   };
 }
 
 const rotationBy = (kind) => (turtle, call) => {
-  turtle.orientation = turtle.trail.frame(turtle.orientation, kind, call.amount, 1, 0);
+  turtle.orientation = turtle.trail.frame(turtle.orientation, kind, call.amount, 0);
 };
 
-function turnMirroredInSpace(turtle, call) {
-  turtle.orientation = turtle.trail.frame(turtle.orientation, TURNED, call.amount, turtle.mirror, 0);
-}
-
 function rollLevel(turtle) {
-  turtle.orientation = turtle.trail.frame(turtle.orientation, LEVELLED, 0, 1, 0);
+  turtle.orientation = turtle.trail.frame(turtle.orientation, LEVELLED, 0, 0);
 }
 
 function bendByGravitropism(turtle, call) {
   const strength = call.factor * turtle.gravitropism + call.addend;
-  turtle.orientation = turtle.trail.frame(turtle.orientation, BENT_DOWN, 0, 1, strength);
+  turtle.orientation = turtle.trail.frame(turtle.orientation, BENT_DOWN, 0, strength);
 }
 
 // `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`.
@@ -98,8 +91,8 @@ const fromCpfg = ([x, y, z]) => [x, -z, y];
 
 export function spaceActions() {
   return {
-    ...commonActions(), "turn": rotationBy(TURNED), "turn back": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
-    "turn by mirrored angle": turnMirroredInSpace, "roll": rotationBy(ROLLED), "level": rollLevel, "gravitropism": bendByGravitropism,
+    ...commonActions(), "turn": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
+    "roll": rotationBy(ROLLED), "level": rollLevel, "gravitropism": bendByGravitropism,
     "set tropism": setTropism, "set position": setPosition, "return to stroke": returnToStroke,
   };
 }
@@ -129,18 +122,17 @@ export function placeInSpace(trail, amounts, angle, heading) {
   }
 }
 
-function placeFrames({ n, side, pulls, axes, since, parents, kinds, numbers, signs, values }, amounts, angle, heading) {
+function placeFrames({ n, side, pulls, axes, since, parents, kinds, numbers, values }, amounts, angle, heading) {
   const turned = amounts.map(([factor, addend]) => cosineAndSine(factor * angle + addend));
   placeFirstFrame(axes, side, heading);
   for (let i = 1; i < n; i++) {
     const to = FRAME_SIZE * i, kind = kinds[i];
     axes.copyWithin(to, FRAME_SIZE * parents[i], FRAME_SIZE * (parents[i] + 1));
-    const rotated = kind <= ROLLED ? rotateTowards(axes, to, kind, turned[numbers[i]], signs[i])
+    const rotated = kind <= ROLLED ? rotateTowards(axes, to, kind, turned[numbers[i]])
       : kind === LEVELLED ? makeLevel(axes, to)
       : kind === BENT_DOWN ? bendDown(axes, to, values[i])
-      : kind === BENT_TOWARDS ? bendTowards(axes, to, pulls[numbers[i]])
-      : rotateTowards(axes, to, TURNED, cosineAndSine(values[i]), 1);
-    since[i] = since[parents[i]] + (rotated && kind !== HEADED);
+      : bendTowards(axes, to, pulls[numbers[i]]);
+    since[i] = since[parents[i]] + rotated;
     if (since[i] > RENORMALISED_AFTER) since[i] = renormalise(axes, to);
   }
 }
@@ -154,8 +146,8 @@ function placeFirstFrame(axes, side, heading) {
 // A rotation of the first of two vectors towards the second: of H towards L, of U towards H, of U towards L.
 const ROTATED = [[HEAD_AT, LEFT_AT], [UP_AT, HEAD_AT], [UP_AT, LEFT_AT]];
 
-function rotateTowards(axes, at, kind, [cos, sine], sign) {
-  const [first, second] = ROTATED[kind], sin = sign * sine;
+function rotateTowards(axes, at, kind, [cos, sin]) {
+  const [first, second] = ROTATED[kind];
   for (let i = at; i < at + 3; i++) {
     const a = axes[i + first], b = axes[i + second];
     axes[i + first] = cos * a + sin * b;
@@ -181,7 +173,7 @@ function bendDown(axes, at, strength) {
     rotateAbout(axes, at, [-y / across, x / across, 0], Math.atan2(across, z - strength) - Math.atan2(across, z));
     return true;
   }
-  return z > 0 && strength > 1 && rotateTowards(axes, at, PITCHED, [-1, 0], 1);
+  return z > 0 && strength > 1 && rotateTowards(axes, at, PITCHED, [-1, 0]);
 }
 
 // A tropism T of elasticity e bends by the angle e |H x T| about H x T; the pull is e T.
