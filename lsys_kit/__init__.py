@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lsys_kit.budget import limits
     from lsys_kit.classroom.catalogue import map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
+    from lsys_kit.classroom.link import link, linked
     from lsys_kit.classroom.panel.explorer import explore
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth.growth import growth
@@ -50,7 +51,8 @@ _HOMES = {
     "check": "classroom.exercises.check",
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
-    "growth": "derivation.growth.growth", "limits": "budget", "lineage": "derivation.timed.lineage",
+    "growth": "derivation.growth.growth", "limits": "budget",
+    "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "read": "notation.read", "read_map": "notation.dialects.map.dialect", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
@@ -75,6 +77,8 @@ __all__ = [
     "growth",
     "limits",
     "lineage",
+    "link",
+    "linked",
     "map_system",
     "map_systems",
     "pnml",

@@ -14,7 +14,9 @@ from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
+from lsys_kit.notation.dialects.map.dialect import MAP
 from lsys_kit.notation.foreign import foreign_format, mistakable_format
+from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression
 from lsys_kit.notation.model.modules import Module, flat
@@ -37,7 +39,7 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     Parameters
     ----------
     text
-        The model: constants, axiom, productions, one a line. `/* ... */` is a comment.
+        The model: constants, axiom, productions, one a line. `/* ... */` is a comment. Or a link with a model in it.
     notation
         Its name; by default the notation whose features the text shows most. Unless that is the kit's own, the first note of
         the system names it.
@@ -71,6 +73,8 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
       }
     """
     check_text(text)
+    if is_link(text):
+        return _read_link(text, notation, name)
     text = text.removeprefix("\ufeff")  # the byte order mark, with which some editors begin a file
     if _MAP.match(text):
         raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
@@ -82,6 +86,17 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         raise mistakable
     system = _read_or_claimed(chosen, text, name, _others(chosen, text))
     return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
+
+
+def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
+    """The system of a link, which names its notation itself."""
+    content = unpacked(link)
+    if content.notation == MAP.name:
+        raise ModelValueError("This is the link of a map system, not of an L-system", hint="Maps are read by read_map(link).")
+    if name is not None or notation not in (None, content.notation):
+        raise ModelValueError(f"This link has one system, in the notation {content.notation}",
+                              hint="Leave out the notation and the name: read(link).")
+    return system_in(dialect_named(content.notation), content.text)
 
 
 def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:

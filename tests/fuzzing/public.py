@@ -57,7 +57,7 @@ EXTREME: tuple[object, ...] = (
 NAMES = (
     "steps", "n", "seed", "arithmetic", "angle", "marked", "cells", "tokens", "positions", "intervals", "iterations",
     "stiffness", "pressure", "polarity", "durations", "seconds", "hint", "solution", "ax", "c", "d", "dt", "lifeTimeA",
-    "notation", "name", "x",
+    "notation", "name", "x", "settings", "base",
 )
 """Names of arguments, and of constants."""
 
@@ -97,13 +97,14 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
         lambda system: kit.derive(system, steps)[-1], lambda system: kit.stages(system), lambda system: kit.timed(system),
         lambda system: kit.lineage(system, steps), lambda system: kit.draw(system, steps), lambda system: kit.growth(system),
         lambda system: kit.write(system), lambda system: system_text(chance), lambda system: chance.choice(EXTREME),
+        lambda system: kit.link(system),
         lambda system: kit.lineage(kit.timed(system), steps), lambda system: kit.stages(kit.timed(system)))
     return chance.choice(makers)(some_system(chance))
 
 
 FUNCTIONS = (
-    "animate", "check", "continuity", "derive", "draw", "explain", "explore", "figure", "growth", "lineage", "map_system",
-    "pnml", "read", "read_map", "stages", "system", "systems", "map_systems", "timed", "write",
+    "animate", "check", "continuity", "derive", "draw", "explain", "explore", "figure", "growth", "lineage", "link", "linked",
+    "map_system", "pnml", "read", "read_map", "stages", "system", "systems", "map_systems", "timed", "write",
 )
 """The public functions; `limits` is about each of them."""
 

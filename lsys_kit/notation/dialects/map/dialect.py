@@ -14,11 +14,12 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError
+from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.analysis.map_checks import check_map, unused_parts
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.map.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.map.spelling import SPELLING
+from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
@@ -36,7 +37,7 @@ def read_map(text: str) -> MapSystem:
     ----------
     text
         The walls of the first cell, clockwise, and productions, one a line, in ASCII or as print has them. `/* ... */` is a
-        comment.
+        comment. Or a link with a map system in it.
 
     Raises
     ------
@@ -60,6 +61,12 @@ def read_map(text: str) -> MapSystem:
     Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, section 7.1.2.
     """
     check_text(text)
+    if is_link(text):
+        content = unpacked(text)
+        if content.notation != MAP.name:
+            raise ModelValueError("This is the link of an L-system, not of a map system",
+                                  hint="L-systems are read by read(link).")
+        text = content.text
     with reporting(text, MAP.spelling):
         system = _system(text)
         check_map(system)

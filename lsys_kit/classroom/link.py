@@ -1,0 +1,134 @@
+"""Links: a model with its settings as an address, to be sent, or shown as a QR code; and back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.dialects.map.dialect import MAP, read_map
+from lsys_kit.notation.fragments import LinkContent, is_link, packed, unpacked
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read
+from lsys_kit.notation.write import write
+
+STEP, ANGLE, SEED = "step", "angle", "seed"
+"""The settings that are no constants."""
+_WHOLE = {STEP: "a whole number from 0 on", SEED: "a whole number"}
+
+
+@dataclass(frozen=True)
+class Linked:
+    """What a link leads to.
+
+    Attributes
+    ----------
+    system
+        The L-system or map system.
+    settings
+        Exact values by name: perhaps `step`, `angle` and `seed`, and constants of the system. They are what `explore` takes.
+    """
+
+    system: LSystem | MapSystem
+    settings: Mapping[str, Value]
+
+
+def link(system: LSystem | MapSystem, settings: Mapping[str, object] | None = None, base: str = "") -> str:
+    """An address with a model in it, which `read` reads; nothing of it is kept anywhere else.
+
+    Parameters
+    ----------
+    system
+        An L-system or a map system.
+    settings
+        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants.
+    base
+        The address of a page that shows models; without one, the link can be read by the kit alone.
+
+    Raises
+    ------
+    ModelNameError
+        The system has no constant of that name.
+    ModelValueError
+        A value is no number, or the system cannot be written.
+    ModelLimitError
+        The link would be too long.
+
+    Examples
+    --------
+    >>> from lsys_kit.classroom.catalogue import system
+    >>> there = link(system("T2"), {"step": 4}, "https://example.org/panel.html")
+    >>> there.partition("=")[0], len(there) < 150, read(there) == system("T2"), dict(linked(there).settings)
+    ('https://example.org/panel.html#lsys', True, True, {'step': 4})
+    """
+    require(system, (LSystem, MapSystem), "An L-system or a map system")
+    require(base, str, "The address of a page")
+    require(settings, (Mapping, type(None)), "A mapping of settings")
+    given = {name: number_text(value) for name, value in _values(system, settings or {}).items()}
+    _values(system, given)  # which raises an error if a number is too long to be read again
+    notation, text = (MAP.name, _map_text(system)) if isinstance(system, MapSystem) else (system.notation, write(system))
+    address = base.partition("#")[0] + packed(LinkContent(notation, given, text))
+    if not base.isprintable() or not is_link(address):
+        raise ModelValueError("The address of a page has no blanks in it, and all of it is visible",
+                              hint='A blank is written "%20" there.')
+    return address
+
+
+def linked(link: str) -> Linked:
+    """The system and the settings of a link.
+
+    Raises
+    ------
+    ModelSyntaxError
+        The text is no link, or a broken one.
+    LSystemError
+        Its model cannot be read, or its settings are not those of the model.
+
+    Examples
+    --------
+    >>> linked("https://example.org/")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelSyntaxError: This text is no link: it has no model behind "#lsys=" (line 1, column 1). \
+Links are made by link(system).
+      https://example.org/
+      ^^^^^^^^^^^^^^^^^^^^
+    """
+    require(link, str, "The text of a link")
+    if not is_link(link):
+        raise ModelSyntaxError('This text is no link: it has no model behind "#lsys="', link, 0, len(link),
+                               "Links are made by link(system).")
+    content = unpacked(link)
+    system = read_map(link) if content.notation == MAP.name else read(link)
+    return Linked(system, MappingProxyType(_values(system, content.settings)))
+
+
+def _values(system: LSystem | MapSystem, settings: Mapping[str, object]) -> dict[str, Value]:
+    """The exact values of settings, if the system has them."""
+    constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else []
+    for name in settings:
+        if name not in (STEP, ANGLE, SEED, *constants):
+            listed = f"Its constants are: {', '.join(constants)}." if constants else "It has none."
+            raise ModelNameError(f'The system declares no constant "{name}"', hint=suggestion(str(name), constants) or listed)
+    return {name: _value(name, given) for name, given in settings.items()}
+
+
+def _value(name: str, given: object) -> Value:
+    value = number_from(given, name)
+    if is_symbolic(value):
+        raise ModelValueError(f'"{name}" must be a number that is known, not {shown(given)}')
+    if name in _WHOLE and not (isinstance(value, int) and (name == SEED or value >= 0)):
+        raise ModelValueError(f'"{name}" must be {_WHOLE[name]}, not {shown(given)}')
+    return value
+
+
+def _map_text(system: MapSystem) -> str:
+    """The text of a map system, if it reads back."""
+    text = str(system)
+    if read_map(text) != system:
+        raise ModelValueError("This map system cannot be written so that it reads back")
+    return text
