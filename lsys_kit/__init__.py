@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from lsys_kit.notation.write import write
     from lsys_kit.pictures.draw import draw, figure
     from lsys_kit.pictures.films import animate
+    from lsys_kit.pictures.qr_codes import qr_code
     from lsys_kit.worlds.derive import derive
 
 _HOMES = {
@@ -54,6 +55,7 @@ _HOMES = {
     "growth": "derivation.growth.growth", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
+    "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_map": "notation.dialects.map.dialect", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
     "write": "notation.write",
@@ -82,6 +84,7 @@ __all__ = [
     "map_system",
     "map_systems",
     "pnml",
+    "qr_code",
     "read",
     "read_map",
     "stages",

@@ -90,6 +90,9 @@ def _argument_parser() -> argparse.ArgumentParser:
     convert = command("convert", commands.convert, "Print a model in another notation.",
                       "Example: lsys-kit convert K5 --to plant-string -o plant.txt")
     _add_conversion(convert)
+    link = command("link", commands.print_link, "Print a model with its settings as an address, which the other commands read.",
+                   "Example: lsys-kit link J4 -n 9 --set lifeTimeA=4 --qr j4.svg")
+    _add_link(link)
     lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
     return parser
@@ -97,16 +100,21 @@ def _argument_parser() -> argparse.ArgumentParser:
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
     """The options that say which system, and up to which step."""
-    parser.add_argument("system", metavar="SYSTEM",
-                        help="an id or name in the catalogue, such as P4 or koch-curve; a file; or - for standard input")
+    _add_model(parser)
     parser.add_argument("-n", "--steps", type=_step_count, required=steps_needed, metavar="N", help="the number of steps")
+    parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
+                        help="float uses doubles, as other programs do")
+
+
+def _add_model(parser: argparse.ArgumentParser) -> None:
+    """The options that say which system, with which constants."""
+    parser.add_argument("system", metavar="SYSTEM",
+                        help="an id or name in the catalogue, such as P4; a file; a link of a model; or - for standard input")
     parser.add_argument("--set", type=_constant_setting, action="append", default=[], metavar="NAME=VALUE", dest="settings",
                         help="set a constant, as in dt=14/10")
     parser.add_argument("--notation", metavar="NAME",
                         help="the notation of the file; for a system of the catalogue, the notation of the printed words")
     parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
-    parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
-                        help="float uses doubles, as other programs do")
     parser.add_argument("--seed", type=_seed, metavar="S",
                         help="the seed of the random numbers, a whole number (default: the model's own, else 0)")
 
@@ -118,6 +126,15 @@ def _add_conversion(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--from", dest="notation", metavar="NOTATION", help="the notation of FILE (default: it is recognised)")
     parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
     parser.add_argument("-o", "--output", metavar="FILE", help="write into this file, which must not exist yet")
+
+
+def _add_link(parser: argparse.ArgumentParser) -> None:
+    """The options that say what goes into a link, and what comes before it."""
+    _add_model(parser)
+    parser.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is to be seen")
+    parser.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
+    parser.add_argument("--base", default="", metavar="ADDRESS", help="the address of a page that shows models")
+    parser.add_argument("--qr", metavar="FILE", help="write the address as a QR code too (.svg, .png)")
 
 
 def _spread(arguments: Sequence[str]) -> Iterator[str]:

@@ -133,6 +133,22 @@ def convert(options: argparse.Namespace) -> None:
     print(text if options.output is None else f"Written to {quotable(options.output)} in the notation {options.to}.")
 
 
+def print_link(options: argparse.Namespace) -> None:
+    """Print the address of a model with its settings, and perhaps write it as a QR code."""
+    from lsys_kit.classroom.catalogue import is_map_system, map_system
+    from lsys_kit.classroom.link import link
+    from lsys_kit.pictures.qr_codes import qr_code
+
+    system = map_system(options.system) if is_map_system(options.system) else \
+        _named_system(options.system, options.notation, options.name)
+    own = {"step": options.steps, "angle": options.angle, "seed": options.seed}
+    settings = {name: value for name, value in own.items() if value is not None} | dict(options.settings)
+    address = link(system, settings, options.base)
+    if options.qr is not None:
+        qr_code(address).save(options.qr)
+    print(address)
+
+
 def open_lab(options: argparse.Namespace) -> None:
     """Copy the course and open it in JupyterLab."""
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
@@ -162,13 +178,16 @@ def _system_with_constants(options: argparse.Namespace) -> LSystem:
 
 
 def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
-    """The system of the catalogue with this id or name, otherwise that in the file of this name, or one of its entries."""
+    """The system of a link, or of the catalogue with this id or name; else that in the file of this name, or an entry."""
     from lsys_kit.classroom.catalogue import system
+    from lsys_kit.notation.fragments import is_link
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
 
     if name == "-":
         return read(_decoded(sys.stdin.buffer, "the standard input"), notation, entry)
+    if is_link(name):
+        return read(name, notation, entry)
     try:
         found = system(name)
     except ModelNameError:

@@ -201,6 +201,49 @@ def test_words_of_the_catalogue_are_printed_in_another_notation_if_it_can_hold_t
     refused(shell("derive", "P4", "-n", "1", "--notation", "plant-string"), "has no parameters")
 
 
+# --- links ------------------------------------------------------------------------------------------------------------
+
+def test_link_prints_an_address_that_leads_to_the_model_and_its_settings(shell):
+    from lsys_kit import linked, system
+
+    said = shell("link", "J4", "-n", "9", "--set", "lifeTimeA=4", "lifeTimeB=5", "--seed", "3", "--base", "https://example.org/")
+    assert said.status == 0
+    assert said.out.startswith("https://example.org/#lsys=")
+    there = linked(said.out)
+    assert (there.system, dict(there.settings)) == (
+        system("J4"), {"step": 9, "seed": 3, "lifeTimeA": 4, "lifeTimeB": 5})
+    assert linked(shell("link", "K5", "--angle", "25.7").out).settings["angle"] * 10 == 257
+
+
+def test_a_map_and_a_file_have_links_too(shell, model):
+    from lsys_kit import map_system, read, read_map
+
+    assert read_map(shell("link", "K28").out) == map_system("K28")
+    assert read(shell("link", model(FIBONACCI)).out) == read(FIBONACCI)
+
+
+def test_the_other_commands_read_a_link(shell, tmp_path):
+    address = shell("link", "J1").out.strip()
+    assert shell("derive", address, "-n", "3") == shell("derive", "J1", "-n", "3")
+    assert shell("convert", address, "--to", "mathematica") == shell("convert", "J1", "--to", "mathematica")
+    refused(shell("derive", address[:-1], "-n", "3"), "This link is broken", "Copy the whole link again")
+
+
+def test_link_writes_a_qr_code(shell, tmp_path):
+    from lsys_kit import qr_code
+
+    said = shell("link", "J4", "-n", "9", "--qr", str(tmp_path / "j4.svg"))
+    assert qr_code(said.out.strip()).svg in (tmp_path / "j4.svg").read_text()
+    refused(shell("link", "J4", "--qr", "j4.txt"), "j4.txt", ".svg or .png")
+
+
+def test_link_refuses_what_the_model_has_not(shell):
+    refused(shell("link", "J4", "--set", "lifetimeA=4"), "lifeTimeA")
+    refused(shell("link", "J4", "--set", "lifeTimeA=lifeTimeA"), "known")
+    refused(shell("link", "J4", "--base", "my page"), "%20")
+    refused(shell("link", "K28", "--set", "dt=1"), "no constant")
+
+
 # --- other notations --------------------------------------------------------------------------------------------------
 
 def test_convert_prints_the_same_system_in_another_notation(shell):
