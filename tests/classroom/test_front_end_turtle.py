@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from playwright.sync_api import Error
 
-from lsys_kit import derive
+from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
+from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
@@ -33,7 +35,8 @@ return given.map(({ book, angles }) => book.words.map((word, step) => {
   const opened = bookOf(book);
   return angles.map((angle) => {
     const { x, y, z, strokes, faces, rounds, palette, typical } = placed(traced(opened, step), angle);
-    return { points: [x, y, z ?? []].map(plain), strokes: taken(strokes), faces: taken(faces), rounds: taken(rounds), palette, typical };
+    const points = [x, y, z ?? []].map(plain);
+    return { points, strokes: taken(strokes), faces: taken(faces), rounds: taken(rounds), palette, typical };
   });
 }));
 """
@@ -81,6 +84,13 @@ def expect_same(shapes, scene, word, last):
         assert found["colours"] == np.broadcast_to(numbers, len(kept)).tolist()
 
 
+def expect_refused(page, word, sentence):
+    with pytest.raises(ModelValueError, match=sentence):
+        scene_by_kit(word, 90)
+    with pytest.raises(Error, match=sentence):
+        answers(page, SHAPES, [{"book": book_of([word]), "angles": [90]}], *TURTLE)
+
+
 TURTLES = [id for id in systems() if drawing_mode(system(id)) is not DrawingMode.FILAMENT]
 
 
@@ -119,3 +129,35 @@ def words(dialect, *, flat=False):
 def test_words_of_all_commands(page, dialect, flat, data):
     found = data.draw(st.lists(words(dialect, flat=flat), min_size=8, max_size=8))
     expect_drawn(page, [[word] for word in found], [60.0, *ANGLES])
+
+
+@pytest.mark.parametrize(("letter", "what"), [("L", "step"), ("D", "width"), ("V", "strength")])
+def test_what_grows_too_large_is_refused_in_the_same_words(page, letter, what):
+    row = (Pattern(letter, (Number(10),)), *[Pattern(f"{letter}*", (Number(1000),))] * 17, Pattern("RV"), Pattern("F"))
+    expect_refused(page, derive(LSystem(row, (), turtle="grogra"), 0)[0],
+                   rf"The turtle's {what} grows too large to draw: 1e\+52")
+
+
+def test_fifteen_thousand_strokes_are_placed_at_once(page):
+    """A typical time and not the greatest, since other programs may need the processor; a hundred times what it takes."""
+    for branch in ("-", "&"):
+        plant = derive(read(f"angle: 25.7\naxiom: F\nF -> F[+F]F[{branch}F]F"), 6)[-1]
+        strokes, milliseconds = answers(page, """
+            const path = traced(bookOf(given), 0), times = [];
+            for (let angle = 0; angle < 31; angle++) {
+              const start = performance.now();
+              placed(path, angle);
+              times.push(performance.now() - start);
+            }
+            return [path.strokes.n, times.sort((a, b) => a - b)[15]];""", book_of([plant]), *TURTLE)
+        assert strokes == 5**6
+        assert milliseconds < 100
+
+
+def test_a_stroke_knows_its_module(page):
+    word = derive(read("axiom: F[+F]{-f+f+f}@o(1)\nF -> F[+F]F"), 1)[-1]
+    found = answers(page, """
+        const { strokes, faces, rounds } = placed(traced(bookOf(given), 0), 90);
+        return [strokes, faces, rounds].map(({ positions }) => Array.from(positions));""", book_of([word]), *TURTLE)
+    assert [[str(word[place]) for place in places] for places in found] == [["F"] * 6, ["{"], ["@o(1)"]]
+    assert found[0] == [place for place, module in enumerate(word) if module.symbol == "F"]

@@ -56,7 +56,7 @@ function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofSt
   const colourOf = (state, colour) => (colour === OWN_LOOK ? ofStates[state] : chosen[colour % chosen.length]);
   return {
     dimension: inSpace ? 3 : 2, trail: trail.packed(), amounts, palette, heading: setting.heading, pixels: setting.pixels,
-    typical: medianLength(turtle.strokes.lengths), broadest: broadestOf(turtle.strokes.widths, OWN_LOOK),
+    typical: medianLength(turtle.strokes.lengths), broadest: broadestOf(turtle.strokes.widths, OWN_LOOK), placed: null,
     ...shapesOf(turtle, colourOf),
   };
 }
@@ -88,18 +88,23 @@ function shapesOf({ strokes, faces, rounds }, colourOf) {
   };
 }
 
-// The shapes of a path for an angle, in degrees. Their points stay where they are until the path is placed anew.
+// The shapes of a path for an angle, in degrees. Their points stay where they are until the path is placed for another.
 export function placed(path, angle) {
+  if (path.placed?.angle !== angle) path.placed = { angle, shapes: placedAnew(path, angle) };
+  return path.placed.shapes;
+}
+
+function placedAnew(path, angle) {
   const { dimension, trail, amounts, palette, heading, typical, faces, rounds } = path, { n, x, y, z } = trail;
   if (dimension === 2) placeInPlane(trail, angle, heading);
   else placeInSpace(trail, amounts, angle, heading);
-  const bounds = boundsOf(path, trail), pixel = pixelOf(path, bounds);
+  const pixel = pixelOf(path, extentOf(path, trail));
   return { dimension, n, x, y, z, strokes: { ...path.strokes, widths: widthsInUnits(path.strokes.widths, pixel) },
-    faces, rounds, palette, typical, bounds, pixel };
+    faces, rounds, palette, typical, pixel };
 }
 
 // The least and the greatest of each coordinate of all that is drawn; zeros where that is nothing.
-function boundsOf({ strokes, faces, rounds }, { x, y, z }) {
+function extentOf({ strokes, faces, rounds }, { x, y, z }) {
   const found = (z ? [x, y, z] : [x, y]).map((places) => {
     let least = Infinity, most = -Infinity;
     for (const numbers of [strokes.from, strokes.to, faces.corners]) {

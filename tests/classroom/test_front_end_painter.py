@@ -1,0 +1,164 @@
+"""The canvas paints in the order of the pictures that stay, shows what is traced without colours, and finds what lies there."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lsys_kit import derive, read
+from lsys_kit.classroom.catalogue import system, systems
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.pictures.display_list import Faces, Strokes, display_list
+from lsys_kit.pictures.draw import state_colours
+from lsys_kit.pictures.view import project
+from tests.classroom.front_end import PAINTER, answers, book_of
+from tests.classroom.test_front_end_turtle import MOST_MODULES, scene_by_kit, words
+
+SIDES = [(0, 0), (90, 0), (30, 20), (-145, -60), (0, 90)]
+TURTLES = [id for id in systems() if drawing_mode(system(id)) is not DrawingMode.FILAMENT]
+THEME = {"ink": "#22303c", "paper": "#ffffff", "markEdge": "#8f6400", "lit": "#b03a00", "dark": False}
+DARK = {"ink": "#e8edf2", "paper": "#161b20", "markEdge": "#e5b84a", "lit": "#ff9a66", "dark": True}
+SIZE = 400
+
+ORDERS = """
+return given.map(({ book, sides }) => sides.map(([around, above]) => {
+  const shapes = placed(traced(bookOf(book), 0), book.turtle.angle), frame = frameOf(shapes, 600, 400, { around, above });
+  const { order, widths } = seenIn(frame, shapes), { strokes, palette } = shapes;
+  return { scale: frame.scale, order: Array.from(order),
+    looks: Array.from(widths, (width, i) => [palette[strokes.colours[i]], width]) };
+}));
+"""
+PAINTED = """
+const canvas = document.createElement("canvas"), pen = canvas.getContext("2d", { willReadFrequently: true });
+canvas.width = canvas.height = SIZE;
+const shapesOfStep = (step) => placed(traced(bookOf(given.book), step), given.book.turtle.angle);
+const shapes = shapesOfStep(given.step ?? 0), box = given.boxed === undefined ? null : boundsOf(shapesOfStep(given.boxed));
+const frame = frameOf(shapes, SIZE, SIZE, { ...given.view, box });
+const inked = (look) => {
+  pen.fillStyle = given.theme.paper;
+  pen.fillRect(0, 0, SIZE, SIZE);
+  paint(pen, shapes, frame, { theme: given.theme, ...look });
+  return pen.getImageData(0, 0, SIZE, SIZE).data;
+};
+"""
+
+
+@pytest.fixture(scope="module")
+def page(browser):
+    return browser.new_page()
+
+
+def painted(page, code, word, theme=THEME, **more):
+    """What some code makes of a painted word."""
+    return answers(page, PAINTED.replace("SIZE", str(SIZE)) + code, {"book": book_of([word]), "theme": theme, **more}, *PAINTER)
+
+
+def word_of(text):
+    return derive(read(f"angle: 90\naxiom: {text}"), 0)[0]
+
+
+def expect_painted(page, found):
+    """The canvas paints some words, seen from several sides, in the order of the kit's pictures."""
+    given = [{"book": book_of([word]), "sides": SIDES if book_of([word])["mode"] == "space" else SIDES[:1]} for word in found]
+    for word, case, shown in zip(found, given, answers(page, ORDERS, given, *PAINTER), strict=True):
+        scene = scene_by_kit(word, case["book"]["turtle"]["angle"])
+        for side, seen in zip(case["sides"], shown, strict=True):
+            runs = list(display_list(project(scene, *side), seen["scale"], state_colours(word)))
+            assert seen["order"] == [number + first(run, scene) for run in runs for number in run.numbers.tolist()]
+            for run in runs if scene.dimension == 2 else ():
+                if isinstance(run, Strokes):
+                    assert {tuple(seen["looks"][number]) for number in run.numbers.tolist()} == {(run.colour, run.width)}
+
+
+def first(run, scene):
+    """The number of the first shape of a kind: faces are counted first, then strokes, then rounds."""
+    faces, strokes = len(scene.polygons), len(scene.segments)
+    return 0 if isinstance(run, Faces) else faces if isinstance(run, Strokes) else faces + strokes
+
+
+@pytest.mark.parametrize("id", TURTLES)
+def test_drawings_of_the_catalogue_are_painted_as_in_the_pictures_that_stay(page, id):
+    expect_painted(page, [[word for word in derive(system(id), 4, seed=1) if len(word) <= MOST_MODULES][-1]])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("dialect", "flat"), [("abop", False), ("abop", True), ("grogra", False), ("fractint", True)])
+@settings(max_examples=8)
+@given(data=st.data())
+def test_words_of_all_commands_are_painted_so_too(page, dialect, flat, data):
+    expect_painted(page, data.draw(st.lists(words(dialect, flat=flat), min_size=8, max_size=8)))
+
+
+POINTED = """
+const seen = seenIn(frame, shapes), at = (x, y) => shapeAt(shapes, frame, x, y, 6), { strokes } = shapes;
+const middle = (i) => [strokes.from, strokes.to].map((ends) => [seen.x[ends[i]], seen.y[ends[i]]])
+  .reduce(([ax, ay], [bx, by]) => [(ax + bx) / 2, (ay + by) / 2]);
+"""
+
+
+@pytest.mark.parametrize("text", ["F[+F]F[-F]{-f+f+f}F", "F[&F]F[^F]/(60)[&F]F"], ids=["plane", "space"])
+def test_whoever_points_at_a_stroke_finds_its_module(page, text):
+    code = POINTED + "return Array.from(strokes.positions, (position, i) => [position, at(...middle(i))]);"
+    for pointed, found in painted(page, code, word_of(text), view={"around": 35, "above": 20}):
+        assert pointed == found
+
+
+def test_where_nothing_is_near_nothing_is_found(page):
+    assert painted(page, POINTED + "return [at(5, 200), at(middle(0)[0] + 5, 200), at(middle(0)[0] + 9, 200)];",
+                   word_of("FF")) == [-1, 1, -1]
+
+
+def test_of_two_shapes_the_one_in_front_is_found(page):
+    """The turtle turns towards the viewer, who sees its second sphere before the first, and from behind the other way round."""
+    word = word_of("@O(2)^(90)f(3)@O(2)")
+    for around, position in ((0, 3), (180, 0)):
+        assert painted(page, "return shapeAt(shapes, frame, 200, 200, 6);", word, view={"around": around}) == position
+
+
+def test_inside_a_face_it_is_found_and_outside_it_is_not(page):
+    found = painted(page, POINTED + "return [[200, 210], [200, 180], [60, 150]].map((point) => at(...point));",
+                    word_of("{-(45)f(5)+(90)f(5)+(90)f(5)}"))
+    assert found == [0, 0, -1]
+
+
+KINDS = ("self", "mother", "daughter")
+
+
+@pytest.mark.parametrize("theme", [THEME, DARK], ids=["light", "dark"])
+@pytest.mark.parametrize("text", ["FF", "{-f+f+f}FF", "@O(2)f(3)FF"], ids=["stroke", "face", "sphere"])
+def test_mother_and_daughters_are_told_apart_without_colour(page, text, theme):
+    """In one colour, what surrounds what is traced has three shapes."""
+    word = word_of(text)
+    pictures = painted(page, """
+        const one = { ...given.theme, lit: given.theme.ink };
+        return given.kinds.map((kind) => inked({ theme: one, lit: new Map([[0, kind]]) }).join());""", word, theme, kinds=KINDS)
+    plain = painted(page, "return inked({}).join();", word, theme)
+    assert len({plain, *pictures}) == 4
+
+
+def test_what_is_marked_lies_on_a_band(page):
+    word = word_of("F(2)F(3)")
+    plain, marked = (painted(page, f"return inked({{ marked: new Set([{state}]) }}).join();", word) for state in (9, 0))
+    assert plain != marked
+
+
+@pytest.mark.parametrize("id", ["K5", "K12", "K19", "J6", "L3"])
+@pytest.mark.parametrize("theme", [THEME, DARK], ids=["light", "dark"])
+def test_lines_can_be_seen_on_their_paper(page, id, theme):
+    """The nearest strokes have a contrast of 3 to 1 at least to the paper (WCAG 2.2, criterion 1.4.11)."""
+    word = derive(system(id), 3, seed=1)[-1]
+    ratios = painted(page, """const shade = shades(shapes.palette, given.theme);
+        return shapes.palette.map((_, colour) => contrast(shade(colour, 1), given.theme.paper));""", word, theme)
+    assert min(ratios) >= 3
+
+
+def test_in_a_frame_that_stays_a_plant_grows(page):
+    plant = derive(read("axiom: F\nF -> FF"), 3)
+    book = book_of(list(plant))
+    code = PAINTED.replace("SIZE", str(SIZE)) + """
+        const { x, y } = seenIn(frame, shapes);
+        return [Math.min(...y), Math.max(...y)];"""
+    ends = [answers(page, code, {"book": book, "theme": THEME, "step": step, "boxed": 3}, *PAINTER) for step in range(4)]
+    assert [bottom for _, bottom in ends] == pytest.approx([ends[0][1]] * 4)
+    assert [bottom - top for top, bottom in ends] == pytest.approx([(SIZE - 28) / 8 * 2**step for step in range(4)])
