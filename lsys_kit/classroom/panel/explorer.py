@@ -20,6 +20,7 @@ import traitlets
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.catalogue import entry
 from lsys_kit.classroom.catalogue import system as catalogued
+from lsys_kit.classroom.link import ANGLE, SEED, STEP, link, linked
 from lsys_kit.classroom.panel.book import MOST_MODULES, book
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import SliderRange, slider_ranges, slider_values
@@ -27,6 +28,7 @@ from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError, shown
+from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
@@ -44,7 +46,7 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     Parameters
     ----------
     what
-        A system, the id or name of one in the catalogue, or the text of a model.
+        A system, the id or name of one in the catalogue, the text of a model, or a link.
     step
         The step shown first; by default the system's own.
     angle
@@ -73,10 +75,18 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
         what = catalogued(title)
+    if isinstance(what, str) and is_link(what):
+        there = linked(what)
+        return explore(there.system, **{**there.settings, **_given(step, angle, seed), **constants})
     system = read(what) if isinstance(what, str) else what
     if not isinstance(system, LSystem):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
     return Explorer(system, title, step, angle, seed, constants)
+
+
+def _given(step: int | None, angle: object, seed: int) -> dict[str, Any]:
+    """The settings that are not left to the link."""
+    return {name: value for name, value, usual in ((STEP, step, None), (ANGLE, angle, None), (SEED, seed, 0)) if value != usual}
 
 
 @dataclass(frozen=True)
@@ -161,6 +171,13 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """What the panel shows, in words."""
         return str(self.sight)
 
+    @property
+    def link(self) -> str:
+        """An address with the model and its settings in it, which `explore` and `read` understand."""
+        turn = {} if self.angle == round(float(self.system.angle), 1) else {ANGLE: self.angle}
+        seed = {SEED: self.seed} if self.seed else {}
+        return link(self.system, {STEP: self.step, **turn, **seed, **self._constants(self.settings)})
+
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:
         step: int = proposal["value"]
@@ -243,7 +260,9 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         return {"variants": [{"text": str(variant), "book": book(variant, {}, self.seed)} for variant in variants(self.system, 9)]}
 
     def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        """What is taken along."""
+        """What is taken along: the drawing as SVG, or a link to the panel as it stands."""
+        if content["what"] == "link":
+            return {"text": self.link}
         return {"name": f"{self._opened.title or 'drawing'}.svg", "type": "image/svg+xml", "text": self.sight.picture.svg}
 
     # -- what is kept ---------------------------------------------------------------------------------------------------
