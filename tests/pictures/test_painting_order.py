@@ -1,12 +1,10 @@
-"""What is nearer covers what is farther, in every format, and on the canvas in the browser too."""
+"""What is nearer covers what is farther, in every format. (The canvas in the browser: see tests of the painter.)"""
 
 from __future__ import annotations
 
-import base64
 import io
 import re
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,11 +13,8 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
 
-import lsys_kit.classroom.panel
 from lsys_kit import derive, draw, figure, read
-from lsys_kit.classroom.panel.canvas import packed
 from lsys_kit.geometry.scene import DISC, OWN, Discs, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.pictures.display_list import Faces, Strokes, display_list, frame_of
 from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.raster import turtle_image
@@ -27,7 +22,6 @@ from lsys_kit.pictures.style.palette import CHOSEN, tinted
 from lsys_kit.pictures.svg import turtle_svg
 from lsys_kit.pictures.view import project
 
-PANEL = Path(lsys_kit.classroom.panel.__file__).parent
 POINT = st.tuples(*[st.integers(-6, 6)] * 3)
 COLOUR, WIDTH = st.integers(0, 15), st.sampled_from([OWN, 0.5, 1, 2])
 
@@ -161,60 +155,3 @@ def test_where_nothing_is_drawn_in_space_the_picture_is_empty():
     assert "<path" not in picture.svg
     assert Image.open(io.BytesIO(picture.png)).convert("L").getextrema() == (255, 255)
     assert len(figure(picture).collections[0].get_paths()) == 0
-
-
-# --- the canvas in the browser ----------------------------------------------------------------------------------------
-
-@pytest.fixture(scope="module")
-def page(browser):
-    return browser.new_page()
-
-
-def orders_on_the_canvas(page, cases, script):
-    """The order in which the canvas paints the shapes of some scenes: a number for each polygon, stroke and disc."""
-    code = "\n".join((PANEL / name).read_text(encoding="utf-8") for name in ("pen.js", script)) + """
-return cases.map(({ shapes, around, above, scale, angle, thin }) => {
-  const bytes = Uint8Array.from(atob(shapes), character => character.charCodeAt(0));
-  const drawing = unpacked({ get: () => bytes }), { n, real, whole } = drawing;
-  const points = { x: new Float64Array(n + 1), y: new Float64Array(n + 1) };
-  if (angle === undefined) {
-    points.z = new Float64Array(n);
-    const solid = { n, x: real(), y: real(), z: real() };
-    Object.assign(solid, cylinder(solid, drawing.bulge));
-    projected(solid, around, above, () => ({ scale, x0: 0, y0: 0 }), points);
-  }
-  return Array.from(paintingOrder(drawing, points, widthsOf(drawing.strokes, scale, thin)));
-});
-"""
-    return page.evaluate(f"cases => {{ {code.replace('export default { render };', '')} }}", cases)
-
-
-def numbered(scene, order):
-    """Kinds and numbers as one number: polygons are counted first, then strokes, then discs."""
-    first = {"Faces": 0, "Strokes": len(scene.polygons), "Rounds": len(scene.polygons) + len(scene.segments)}
-    return [first[kind] + number for kind, number in order]
-
-
-def base64_of(traits):
-    return base64.b64encode(traits["shapes"]).decode()
-
-
-@pytest.mark.slow
-@settings(max_examples=10)
-@given(st.lists(st.tuples(SCENES, SIDES), min_size=8, max_size=8))
-def test_the_canvas_paints_in_the_order_of_the_picture_that_stays(page, scenes):
-    cases = [{"shapes": base64_of(packed(scene, None, {})), "around": around, "above": above, "scale": 20.0, "thin": 1}
-             for scene, (around, above) in scenes]
-    expected = [numbered(scene, painted(project(scene, *side))) for scene, side in scenes]
-    assert orders_on_the_canvas(page, cases, "space.js") == expected
-
-
-@pytest.mark.slow
-@settings(max_examples=10)
-@given(st.lists(st.text("F;#+-", min_size=1, max_size=20), min_size=8, max_size=8))
-def test_in_the_plane_too(page, texts):
-    paths = [trace(derive(read(f"axiom: @c(1)F;(3){text}#(1)F{{+F+F}}@o(2)F#(1/2)F"), 0)[0]) for text in texts]
-    scenes = [place_path(path, 90) for path in paths]
-    cases = [{"shapes": base64_of(packed(scene, path, {})), "scale": 20.0, "thin": 1, "angle": 90}
-             for scene, path in zip(scenes, paths, strict=True)]
-    assert orders_on_the_canvas(page, cases, "flat.js") == [numbered(scene, painted(scene)) for scene in scenes]

@@ -251,7 +251,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """The model of a text that was typed."""
         system = _read_typed(content["text"], self.system.notation)
         opened = _opened(system, "" if system != self.system else self._opened.title, {})
-        found = self._model_of(opened, _first_step(system))
+        found = {**self._model_of(opened, _first_step(system)), "angle": _shown_angle(system)}
         self._opened, self._view_model = opened, ViewModel(system, self.seed)
         return {"model": found}
 
@@ -287,6 +287,11 @@ def mistake(error: LSystemError) -> dict[str, Any]:
         start, end = line + error.column - 1, line + error.end - 1
     return {"message": error.message, "hint": error.hint or "", "start": start, "end": end, "line": error.line,
             "column": error.column}
+
+
+def _shown_angle(system: LSystem) -> float:
+    """The angle of a system as its slider has it."""
+    return min(180.0, max(0.0, round(float(system.angle), 1)))
 
 
 def _first_step(system: LSystem) -> int:

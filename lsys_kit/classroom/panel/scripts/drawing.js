@@ -19,7 +19,7 @@ export function drawingView(parent, told) {
   const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
   parent.append(canvas, hint);
   const pen = canvas.getContext("2d"), pointers = new Map();
-  let book, now, look, shapes, frame, sheet, waiting = 0, glide = null;
+  let book, now, look, fault = "", shapes, frame, sheet, waiting = 0, glide = null;
   let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0;
 
   const inSpace = () => book.data.mode === "space", isFilament = () => book.data.mode === "filament";
@@ -36,12 +36,22 @@ export function drawingView(parent, told) {
   // Show what is asked for: { step, angle, around, above, boxed: the step whose frame is kept, or null, glides }.
   function show(asked, nextLook) {
     const before = now, old = shapes;
-    [now, look] = [{ ...asked }, nextLook];
-    if (!isFilament()) shapes = placed(traced(book, now.step), now.angle);
+    [now, look, fault] = [{ ...asked }, nextLook, ""];
+    if (!isFilament()) shapes = shapesOf(now.step) ?? shapes;
     if (asked.glides && before && old && !isFilament() && now.step === before.step + 1 && shapes.strokes.n < 20_000)
       glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
     else if (before && before.step !== now.step) glide = null;
     draw();
+  }
+
+  // The shapes of a step; null where the turtle cannot draw them, and why.
+  function shapesOf(step) {
+    try {
+      return placed(traced(book, step), now.angle);
+    } catch (error) {
+      fault = error.message;
+      return null;
+    }
   }
 
   function mothersOf(step) {
@@ -70,12 +80,13 @@ export function drawingView(parent, told) {
     if (isFilament()) {
       sheet = sequence(book, now.step, { rows: ROWS, width, height, boxed: now.boxed });
       paintSequence(pen, sheet, look);
-    } else {
-      const visible = gliding();
-      const box = now.boxed === null ? null : boundsOf(placed(traced(book, Math.max(now.boxed, now.step)), now.angle));
+    } else if (fault) sentence(fault, width, height);
+    else {
+      const visible = gliding(), last = now.boxed === null ? null : shapesOf(Math.max(now.boxed, now.step));
+      const box = last && boundsOf(last);
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
       paint(pen, visible, frame, look);
-      if (empty()) nothing(width, height);
+      if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
     canvas.dataset.step = now.step;
@@ -95,11 +106,11 @@ export function drawingView(parent, told) {
 
   const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n);
 
-  function nothing(width, height) {
+  function sentence(text, width, height) {
     pen.fillStyle = look.theme.quiet;
     pen.font = "14px sans-serif";
     pen.textAlign = "center";
-    pen.fillText(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width / 2, height / 2, width - 20);
+    pen.fillText(text, width / 2, height / 2, width - 20);
   }
 
   function describe(text) {

@@ -102,6 +102,7 @@ export function openPanel(element, host, compared = null) {
     const number = ++asking, answer = await host.rules(text);
     if (number !== asking || answer === null) return;
     if (answer.mistake) return rules.mistaken(answer.mistake);
+    if (answer.model.angle !== model.angle) host.set("angle", answer.model.angle);
     host.set("model", answer.model);
   }
 

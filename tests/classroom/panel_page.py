@@ -1,0 +1,94 @@
+"""A panel in a page of a real browser without Jupyter: what the browser asks is answered by an explorer in this process."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import Any
+
+from playwright.sync_api import Browser, Locator, Page
+
+from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.explorer import Explorer
+
+TRAITS = ("model", "step", "angle", "around", "above", "mark", "seed", "settings")
+HOST = """
+const handlers = {};
+const host = {
+  get: (name) => data[name],
+  set(name, value) {
+    const before = JSON.stringify(data[name]);
+    data[name] = value;
+    if (JSON.stringify(value) !== before) for (const handler of [...(handlers[name] ?? [])]) handler(value);
+  },
+  on(name, handler) {
+    (handlers[name] ??= []).push(handler);
+    return () => { handlers[name] = handlers[name].filter((each) => each !== handler); };
+  },
+  save: () => { window.asked.push("save"); },
+  book: (settings) => ask({ kind: "book", ...settings }),
+  rules: (text) => ask({ kind: "rules", text }),
+  variants: () => ask({ kind: "variants" }),
+  keep: (what, state) => ask({ kind: "keep", what, state }),
+  keeps: ["svg", "page", "link"], editable: true,
+};
+window.asked = [];
+const ask = (content) => { window.asked.push(content.kind); return window.kernel(content); };
+Object.assign(window, { host, data, openPanel, openOne: () => openPanel(document.getElementById("here"), host) });
+window.panel = window.openOne();
+"""
+PAPER = '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Panel</title></head>'
+
+
+@dataclass
+class PanelPage:
+    """A page with a panel, and the explorer that answers it."""
+
+    page: Page
+    explorer: Explorer
+    errors: list[str] = field(default_factory=list)
+
+    @property
+    def asked(self) -> list[str]:
+        """What the browser has asked the kernel so far."""
+        found: list[str] = self.page.evaluate("window.asked")
+        return found
+
+    def at(self, where: str) -> Locator:
+        """The part of the panel that a selector finds."""
+        return self.page.locator(where)
+
+    def control(self, name: str) -> Locator:
+        """The slider of a name."""
+        return self.page.get_by_role("slider", name=f"{name}, slider", exact=True)
+
+    def view(self, title: str) -> None:
+        """Show or hide a view."""
+        self.page.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+
+    def shot(self, path: Any) -> None:
+        """Keep a picture of the whole page."""
+        self.page.screenshot(path=path, full_page=True)
+
+
+def open_panel(browser: Browser, explorer: Explorer, dark: bool = False, **context: Any) -> PanelPage:
+    """A page with the panel of an explorer."""
+    page = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **context}).new_page()
+    found = PanelPage(page, explorer)
+    page.on("pageerror", lambda error: found.errors.append(f"{error}"))
+    page.on("console", lambda message: found.errors.append(message.text) if message.type == "error" else None)
+    page.expose_function("kernel", lambda content: answered(explorer, content))
+    theme = "false" if dark else "true"
+    page.set_content(f'{PAPER}<style>{style()}</style><body data-jp-theme-light="{theme}"><main id="here"></main></body></html>')
+    data = json.dumps({name: getattr(explorer, name) for name in TRAITS})
+    page.add_script_tag(content=f"{bundled('panel')}\nconst data = {data};\n{HOST}", type="module")
+    page.locator("canvas[data-drawn]").first.wait_for()
+    return found
+
+
+def answered(explorer: Explorer, content: dict[str, Any]) -> dict[str, Any]:
+    """What an explorer answers to a message."""
+    replies: list[dict[str, Any]] = []
+    explorer.send = lambda reply, buffers=None: replies.append(reply)
+    explorer._answer(explorer, {"number": 1, **content}, [])
+    return replies[0]

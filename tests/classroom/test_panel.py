@@ -1,0 +1,241 @@
+"""The panel in a real browser: what a person does in it, and what it asks the kernel."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from lsys_kit import derive, explore, read, system, systems
+from lsys_kit.derivation.core.states import States
+from tests.classroom.panel_page import PanelPage, open_panel
+
+SETTLED = [id for id in systems() if States(system(id)).traits.d0l]
+
+
+@pytest.fixture
+def opened(browser: Browser):
+    pages = []
+
+    def open_one(*what, dark=False, context=None, **choices):
+        pages.append(open_panel(browser, explore(*what, **choices), dark, **(context or {})))
+        return pages[-1]
+
+    yield open_one
+    for each in pages:
+        assert each.errors == []
+        each.page.context.close()
+
+
+def word_in(panel: PanelPage) -> str:
+    return panel.at(".lsys-word").inner_text().replace("\n", "")
+
+
+@pytest.mark.parametrize("id", SETTLED)
+def test_step_angle_view_and_mark_never_ask_the_kernel(opened, id):
+    panel = opened(id)
+    for name in ("step", "angle", "around", "above"):
+        slider = panel.control(name)
+        if slider.count():
+            before = slider.get_attribute("aria-valuetext")
+            for key in ("ArrowLeft", "ArrowLeft", "ArrowRight"):
+                slider.press(key)
+            expect(slider).not_to_have_attribute("aria-valuetext", before)
+    if panel.at("[data-place]").count():
+        panel.at("[data-place]").first.press("Enter")
+        expect(panel.at("[data-place]").first).to_have_attribute("aria-pressed", "true")
+    panel.at("canvas").press("n")
+    expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step")
+    panel.page.wait_for_timeout(600)
+    assert set(panel.asked) <= {"save"}  # at rest the kernel is told, and answers nothing
+    assert len(panel.asked) <= 1
+
+
+def test_the_slider_of_the_step_changes_word_tokens_and_drawing(opened):
+    panel = opened("J4", 3)
+    assert word_in(panel) == "Al(1)Br(1)"
+    panel.control("step").press("ArrowRight")
+    expect(panel.at(".lsys-status")).to_contain_text("step 4: 2 modules; 2 of 5 stages occupied")
+    expect(panel.at(".lsys-word")).to_have_text("Al(2)Br(2)")
+    expect(panel.at('[data-place="1"]')).to_have_attribute("aria-label", "stage A(2), 1 token")
+    expect(panel.at("canvas")).to_have_attribute("data-step", "4")
+
+
+def test_a_number_is_typed_as_a_person_writes_it(opened):
+    panel = opened("P5", 3)
+    box = panel.page.get_by_label("dt", exact=True)
+    assert box.input_value() == "0.7"
+    for typed, shown in (("1,4", "1.4"), ("0.3000001", "0.3"), ("7/10", "0.7")):
+        box.fill(typed)
+        box.press("Enter")
+        expect(box).to_have_value(shown)
+    box.fill("x")
+    box.press("Enter")
+    expect(box).to_have_attribute("aria-invalid", "true")
+
+
+def test_a_constant_asks_once_for_each_setting_and_neighbours_are_fetched_ahead(opened):
+    panel = opened("J4", 9)
+    panel.control("lifeTimeB").press("ArrowRight")
+    expect(panel.at(".lsys-word")).to_have_text("".join(map(str, derive(system("J4"), 9, lifeTimeB=3)[-1])))
+    panel.page.wait_for_timeout(1200)
+    asked = len(panel.asked)
+    panel.control("lifeTimeB").press("ArrowRight")
+    expect(panel.at(".lsys-word")).to_have_text("".join(map(str, derive(system("J4"), 9, lifeTimeB=4)[-1])))
+    panel.control("lifeTimeB").press("ArrowLeft")
+    expect(panel.at('.lsys-control[data-control="lifeTimeB"] input').first).to_have_value("3")
+    assert panel.asked[asked:].count("book") == 0
+
+
+def test_a_changed_constant_keeps_the_mark(opened):
+    panel = opened("J4", 9)
+    panel.page.get_by_label("mark", exact=True).select_option("B(1)")
+    panel.control("lifeTimeA").press("ArrowRight")
+    expect(panel.at(".lsys-status")).to_contain_text("of 6 stages")
+    expect(panel.page.get_by_label("mark", exact=True)).to_have_value("B(1)")
+    pressed = panel.at('[data-place][aria-pressed="true"]')
+    expect(pressed).to_have_count(1)
+    expect(pressed).to_have_attribute("aria-label", re.compile(r"^stage B\(1\)"))
+
+
+def test_a_setting_with_fewer_steps_does_not_forget_the_step_that_was_wanted(opened):
+    panel = opened(read("c = 2 in 0 .. 4\naxiom: A(1)\nA(t) : t/c < 9 -> A(t+1)"), 6)
+    for _ in range(2):
+        panel.control("c").press("ArrowLeft")
+    expect(panel.at(".lsys-status")).to_contain_text("division by zero")
+    expect(panel.at(".lsys-status")).to_contain_text("step 0")
+    panel.control("c").press("ArrowRight")
+    expect(panel.at(".lsys-status")).to_contain_text("step 6")
+
+
+def test_the_last_step_says_why_there_are_no_more(opened):
+    panel = opened("K5", 4)
+    panel.control("step").press("End")
+    expect(panel.at(".lsys-status")).to_contain_text("Step 7 would have 195,311 modules; the limit is 100,000")
+
+
+def test_rules_are_changed_broken_and_mended(opened):
+    panel = opened("J1", 4)
+    panel.view("rules")
+    rules = panel.page.get_by_label("rules of the model")
+    first = rules.input_value()
+    rules.fill("axiom: a\na -> a b\nb -> a")
+    expect(panel.at(".lsys-word")).to_have_text("abaababa")
+    rules.fill("axiom: a\na -> a b\nb -> a(t)")
+    expect(panel.at("mark.lsys-wrong")).to_have_text("t")
+    expect(panel.at(".lsys-mistake")).to_contain_text('I do not know the name "t"')
+    expect(panel.at(".lsys-word")).to_have_text("abaababa")  # the last good picture stays
+    rules.fill("axiom: a\na -> a b\nb -> b")
+    expect(panel.at(".lsys-word")).to_have_text("abbbb")
+    expect(panel.at("mark.lsys-wrong")).to_have_count(0)
+    panel.page.get_by_role("button", name="back to the first rules").click()
+    expect(rules).to_have_value(first)
+    expect(panel.at(".lsys-word")).to_have_text("".join(map(str, derive(system("J1"), 4)[-1])))
+
+
+def test_a_module_is_traced_through_all_views(opened):
+    panel = opened("J4", 10)
+    panel.view("rules")
+    panel.at('.lsys-module[data-position="2"]').click()
+    expect(panel.at(".lsys-sentence")).to_have_text(
+        "Module 3 of step 10, Al(1) comes from Bl(2), module 3 of step 9, by production 3, Bl(lifeTimeB) -> Al(1) Br(1); "
+        "it becomes Al(2) at step 11.")
+    expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", "2")
+    expect(panel.at(".lsys-stage.lsys-lit")).to_have_attribute("aria-label", re.compile(r"^stage A\(1\)"))
+    expect(panel.at("mark.lsys-applied")).to_have_text("Bl(lifeTimeB) -> Al(1) Br(1)")
+    panel.control("step").press("ArrowLeft")
+    expect(panel.at('[data-traced="mother"]')).to_have_attribute("data-position", "2")
+    panel.control("step").press("ArrowRight")
+    panel.control("step").press("ArrowRight")
+    expect(panel.at('[data-traced="daughter"]')).to_have_attribute("data-position", "3")
+
+
+def test_a_module_is_traced_by_the_keyboard(opened):
+    panel = opened("J4", 10)
+    word = panel.at(".lsys-word")
+    for key, position in (("ArrowRight", "0"), ("ArrowRight", "1"), ("End", "11"), ("ArrowLeft", "10"), ("Home", "0")):
+        word.press(key)
+        expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", position)
+    word.press("Escape")
+    expect(panel.at("[data-traced]")).to_have_count(0)
+
+
+def test_a_cell_of_the_drawing_is_traced_by_the_pointer(opened):
+    panel = opened("J4", 10)
+    canvas = panel.at("canvas")
+    box = canvas.bounding_box()
+    canvas.click(position={"x": box["width"] / 2 + 17, "y": 38})
+    expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
+
+
+def test_the_word_of_an_empty_drawing_says_so(opened):
+    panel = opened(read("axiom: A\nA -> A A"), 2)
+    expect(panel.at("canvas")).to_have_attribute("aria-label", re.compile("Drawing of step 2: 4 modules"))
+
+
+def test_play_goes_on_stops_and_begins_again(opened):
+    panel = opened("J1", 8)
+    panel.page.get_by_label("speed", exact=True).select_option("fast")
+    panel.page.get_by_role("button", name="play", exact=True).click()
+    expect(panel.page.get_by_role("button", name="pause", exact=True)).to_be_visible()
+    expect(panel.at(".lsys-status")).to_contain_text(re.compile("step (9|10)"))
+    panel.page.get_by_role("button", name="pause", exact=True).click()
+    panel.page.get_by_role("button", name="one step back").click()
+    panel.page.get_by_role("button", name="to step 0").click()
+    expect(panel.at(".lsys-status")).to_contain_text("step 0")
+    assert set(panel.asked) <= {"save"}
+
+
+def test_a_click_into_the_plot_goes_to_a_step(opened):
+    panel = opened("J4", 3)
+    panel.view("how many")
+    plot = panel.at(".lsys-counts")
+    box = plot.bounding_box()
+    plot.click(position={"x": box["width"] * (52 + 0.5 * 316) / 380, "y": box["height"] / 2})
+    expect(panel.at(".lsys-status")).to_contain_text("step 10")
+    expect(panel.at(".lsys-caption")).to_contain_text("1.3247")
+
+
+def test_nine_seeds_beside_each_other(opened):
+    panel = opened("K7", 3)
+    panel.view("nine seeds")
+    tiles = panel.at(".lsys-tile-button")
+    expect(tiles).to_have_count(9)
+    expect(tiles.first).to_have_attribute("aria-pressed", "true")
+    before = panel.at("canvas.lsys-canvas").screenshot()
+    tiles.nth(4).click()
+    expect(tiles.nth(4)).to_have_attribute("aria-pressed", "true")
+    expect(panel.page.get_by_label("seed", exact=True)).to_have_value("4")
+    assert panel.at("canvas.lsys-canvas").screenshot() != before
+
+
+def test_nine_variants_of_which_one_is_taken_on(opened):
+    panel = opened("K5", 3)
+    panel.view("nine variants")
+    expect(panel.at(".lsys-tile-button")).to_have_count(9)
+    panel.view("rules")
+    rules = panel.page.get_by_label("rules of the model")
+    first, before = rules.input_value(), panel.explorer.system
+    panel.at(".lsys-tile-button").nth(2).click()
+    expect(rules).not_to_have_value(first)
+    panel.page.wait_for_function("window.asked.includes('rules')")
+    expect(panel.at(".lsys-mistake")).to_have_text("")
+    panel.page.wait_for_timeout(200)
+    assert panel.explorer.system == read(rules.input_value()) != before
+
+
+def test_what_is_taken_along(opened):
+    panel = opened("J4", 7)
+    panel.page.get_by_role("button", name="code").click()
+    code = panel.page.get_by_label("to be copied")
+    expect(code).to_have_value('explore("J4", 7)')
+    panel.control("lifeTimeA").press("ArrowRight")
+    panel.page.get_by_role("button", name="code").click()
+    expect(code).to_have_value('explore("J4", 7, lifeTimeA=4)')
+    with panel.page.expect_download() as kept:
+        panel.page.get_by_role("button", name="SVG").click()
+    assert kept.value.suggested_filename == "J4.svg"
+    with panel.page.expect_download() as kept:
+        panel.page.get_by_role("button", name="PNG").click()
+    assert kept.value.suggested_filename == "J4.png"
