@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import zlib
 from itertools import product
+from math import isnan
 
 import numpy as np
 import pytest
@@ -46,8 +47,10 @@ PAGES = """([data, steps]) => {
   })), labels: all(data.states.length, (state) => book.label(state)) };
 }"""
 ROWS = """([data, step, sheet]) => {
-  const { cells, walls, ...rest } = sequence(openBook(data), step, sheet);
-  return { ...rest, cells, walls };
+  const made = sequence(openBook(data), step, sheet);
+  const listed = (table) => Object.fromEntries(Object.entries(table).map(([name, column]) =>
+    [name, name === "n" ? column : Array.from(column)]));
+  return { ...made, cells: listed(made.cells), walls: listed(made.walls) };
 }"""
 FOUND = """([data, step]) => {
   const sheet = sequence(openBook(data), step), { cells } = sheet;
@@ -66,7 +69,7 @@ PAINTED = """([data, step, look]) => {
   const { cells } = sheet, above = (i) => colour(cells.x[i], cells.y[i] - cells.width[i] / 2);
   return { band: sheet.rows.map((row) => colour(sheet.width - 8, row.middle)),
     edges: Array.from({ length: cells.n }, (_, i) => above(i)),
-    states: cells.state, rows: cells.row.map((row) => sheet.rows[row].step), positions: cells.position };
+    states: [...cells.state], rows: [...cells.row].map((row) => sheet.rows[row].step), positions: [...cells.position] };
 }"""
 
 
@@ -173,7 +176,7 @@ def layout_of(model, step):
 
 
 @pytest.mark.parametrize("name", FILAMENTS)
-@pytest.mark.parametrize("step", [0, 1, 3, 7, 12, 27])
+@pytest.mark.parametrize("step", [0, 4, 7, 27])
 def test_rows_are_laid_out_as_in_the_picture(page, name, step):
     with limits(modules=1_000):
         made = book(system(name), least=step)
@@ -183,13 +186,13 @@ def test_rows_are_laid_out_as_in_the_picture(page, name, step):
     cells = [(cell, sheet.middle(at)) for at, row in enumerate(sheet.rows) for cell in sheet.cells(row)]
     walls = [(wall, sheet.middle(at)) for at, row in enumerate(sheet.rows) for wall in sheet.walls(row)]
     for names, expected, drawn in (
-            (("x", "y", "length", "width", "way", "shade"),
+            (("x", "y", "length", "width", "sign", "shade"),
              [(cell.x, y, 2 * cell.length, 2 * cell.width, cell.way, cell.shade) for cell, y in cells], found["cells"]),
-            (("x", "y", "height", "shade"), [(wall.x, y, 2 * wall.height, wall.shade) for wall, y in walls], found["walls"])):
+            (("x", "y", "width", "shade"), [(wall.x, y, 2 * wall.height, wall.shade) for wall, y in walls], found["walls"])):
         rows = [*zip(*(drawn[each] for each in names), strict=True)]
         assert len(rows) == len(expected)
         assert not rows or np.abs(np.array(rows, float) - np.array(expected, float)).max() < 1e-6
-    assert [f"{age:.4g}" if age is not None else "" for age in found["walls"]["age"]] == [wall.age for wall, _ in walls]
+    assert ["" if isnan(age) else f"{age:.4g}" for age in found["walls"]["sign"]] == [wall.age for wall, _ in walls]
     assert (found["scale"], found["pitch"], found["above"]) == pytest.approx((sheet.scale, sheet.pitch, sheet.above))
     derivation = derive(system(name), step)
     texts = {cell: str(derivation.states.modules[cell.state]) for cell, _ in cells}

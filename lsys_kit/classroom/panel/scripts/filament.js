@@ -30,8 +30,7 @@ export function sequence(book, step, { rows = 24, width = 600, height = SHEET.he
   }));
   return {
     dimension: 2, width, height, gutter, head, above, pitch, scale, timed, look, rows: laid,
-    cells: joinedRows(shown.map((row) => row.cells), laid, scale, ["length", "width"]),
-    walls: joinedRows(shown.map((row) => row.walls), laid, scale, ["height"]),
+    cells: joinedRows(shown.map((row) => row.cells), laid, scale), walls: joinedRows(shown.map((row) => row.walls), laid, scale),
     colours: book.data.states.map(([symbol]) => book.data.symbols[symbol][2] || NO_SYMBOL_COLOUR),
   };
 }
@@ -46,51 +45,55 @@ function rowsUpTo(book, step, most) {
   return found;
 }
 
-// The cells and walls of a step's word, in the units of the model.
+// The cells and walls of a step's word, in the units of the model; the age of a wall that has none is NaN.
 function rowOf(book, step) {
-  const word = book.word(step), cells = columns(), walls = columns();
-  let along = 0, widest = 0, before = 0, open = []; // the walls whose right neighbour is not known yet
+  const word = book.word(step), shapes = book.data.cells, [cells, walls] = [0, 1].map((kind) => tableOf(howMany(word, shapes, kind)));
+  let along = 0, widest = 0, before = 0, c = 0, w = 0, open = 0; // the first wall whose right neighbour is not known yet
   for (let position = 0; position < word.length; position++) {
-    for (const [wall, length, width, sign, shade] of book.data.cells[word[position]]) {
-      if (wall) {
-        open.push(walls.x.length);
-        put(walls, { x: along, height: before, age: sign, shade, state: word[position], position });
-      } else {
-        put(cells, { x: along + length / 2, length, width, way: sign, shade, state: word[position], position });
-        for (const at of open) walls.height[at] = Math.max(before, width);
-        [along, widest, before, open] = [along + length, Math.max(widest, width), width, []];
-      }
+    for (const [wall, length, width, sign, shade] of shapes[word[position]]) {
+      const table = wall ? walls : cells, at = wall ? w++ : c++;
+      table.x[at] = along + length / 2;
+      table.length[at] = length;
+      table.width[at] = wall ? before : width;
+      table.sign[at] = sign ?? NaN;
+      table.shade[at] = shade;
+      table.state[at] = word[position];
+      table.position[at] = position;
+      if (wall) continue;
+      for (; open < w; open++) walls.width[open] = Math.max(before, width);
+      [along, widest, before] = [along + length, Math.max(widest, width), width];
     }
   }
-  return { step, length: along, width: widest, cells: numbered(cells), walls: numbered(walls) };
+  return { step, length: along, width: widest, cells, walls };
 }
 
-function columns() {
-  return { x: [], length: [], width: [], height: [], way: [], age: [], shade: [], state: [], position: [] };
+function howMany(word, shapes, kind) {
+  const numbers = shapes.map((row) => row.filter(([wall]) => wall === kind).length);
+  return word.reduce((sum, state) => sum + numbers[state], 0);
 }
 
-function put(table, row) {
-  for (const name in row) table[name].push(row[name]);
+// Shapes: their middles, lengths and widths, their polarities or ages, and where they come from.
+function tableOf(n) {
+  const [x, y, length, width, sign, shade] = Array.from({ length: 6 }, () => new Float64Array(n));
+  return { n, x, y, length, width, sign, shade, state: new Int32Array(n), position: new Int32Array(n), row: new Int32Array(n) };
 }
 
-function numbered(table) {
-  return { n: table.x.length, ...table };
-}
-
-// The shapes of all rows in one table, in pixels.
-function joinedRows(tables, laid, scale, lengths) {
-  const found = { n: 0, ...columns(), y: [], row: [], starts: [0] };
+// The shapes of all rows in one table, in pixels; and where each row starts in it.
+function joinedRows(tables, laid, scale) {
+  const found = tableOf(tables.reduce((sum, { n }) => sum + n, 0)), starts = [0];
   tables.forEach((table, row) => {
+    const start = starts[row], { left, middle } = laid[row];
+    for (const name of ["sign", "shade", "state", "position"]) found[name].set(table[name], start);
     for (let i = 0; i < table.n; i++) {
-      for (const name of ["way", "age", "shade", "state", "position"]) if (table[name].length) found[name].push(table[name][i]);
-      for (const name of lengths) found[name].push(table[name][i] * scale);
-      found.x.push(laid[row].left + table.x[i] * scale);
-      found.y.push(laid[row].middle);
-      found.row.push(row);
+      found.x[start + i] = left + table.x[i] * scale;
+      found.length[start + i] = table.length[i] * scale;
+      found.width[start + i] = table.width[i] * scale;
     }
-    found.starts.push((found.n += table.n));
+    found.y.fill(middle, start, start + table.n);
+    found.row.fill(row, start, start + table.n);
+    starts.push(start + table.n);
   });
-  return found;
+  return { ...found, starts };
 }
 
 // Paint a sequence; `look` has the theme, the states that are marked, and `litAt(step)`, which says what is traced in a row.
@@ -160,7 +163,7 @@ function paintCells(pen, sheet, seen, { theme, marked }) {
     const [first] = group, colour = colours[cells.state[first]], mark = marked.has(cells.state[first]);
     pen.fillStyle = fillColour(colour, theme, 0.28 + 0.6 * cells.shade[first]);
     pen.strokeStyle = mark ? theme.markEdge : lineColour(colour, theme);
-    pen.lineWidth = mark ? 3.2 : 1;
+    pen.lineWidth = mark ? Math.max(1, Math.min(3.2, cells.width[first])) : 1;
     pen.beginPath();
     for (const i of group) outlineCell(pen, sheet, i);
     pen.fill();
@@ -182,7 +185,7 @@ function paintArrows(pen, { cells }, seen, theme) {
   pen.lineWidth = 1;
   pen.beginPath();
   for (const i of seen) {
-    const way = cells.way[i], rx = cells.length[i] / 2, y = cells.y[i];
+    const way = cells.sign[i], rx = cells.length[i] / 2, y = cells.y[i];
     if (!way || rx <= 2.5) continue;
     const barb = Math.max(1.2, 0.3 * Math.min(rx, cells.width[i] / 2)), tip = cells.x[i] + way * 0.55 * rx;
     pen.moveTo(cells.x[i] - way * 0.55 * rx, y);
@@ -198,14 +201,14 @@ function paintArrows(pen, { cells }, seen, theme) {
 function paintWalls(pen, { walls, colours, above, width }, row, { theme, marked }) {
   const ages = [];
   for (let i = walls.starts[row]; i < walls.starts[row + 1]; i++) {
-    const colour = colours[walls.state[i]], reach = walls.height[i] / 2 + 2;
+    const colour = colours[walls.state[i]], reach = walls.width[i] / 2 + 2;
     pen.strokeStyle = marked.has(walls.state[i]) ? theme.markEdge : fillColour(lineColour(colour, theme), theme, 0.5 + 0.5 * walls.shade[i]);
     pen.lineWidth = 1.5 + 3 * walls.shade[i];
     pen.beginPath();
     pen.moveTo(walls.x[i], walls.y[i] - reach);
     pen.lineTo(walls.x[i], walls.y[i] + reach);
     pen.stroke();
-    const text = walls.age[i] === null ? "" : String(Number(walls.age[i].toPrecision(4))), half = 3.2 * text.length;
+    const text = Number.isNaN(walls.sign[i]) ? "" : String(Number(walls.sign[i].toPrecision(4))), half = 3.2 * text.length;
     ages.push({ text, half, x: Math.min(Math.max(walls.x[i], half), width - half), y: walls.y[i] - reach - 2.5 });
   }
   if (!above || ages.some((age, i) => i && ages[i - 1].x + ages[i - 1].half >= age.x - age.half)) return;
@@ -232,8 +235,8 @@ function paintTraced(pen, sheet, row, lit, theme) {
   for (let i = walls.starts[row]; i < walls.starts[row + 1]; i++) {
     if (!lit.has(walls.position[i])) continue;
     ring(walls.position[i], () => {
-      pen.moveTo(walls.x[i], walls.y[i] - walls.height[i] / 2 - 5);
-      pen.lineTo(walls.x[i], walls.y[i] + walls.height[i] / 2 + 5);
+      pen.moveTo(walls.x[i], walls.y[i] - walls.width[i] / 2 - 5);
+      pen.lineTo(walls.x[i], walls.y[i] + walls.width[i] / 2 + 5);
     });
   }
   pen.setLineDash([]);
