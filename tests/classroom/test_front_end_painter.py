@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -24,8 +25,9 @@ SIZE = 400
 ORDERS = """
 return given.map(({ book, sides }) => sides.map(([around, above]) => {
   const shapes = placed(traced(bookOf(book), 0), book.turtle.angle), frame = frameOf(shapes, 600, 400, { around, above });
-  const { order, widths } = seenIn(frame, shapes), { strokes, palette } = shapes;
-  return { scale: frame.scale, order: Array.from(order),
+  const { order, widths, x, y } = seenIn(frame, shapes), { strokes, palette } = shapes;
+  const pointsOf = (numbers) => Array.from(numbers, (number) => [x[number], y[number]]);
+  return { scale: frame.scale, order: Array.from(order), from: pointsOf(strokes.from), to: pointsOf(strokes.to),
     looks: Array.from(widths, (width, i) => [palette[strokes.colours[i]], width]) };
 }));
 """
@@ -64,11 +66,20 @@ def expect_painted(page, found):
     for word, case, shown in zip(found, given, answers(page, ORDERS, given, *PAINTER), strict=True):
         scene = scene_by_kit(word, case["book"]["turtle"]["angle"])
         for side, seen in zip(case["sides"], shown, strict=True):
-            runs = list(display_list(project(scene, *side), seen["scale"], state_colours(word)))
+            flat = project(scene, *side)
+            expect_in_place(seen, flat.segments.points)
+            runs = list(display_list(flat, seen["scale"], state_colours(word)))
             assert seen["order"] == [number + first(run, scene) for run in runs for number in run.numbers.tolist()]
             for run in runs if scene.dimension == 2 else ():
                 if isinstance(run, Strokes):
                     assert {tuple(seen["looks"][number]) for number in run.numbers.tolist()} == {(run.colour, run.width)}
+
+
+def expect_in_place(seen, points):
+    """The ends of strokes lie on the canvas as in the projection, enlarged and moved, with y downwards."""
+    shown = np.array(list(zip(seen["from"], seen["to"], strict=True))).reshape(-1, 2)
+    moved = (shown - shown[:1]) / seen["scale"] * (1, -1)
+    assert moved == pytest.approx(points - points[:1], rel=1e-6, abs=1e-6 * max(1.0, *np.abs(points).max(initial=0, axis=0)))
 
 
 def first(run, scene):
