@@ -23,6 +23,7 @@ from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, link, linked
 from lsys_kit.classroom.panel.book import MOST_MODULES, book
 from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import SliderRange, slider_ranges, slider_values
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
@@ -271,8 +272,9 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """The live panel, and for a page without a kernel its picture and its words."""
         bundle = super()._repr_mimebundle_(**options)
         data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
-        data["text/plain"] = self.text
-        data["image/png"] = base64.b64encode(self.sight.picture.png).decode()
+        sight = self.sight
+        data["text/plain"] = f"{sight} Run this cell to play."
+        data["image/png"] = base64.b64encode(composite_png(sight)).decode()
         return data
 
     def __repr__(self) -> str:

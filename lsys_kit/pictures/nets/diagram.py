@@ -30,7 +30,7 @@ from lsys_kit.pictures.nets.parts import (
 from lsys_kit.pictures.style.labels import escaped, letter_svg
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, PAPER, tinted
 
-_DOTS: Mapping[int, tuple[Point, ...]] = {
+DOTS: Mapping[int, tuple[Point, ...]] = {
     0: (), 1: ((0, 0),), 2: ((-5, 0), (5, 0)), 3: ((0, -5.5), (-5, 3.5), (5, 3.5)), 4: ((-5, -5), (5, -5), (-5, 5), (5, 5))}
 
 
@@ -131,11 +131,20 @@ def _edge(x: float, y: float) -> str:
 def _tokens(x: float, y: float, count: int) -> str:
     """Up to four tokens as dots, more as a number."""
     if count < 5:
-        return "".join(f'<circle class="token" cx="{x + dx:.1f}" cy="{y + dy:.1f}" r="3.6"/>' for dx, dy in _DOTS[count])
+        return "".join(f'<circle class="token" cx="{x + dx:.1f}" cy="{y + dy:.1f}" r="3.6"/>' for dx, dy in DOTS[count])
     text = short(count)
-    size = 15 if len(text) < 3 else 13 if len(text) < 4 else 11
+    size = token_size(text)
     return (f'<text class="token" x="{x:.1f}" y="{y + 0.36 * size:.1f}" font-size="{size}" font-weight="bold" '
             f'text-anchor="middle">{text}</text>')
+
+
+def token_size(text: str) -> int:
+    """The size in which a number of tokens fits into a circle.
+
+    >>> token_size("12"), token_size("3.4M")
+    (15, 11)
+    """
+    return 15 if len(text) < 3 else 13 if len(text) < 4 else 11
 
 
 def _bar_svg(bar: BarPart) -> str:

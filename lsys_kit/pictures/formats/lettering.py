@@ -1,0 +1,136 @@
+"""Text as pixels that are the same on every machine: letters of DejaVu Sans, filled from their outlines.
+
+Programs that set text differ in how they round the shapes of letters, and so do their versions. Here the outlines are read from
+the font in its own whole units, and a point of the grid is inside where a ray to the left crosses them an odd number of times.
+"""
+
+from __future__ import annotations
+
+from functools import cache, lru_cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lsys_kit.errors import printable
+
+if TYPE_CHECKING:
+    from fontTools.ttLib import TTFont
+
+Mask: TypeAlias = NDArray[np.bool_]
+FONT = "mpl-data/fonts/ttf/DejaVuSans.ttf"
+"""Where matplotlib keeps the font."""
+PIECES = 6
+"""The straight pieces of a curve."""
+SLANT = 0.2
+"""How far an italic letter leans, to its height."""
+
+
+class Glyph(NamedTuple):
+    """A letter on a grid: its points, and where their left upper corner lies from the beginning of the baseline."""
+
+    mask: Mask
+    left: int
+    top: int
+
+
+def advance(text: str, size: float) -> float:
+    """The width of a text.
+
+    >>> advance("step", 10) == sum(advance(letter, 10) for letter in "step") > 20
+    True
+    """
+    font = _font()
+    units: int = sum(font["hmtx"][name][0] for name in map(_name, text))
+    return units * size / int(font["head"].unitsPerEm)
+
+
+@lru_cache(maxsize=2_048)
+def glyph(letter: str, size: float, italic: bool = False) -> Glyph:
+    """A letter of a size in points of the grid.
+
+    >>> glyph("l", 20).mask.shape, glyph(" ", 20).mask.size
+    ((16, 3), 0)
+    """
+    scale = size / _font()["head"].unitsPerEm
+    contours = [np.array(contour) * (scale, -scale) for contour in _contours(_name(letter))]
+    if italic:
+        contours = [points - [[SLANT * y, 0] for y in points[:, 1]] for points in contours]
+    corners = np.concatenate(contours) if contours else np.zeros((1, 2))
+    (left, top), (right, bottom) = np.floor(corners.min(0)).astype(int), np.ceil(corners.max(0)).astype(int)
+    mask = np.zeros((bottom - top, right - left), bool)
+    for points in contours:
+        _cross(mask, points - (left, top))
+    return Glyph(mask, int(left), int(top))
+
+
+def _cross(mask: Mask, contour: NDArray[Any]) -> None:
+    """Turn over every point to the right of a closed line: in the end those inside have been turned an odd number of times."""
+    for (x, y), (x_next, y_next) in zip(contour.tolist(), np.roll(contour, -1, axis=0).tolist(), strict=True):
+        rows = np.arange(round(min(y, y_next)), round(max(y, y_next)))  # whose middles lie between the ends
+        for row in rows.tolist():
+            across = x + (row + 0.5 - y) * (x_next - x) / (y_next - y)
+            mask[row, max(0, round(across)):] ^= True
+
+
+@cache
+def _font() -> TTFont:
+    from fontTools.ttLib import TTFont
+
+    package = find_spec("matplotlib")
+    assert package is not None
+    assert package.origin is not None
+    return TTFont(Path(package.origin).parent / FONT, lazy=True)
+
+
+@cache
+def _name(letter: str) -> str:
+    """The name of a letter's glyph; that of an empty box where the font has none, of a "?" for what cannot be seen."""
+    found: str = _font().getBestCmap().get(ord(printable(letter)), ".notdef")
+    return found
+
+
+@cache
+def _contours(name: str) -> tuple[tuple[tuple[float, float], ...], ...]:
+    """The outlines of a glyph as closed lines of corners, in units of the font."""
+    from fontTools.pens.recordingPen import DecomposingRecordingPen
+
+    glyphs = _font().getGlyphSet()
+    pen = DecomposingRecordingPen(glyphs)
+    glyphs[name].draw(pen)
+    contours: list[list[tuple[float, float]]] = []
+    for command, points in pen.value:
+        if command == "moveTo":
+            contours.append([*points])
+        elif command == "lineTo":
+            contours[-1] += points
+        elif command == "qCurveTo":
+            contours[-1] += _curve(contours[-1][-1], points)
+    return tuple(map(tuple, contours))
+
+
+def _curve(start: tuple[float, float], points: Any) -> list[tuple[float, float]]:
+    """The corners of quadratic curves behind one another, as TrueType writes them: between two controls lies a point."""
+    from fontTools.pens.basePen import decomposeQuadraticSegment
+
+    corners = []
+    for control, end in decomposeQuadraticSegment(points):
+        corners += curve(start, control, end)
+        start = end
+    return corners
+
+
+def curve(start: tuple[float, float], control: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
+    """The corners of a quadratic curve behind its start.
+
+    >>> curve((0, 0), (3, 0), (3, 3))[2], curve((0, 0), (3, 0), (3, 3))[-1]
+    ((2.25, 0.75), (3.0, 3.0))
+    """
+    found = []
+    for number in range(1, PIECES + 1):
+        t = number / PIECES
+        found.append(tuple((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c
+                           for a, b, c in zip(start, control, end, strict=True)))
+    return found  # type: ignore[return-value]

@@ -1,0 +1,131 @@
+"""A sheet of white paper on which text, lines and shapes are put, as pixels that are the same on every machine.
+
+Everything is drawn at three times its size and then reduced, as in `raster`.
+"""
+
+from __future__ import annotations
+
+import copy
+import io
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Self, TypeAlias
+
+from lsys_kit.pictures.formats.lettering import advance, curve, glyph
+from lsys_kit.pictures.formats.raster import FINE
+from lsys_kit.pictures.style.palette import INK, PAPER
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+Point: TypeAlias = tuple[float, float]
+SUBSCRIPT, LOWERED = 0.7, 0.21
+"""The size of a subscript and how far it is lowered, to the size of the text."""
+_PATH_COMMAND = re.compile(r"([MLQZ])([^MLQZ]*)")
+
+
+class Sheet:
+    """White paper, or a part of it with its own origin and unit.
+
+    Parameters
+    ----------
+    width, height
+        Its size in pixels; at first a pixel is the unit, and the left upper corner the origin.
+    """
+
+    def __init__(self, width: int, height: int) -> None:
+        from PIL import Image, ImageDraw
+
+        self._size, self._left, self._top, self._unit = (width, height), 0.0, 0.0, float(FINE)
+        self._image = Image.new("RGB", (width * FINE, height * FINE), PAPER)
+        self._pen = ImageDraw.Draw(self._image)
+        self._pasted: list[tuple[Image.Image, tuple[int, int]]] = []
+
+    def part(self, x: float, y: float, unit: float = 1.0) -> Self:
+        """The same sheet, measured from another point with another unit."""
+        part = copy.copy(self)
+        part._left, part._top, part._unit = *self._at(x, y), self._unit * unit
+        return part
+
+    def text(self, x: float, y: float, text: str, size: float, colour: str = INK, italic: bool = False) -> float:
+        """Write a text from a point of its baseline on, and return where it ends."""
+        from PIL import Image
+
+        for letter in text:
+            mask, left, top = glyph(letter, size * self._unit, italic)
+            across, down = self._at(x, y)
+            if mask.size:
+                self._image.paste(colour, (round(across) + left, round(down) + top), Image.fromarray(mask))
+            x += advance(letter, size)
+        return x
+
+    def centred(self, x: float, y: float, text: str, size: float, colour: str = INK) -> None:
+        """Write a text with its middle at a point of its baseline."""
+        self.text(x - advance(text, size) / 2, y, text, size, colour)
+
+    def label(self, x: float, y: float, label: tuple[str, str, str], size: float, colour: str = INK) -> None:
+        """Write a label, given as letter, subscript and values, as mathematics is set."""
+        letter, subscript, values = label
+        x = self.text(x, y, letter, size, colour, letter[:1].isalpha())
+        x = self.text(x, y + LOWERED * size, subscript, SUBSCRIPT * size, colour)
+        self.text(x, y, values, size, colour)
+
+    def box(self, x: float, y: float, width: float, height: float, fill: str, corner: float = 0) -> None:
+        """A filled rectangle, perhaps with round corners."""
+        (left, top), (right, bottom) = self._at(x, y), self._at(x + width, y + height)
+        self._pen.rounded_rectangle((round(left), round(top), round(right) - 1, round(bottom) - 1), corner * self._unit, fill)
+
+    def circle(self, x: float, y: float, radius: float, fill: str | None, edge: str | None = None, width: float = 0) -> None:
+        """A circle, filled or empty; half of its edge lies outside the radius."""
+        reach = radius + width / 2
+        box = (*self._at(x - reach, y - reach), *self._at(x + reach, y + reach))
+        self._pen.ellipse(tuple(map(round, box)), fill, edge, max(1, round(width * self._unit)))
+
+    def line(self, corners: Sequence[Point], colour: str, width: float) -> None:
+        """A line through some points."""
+        self._pen.line([self._at(*corner) for corner in corners], colour, max(1, round(width * self._unit)), "curve")
+
+    def polygon(self, corners: Sequence[Point], fill: str) -> None:
+        """A filled polygon."""
+        self._pen.polygon([self._at(*corner) for corner in corners], fill)
+
+    def picture(self, x: float, y: float, image: Image) -> None:
+        """A picture in its own pixels, above everything else."""
+        across, down = self._at(x, y)
+        self._pasted.append((image, (round(across / FINE), round(down / FINE))))
+
+    @property
+    def png(self) -> bytes:
+        """The sheet as PNG."""
+        from PIL import Image
+
+        image, buffer = self._image.resize(self._size, Image.Resampling.BOX), io.BytesIO()
+        for pasted, corner in self._pasted:
+            image.paste(pasted, corner)
+        image.save(buffer, "PNG")
+        return buffer.getvalue()
+
+    def _at(self, x: float, y: float) -> Point:
+        """A point on the fine grid."""
+        return self._left + x * self._unit, self._top + y * self._unit
+
+
+def label_width(label: tuple[str, str, str], size: float) -> float:
+    """The width of a label, given as letter, subscript and values."""
+    letter, subscript, values = label
+    return advance(letter + values, size) + advance(subscript, SUBSCRIPT * size)
+
+
+def corners_of(path: str) -> list[Point]:
+    """The corners of a path of SVG that consists of lines and quadratic curves.
+
+    >>> corners = corners_of("M0.0 0.0L10.0 0.0Q20.0 0.0 20.0 20.0Z")
+    >>> corners[:2], corners[4], corners[-1]
+    ([(0.0, 0.0), (10.0, 0.0)], (17.5, 5.0), (20.0, 20.0))
+    """
+    corners: list[Point] = []
+    for command, written in _PATH_COMMAND.findall(path):
+        numbers = [float(number) for number in written.split()]
+        points = [*zip(numbers[::2], numbers[1::2], strict=True)]
+        corners += curve(corners[-1], *points) if command == "Q" else points
+    return corners
