@@ -71,14 +71,11 @@ def ageing(found: Timed) -> object:
 
 def panel(asked: Any) -> object:
     """What a panel shows when its sliders have been moved."""
-    asked.step.value = 0
-    asked.step.value = 3
-    for each in asked.constants.values():
-        each.slider.value = each.slider.max
-    asked._mark.value = 0
-    views = [getattr(view, "svg", None) or view.value for view in (asked._diagram, asked._word, asked._status, asked._message)]
-    drawing = {name: getattr(asked._drawing, name) for name in ("value", "strokes", "ends") if hasattr(asked._drawing, name)}
-    return asked.text, views, drawing, asked.sight.picture.svg
+    asked.step = 0
+    asked.step = 3
+    asked.settings = {name: 99 for name in asked.settings}
+    asked.mark = asked.model["book"]["net"]["names"][0]
+    return asked.text, asked.settings, asked.model, asked._book_for({"constants": asked.settings, "seed": 1}), asked.sight.picture.svg
 
 
 SCENARIOS: Mapping[str, Scenario] = {

@@ -13,7 +13,7 @@ const GLIDE = 350; // milliseconds from one step to the next
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
-// `told` has { turned(around, above), traced(step, position), moved() }.
+// `told` has { view(), turned(around, above), traced(step, position) }.
 export function drawingView(parent, told) {
   const canvas = made("canvas", { class: "lsys-canvas", tabindex: 0, role: "img" });
   const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
@@ -89,7 +89,8 @@ export function drawingView(parent, told) {
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
-    canvas.dataset.step = now.step;
+    for (const name of ["step", "angle", "around", "above"]) canvas.dataset[name] = now[name];
+    canvas.dataset.near = near.toFixed(2);
     if (glide) draw();
   }
 
@@ -120,8 +121,8 @@ export function drawingView(parent, told) {
   // -- the person ---------------------------------------------------------------------------------------------------
 
   function turn(right, up) {
-    const around = ((((Math.round(now.around + right) + 180) % 360) + 360) % 360) - 180;
-    told.turned(around, Math.max(-90, Math.min(90, Math.round(now.above + up))));
+    const [before, height] = told.view(), around = ((((Math.round(before + right) + 180) % 360) + 360) % 360) - 180;
+    told.turned(around, Math.max(-90, Math.min(90, Math.round(height + up))));
   }
 
   function move(right, down) {
@@ -137,7 +138,6 @@ export function drawingView(parent, told) {
     const from = [x - canvas.clientWidth / 2, y - canvas.clientHeight / 2];
     shift = next === 1 ? [0, 0] : shift.map((places, i) => from[i] + ((places - from[i]) * next) / near);
     near = next;
-    canvas.dataset.near = near.toFixed(2);
     draw();
   }
 
@@ -148,7 +148,6 @@ export function drawingView(parent, told) {
 
   function home() {
     [near, shift] = [1, [0, 0]];
-    canvas.dataset.near = "1.00";
     draw();
   }
 

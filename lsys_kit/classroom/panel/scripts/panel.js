@@ -56,6 +56,7 @@ export function openPanel(element, host, compared = null) {
   const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way));
   const net = netView(view.stages.body, (place) => toggleMark(place));
   const drawing = drawingView(view.drawing.body, {
+    view: () => [host.get("around"), host.get("above")],
     turned: (right, up) => change({ around: right, above: up }),
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
   });

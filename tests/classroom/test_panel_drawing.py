@@ -1,0 +1,167 @@
+"""The drawing of the panel: turned, brought nearer and moved by keyboard, by mouse and by finger, in the browser alone."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from lsys_kit import explore
+from tests.classroom.panel_page import PanelPage, open_panel
+
+
+@pytest.fixture
+def opened(browser: Browser):
+    pages = []
+
+    def open_one(*what, context=None, **choices):
+        pages.append(open_panel(browser, explore(*what, **choices), **(context or {})))
+        return pages[-1]
+
+    yield open_one
+    for each in pages:
+        assert each.errors == []
+        assert set(each.asked) <= {"save"}
+        each.page.context.close()
+
+
+def canvas_of(panel: PanelPage) -> Locator:
+    return panel.at("canvas.lsys-canvas")
+
+
+def expect_view(canvas: Locator, around: int, above: int) -> None:
+    expect(canvas).to_have_attribute("data-around", str(around))
+    expect(canvas).to_have_attribute("data-above", str(above))
+
+
+def pull(page: Page, canvas: Locator, right: float, down: float) -> None:
+    box = canvas.bounding_box()
+    x, y = box["x"] + 150, box["y"] + 150
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + right, y + down, steps=10)
+    page.mouse.up()
+
+
+def test_a_plant_in_space_turns_by_keyboard(opened):
+    canvas = canvas_of(opened("K19", 12))
+    pictures = [canvas.screenshot()]
+    turns = (("ArrowRight", 5, 0), ("ArrowUp", 5, 5), ("ArrowLeft", 0, 5), ("Home", 0, 0), ("ArrowDown", 0, -5))
+    for key, around, above in turns:
+        canvas.press(key)
+        expect_view(canvas, around, above)
+        pictures.append(canvas.screenshot(style=":focus-visible { outline: none !important }"))
+    assert len(set(pictures[1:])) == 5
+
+
+def test_a_plant_goes_all_the_way_round_never_over_the_top_and_comes_nearer(opened):
+    canvas = canvas_of(opened("K19", 12))
+    for key, times in (("ArrowRight", 37), ("ArrowUp", 20)):
+        for _ in range(times):
+            canvas.press(key)
+    expect_view(canvas, -175, 90)
+    whole = canvas.screenshot()
+    canvas.press("+")
+    canvas.press("+")
+    expect(canvas).to_have_attribute("data-near", "1.56")
+    near = canvas.screenshot()
+    canvas.press("Shift+ArrowUp")
+    assert len({whole, near, canvas.screenshot()}) == 3
+    canvas.press("-")
+    canvas.press("-")
+    expect(canvas).to_have_attribute("data-near", "1.00")
+    assert canvas.screenshot() == whole
+
+
+def test_a_plant_turns_by_mouse_and_its_sliders_follow(opened):
+    panel = opened("K19", 12)
+    canvas, page = canvas_of(panel), panel.page
+    pull(page, canvas, 40, 20)
+    expect_view(canvas, -20, 10)  # the front goes with the mouse, so the viewer goes the other way
+    expect(page.get_by_label("around", exact=True)).to_have_value("-20")
+    expect(page.get_by_label("above", exact=True)).to_have_value("10")
+    page.mouse.wheel(0, -200)
+    expect(canvas).to_have_attribute("data-near", "1.56")
+    page.get_by_role("button", name="reset").click()
+    expect_view(canvas, 0, 0)
+    expect(canvas).to_have_attribute("data-near", "1.00")
+
+
+def test_a_wheel_that_was_not_asked_for_is_the_pages(opened):
+    panel = opened("K5", 4)
+    canvas = canvas_of(panel)
+    canvas.hover()
+    panel.page.mouse.wheel(0, -200)
+    panel.page.wait_for_timeout(200)
+    expect(canvas).to_have_attribute("data-near", "1.00")
+
+
+def test_sliders_turn_a_plant_and_steps_keep_the_side(opened):
+    panel = opened("K19", 12)
+    canvas = canvas_of(panel)
+    before = canvas.screenshot()
+    panel.control("around").press("ArrowRight")
+    expect_view(canvas, 1, 0)
+    turned = canvas.screenshot()
+    panel.control("step").press("ArrowRight")
+    expect(canvas).to_have_attribute("data-step", "13")
+    expect_view(canvas, 1, 0)
+    assert len({before, turned, canvas.screenshot()}) == 3
+
+
+def test_a_drawing_in_the_plane_comes_nearer_and_moves(opened):
+    panel = opened("K5", 4)
+    canvas = canvas_of(panel)
+    whole = canvas.screenshot()
+    for _ in range(3):
+        canvas.press("+")
+    expect(canvas).to_have_attribute("data-near", "1.95")
+    near = canvas.screenshot()
+    pull(panel.page, canvas, 60, -40)
+    moved = canvas.screenshot()
+    canvas.press("ArrowUp")
+    assert len({whole, near, moved, canvas.screenshot()}) == 4
+    canvas.press("Home")
+    expect(canvas).to_have_attribute("data-near", "1.00")
+
+
+def test_the_angle_turns_in_the_browser(opened):
+    panel = opened("K5", 4)
+    canvas = canvas_of(panel)
+    before = canvas.screenshot()
+    panel.control("angle").press("ArrowRight")
+    expect(canvas).to_have_attribute("data-angle", "25.8")
+    assert canvas.screenshot() != before
+    expect(panel.page.get_by_label("angle", exact=True)).to_have_value("25.8")
+
+
+def test_with_one_scale_growth_is_seen(opened):
+    panel = opened("K5", 4)
+    panel.page.get_by_label("size", exact=True).select_option("same")
+    canvas = canvas_of(panel)
+    heights = []
+    for step in (4, 3, 2):
+        expect(canvas).to_have_attribute("data-step", str(step))
+        panel.page.wait_for_timeout(100)
+        heights.append(canvas.evaluate("""canvas => {
+            const { width, height } = canvas, { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+            let first = height, last = 0;
+            for (let i = 0; i < width * height; i++) if (data[4 * i] < 128) { const y = Math.floor(i / width); first = Math.min(first, y); last = y; }
+            return last - first;
+        }"""))
+        panel.control("step").press("ArrowLeft")
+    assert heights[0] / heights[1] == pytest.approx(3, rel=0.1)
+    assert heights[1] / heights[2] == pytest.approx(3, rel=0.2)
+
+
+def test_two_fingers_bring_it_nearer(opened):
+    panel = opened("K5", 4, context={"has_touch": True})
+    canvas = canvas_of(panel)
+    canvas.evaluate("""canvas => {
+        const box = canvas.getBoundingClientRect(), send = (type, pointerId, x) => canvas.dispatchEvent(new PointerEvent(type,
+            { pointerId, pointerType: "touch", clientX: box.left + x, clientY: box.top + 100, bubbles: true }));
+        canvas.setPointerCapture = () => {};
+        send("pointerdown", 1, 100); send("pointerdown", 2, 140);
+        send("pointermove", 2, 150); send("pointermove", 2, 190);
+        send("pointerup", 1, 100); send("pointerup", 2, 190);
+    }""")
+    expect(canvas).to_have_attribute("data-near", "1.80")
