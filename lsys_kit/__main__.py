@@ -93,6 +93,12 @@ def _argument_parser() -> argparse.ArgumentParser:
     link = command("link", commands.print_link, "Print a model with its settings as an address, which the other commands read.",
                    "Example: lsys-kit link J4 -n 9 --set lifeTimeA=4 --qr j4.svg")
     _add_link(link)
+    page = command("page", commands.write_page, "Write a page with sliders, which needs neither Python nor a network.",
+                   "Example: lsys-kit page J4 -n 9 -o j4.html")
+    _add_model(page)
+    page.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is seen first")
+    page.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn at first")
+    page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
     lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
     return parser

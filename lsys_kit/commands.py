@@ -16,6 +16,7 @@ from lsys_kit.budget import current
 from lsys_kit.decoding import decoded
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file
+from lsys_kit.notation.fragments import is_link
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -149,6 +150,24 @@ def print_link(options: argparse.Namespace) -> None:
     print(address)
 
 
+def write_page(options: argparse.Namespace) -> None:
+    """Write the panel of a system into an HTML file that needs no kernel, and print what it shows first."""
+    from lsys_kit.classroom.catalogue import entry
+    from lsys_kit.classroom.panel.page import page, page_data, save_page
+    from lsys_kit.classroom.panel.view_model import ViewModel
+
+    system, constants, seed = _named_system(options.system, options.notation, options.name), dict(options.settings), options.seed
+    try:
+        known = entry(options.system)
+        id, title = known.id, f"{known.id}: {known.title}"
+    except ModelNameError:
+        id, title = "", "L-system" if options.system == "-" or is_link(options.system) else Path(options.system).stem
+    data = page_data(system, constants, seed or system.seed or 0, title=id, step=options.steps, angle=options.angle)
+    sight = ViewModel(system, seed).sight(data["model"]["step"], constants, data["model"]["angle"])
+    save_page(options.output, page(title, data, str(sight)))
+    print(f"{sight} {data['model']['fixed']}".strip())
+
+
 def open_lab(options: argparse.Namespace) -> None:
     """Copy the course and open it in JupyterLab."""
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
@@ -180,7 +199,6 @@ def _system_with_constants(options: argparse.Namespace) -> LSystem:
 def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
     """The system of a link, or of the catalogue with this id or name; else that in the file of this name, or an entry."""
     from lsys_kit.classroom.catalogue import system
-    from lsys_kit.notation.fragments import is_link
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
 

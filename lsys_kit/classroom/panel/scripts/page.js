@@ -1,0 +1,76 @@
+// The host of a panel on a page without a kernel: the books of all settings are in the page.
+
+import { bytesOf, inflated, packedLink, unpackedLink } from "./link.js";
+import { openPanel } from "./panel.js";
+
+const MOST_BYTES = 100_000_000; // of the books of a page
+
+// Open the panel of the data that stand in the page; where that cannot be done, say so.
+export async function openPage() {
+  const here = document.getElementById("lsys-here"), data = JSON.parse(document.getElementById("lsys-data").textContent);
+  try {
+    const books = JSON.parse(await inflated(bytesOf(data.books), "deflate", MOST_BYTES));
+    openPanel(here, pageHost(data, books, await linkedSettings(data)));
+    addEventListener("hashchange", () => location.reload());
+  } catch (fault) {
+    here.textContent = `This browser cannot show the panel; a newer one can. (${fault})`;
+  }
+}
+
+export function pageHost(data, books, linked) {
+  const answer = (constants) => answerAt(books, data.model.constants.map((each) => each.texts.indexOf(constants[each.name])), data.model.constants);
+  const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
+  const settings = { ...first, ...linked.settings }, { step, angle, around, above, seed } = data.model, handlers = new Map();
+  const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings, model: { ...data.model, book: answer(settings).book } };
+  if (!values.model.book) Object.assign(values, { settings: first, model: { ...data.model, book: answer(first).book } });
+
+  const address = async () => location.href.split("#")[0] + await packedLink(contentOf(data, values));
+  return {
+    get: (name) => values[name],
+    set(name, value) {
+      values[name] = value;
+      for (const handler of handlers.get(name) ?? []) handler(value);
+    },
+    on(name, handler) {
+      handlers.set(name, [...(handlers.get(name) ?? []), handler]);
+      return () => handlers.set(name, handlers.get(name).filter((each) => each !== handler));
+    },
+    // The address says what is seen, so that it can be sent, and the page opened again as it was.
+    save: () => address().then((there) => history.replaceState(null, "", there)).catch(() => {}),
+    book: (asked) => Promise.resolve(answer(asked.constants)),
+    rules: () => Promise.resolve(null),
+    variants: () => Promise.resolve({ variants: [] }),
+    keep: async () => ({ text: await address() }),
+    keeps: ["link"],
+    editable: false,
+  };
+}
+
+// The book of some values of the constants, or the mistake that there is none; books share what they have in common.
+function answerAt({ names, parts, rows }, places, constants) {
+  if (places.some((place) => place < 0)) return { mistake: { message: "This page does not hold the book of these settings", hint: "" } };
+  const row = rows[places.reduce((at, place, i) => at * constants[i].texts.length + place, 0)];
+  const found = Object.fromEntries(names.flatMap((name, i) => (row[i] < 0 ? [] : [[name, parts[i][row[i]]]])));
+  return found.mistake ? found : { book: found };
+}
+
+// The settings of the address, if it has a link of this model.
+async function linkedSettings({ model, system }) {
+  const content = await unpackedLink(location.href), others = {}, settings = {};
+  if (content?.notation !== system.notation || content.text !== system.text) return { others, settings };
+  const { step, angle } = content.settings;
+  if (/^\d{1,9}$/.test(step)) others.step = Number(step);
+  if (numberOf(angle) >= 0 && numberOf(angle) <= 180) others.angle = Math.round(numberOf(angle) * 10) / 10;
+  for (const each of model.constants) if (each.texts.includes(content.settings[each.name])) settings[each.name] = content.settings[each.name];
+  return { others, settings };
+}
+
+function numberOf(text = "") {
+  const [above, below = "1"] = text.split("/");
+  return above === "" ? NaN : Number(above) / Number(below);
+}
+
+function contentOf({ system, model, fixed }, { step, angle, settings }) {
+  const turn = angle === system.angle ? {} : { angle }, seed = model.seed ? { seed: model.seed } : {};
+  return { ...system, settings: { step, ...turn, ...seed, ...fixed, ...settings } };
+}
