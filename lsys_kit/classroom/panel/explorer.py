@@ -12,6 +12,7 @@ import re
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import anywidget
@@ -25,6 +26,7 @@ from lsys_kit.classroom.panel.book import MOST_MODULES, book
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import SliderRange, slider_ranges, slider_values
+from lsys_kit.classroom.panel.page import page, page_data, save_page
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
@@ -179,6 +181,24 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         seed = {SEED: self.seed} if self.seed else {}
         return link(self.system, {STEP: self.step, **turn, **seed, **self._constants(self.settings)})
 
+    def save(self, path: str | Path) -> None:
+        """Write the panel as it stands to an .html file, a page that works without a kernel and without a network.
+
+        Its sliders move constants as far as the books of all their values have room in the page.
+
+        Raises
+        ------
+        ModelFileError
+            The name ends in something else, or the file cannot be written.
+        """
+        save_page(path, self._page())
+
+    def _page(self) -> str:
+        with self._limited(), Task("The page was not made"):
+            data = page_data(self.system, self._constants(self.settings), self.seed, title=self._opened.title, step=self.step,
+                             angle=self.angle, around=self.around, above=self.above)
+            return page(self._opened.title or "An L-system", data, self.text)
+
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:
         step: int = proposal["value"]
@@ -261,9 +281,11 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         return {"variants": [{"text": str(variant), "book": book(variant, {}, self.seed)} for variant in variants(self.system, 9)]}
 
     def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        """What is taken along: the drawing as SVG, or a link to the panel as it stands."""
+        """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""
         if content["what"] == "link":
             return {"text": self.link}
+        if content["what"] == "page":
+            return {"name": f"{self._opened.title or 'panel'}.html", "type": "text/html", "text": self._page()}
         return {"name": f"{self._opened.title or 'drawing'}.svg", "type": "image/svg+xml", "text": self.sight.picture.svg}
 
     # -- what is kept ---------------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from typing import Any
 
 from lsys_kit.budget import check_budget
 from lsys_kit.classroom.panel.book import book
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, shown
@@ -41,6 +41,24 @@ STYLE = """
 .lsys-page h1 { font-size: 20px; font-weight: 600; margin: 4px 0 8px; overflow-wrap: anywhere; }
 @media (prefers-color-scheme: dark) { .lsys-page { background: #161b20; color: #e8edf2; } }
 """
+_FIRST = """
+"use strict";
+const packed = JSON.parse(document.getElementById("lsys-data").textContent);
+const texts = ["style", "script"].map((name) => {
+  const bytes = Uint8Array.from(atob(packed[name]), (sign) => sign.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
+});
+Promise.all(texts).then(([style, script]) => {
+  const policy = window.trustedTypes?.createPolicy("lsys", { createScript: (text) => text });
+  const [looks, element] = ["style", "script"].map((name) => document.createElement(name));
+  looks.textContent = style;
+  element.text = policy ? policy.createScript(script) : script;
+  document.head.append(looks, element);
+});
+"""
+"""The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
+_NOT_NEEDED = {"filament": frozenset(("turtle", "painter")), "plane": frozenset(("filament",)), "space": frozenset(("filament",))}
+"""The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
 
@@ -72,11 +90,10 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     """
     if not isinstance(language, str) or not _LANGUAGE.fullmatch(language):
         raise ModelValueError(f'A language is named as in "en" or "de-AT", not {shown(language)}')
-    script = f'"use strict";\n{bundled("page")}\nopenPage();\n'
-    known = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    policy = (f"default-src 'none'; script-src 'sha256-{known}'; style-src 'unsafe-inline'; img-src data: blob:; "
-              "base-uri 'none'; form-action 'none'; require-trusted-types-for 'script'")
-    content = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    script = f'"use strict";\n{compact("page", _NOT_NEEDED[data["mode"]])}\nopenPage();\n'
+    policy = (f"default-src 'none'; script-src {_hashed(_FIRST)} {_hashed(script)}; style-src 'unsafe-inline'; img-src data: blob:; "
+              "base-uri 'none'; form-action 'none'; require-trusted-types-for 'script'; trusted-types lsys")
+    content = json.dumps({**data, "script": deflated_text(script), "style": deflated_text(style())}, separators=(",", ":")).replace("<", "\\u003c")
     return f"""<!doctype html>
 <html lang="{language}">
 <head>
@@ -89,14 +106,14 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
 <meta name="description" content="{escaped(description)}">
 <link rel="icon" href="data:,">
 <title>{escaped(title)}</title>
-<style>{style()}{STYLE}</style>
+<style>{STYLE}</style>
 </head>
 <body class="lsys-page">
 <h1>{escaped(title)}</h1>
 <main id="lsys-here"></main>
 <noscript><p>Without JavaScript the panel cannot be moved. It shows: {escaped(description)}</p></noscript>
 <script type="application/json" id="lsys-data">{content}</script>
-<script>{script}</script>
+<script>{_FIRST}</script>
 </body>
 </html>
 """
@@ -142,7 +159,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
              "chance": False, "fixed": _said(fixed, seed if first["chance"] else None), "step": min(wanted, first["steps"]),
              "angle": round(turn, 1), "around": around, "above": above, "seed": seed}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
-    return {"model": model, "system": own, "fixed": fixed, "books": deflated(shared(books))}
+    return {"model": model, "mode": first["mode"], "system": own, "fixed": fixed, "books": deflated(shared(books))}
 
 
 def save_page(path: str | Path, text: str) -> None:
@@ -187,7 +204,17 @@ def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 def deflated(content: object) -> str:
     """Anything as JSON, deflated (RFC 1950), in base 64."""
-    return base64.b64encode(zlib.compress(json.dumps(content, separators=(",", ":")).encode(), 9)).decode()
+    return deflated_text(json.dumps(content, separators=(",", ":")))
+
+
+def deflated_text(text: str) -> str:
+    """A text, deflated (RFC 1950), in base 64."""
+    return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
+
+
+def _hashed(script: str) -> str:
+    """How a Content Security Policy names a script that may run."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
 
 
 def _book(system: LSystem, settings: Mapping[str, object], seed: int, title: str, least: int) -> dict[str, Any]:
