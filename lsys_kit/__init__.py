@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.catalogue import map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
     from lsys_kit.classroom.link import link, linked
+    from lsys_kit.classroom.panel.comparison import compare
     from lsys_kit.classroom.panel.explorer import explore
+    from lsys_kit.classroom.variants import variants
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth.growth import growth
     from lsys_kit.derivation.petri.pnml import pnml
@@ -49,7 +51,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films",
-    "check": "classroom.exercises.check",
+    "check": "classroom.exercises.check", "compare": "classroom.panel.comparison",
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth.growth", "limits": "budget",
@@ -58,6 +60,7 @@ _HOMES = {
     "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_map": "notation.dialects.map.dialect", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
+    "variants": "classroom.variants",
     "write": "notation.write",
 }
 
@@ -70,6 +73,7 @@ __all__ = [
     "ModelValueError",
     "animate",
     "check",
+    "compare",
     "continuity",
     "derive",
     "draw",
@@ -91,6 +95,7 @@ __all__ = [
     "system",
     "systems",
     "timed",
+    "variants",
     "write",
 ]
 

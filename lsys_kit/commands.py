@@ -156,7 +156,8 @@ def write_page(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.panel.page import page, page_data, save_page
     from lsys_kit.classroom.panel.view_model import ViewModel
 
-    system, constants, seed = _named_system(options.system, options.notation, options.name), dict(options.settings), options.seed
+    system = _named_system(options.system, options.notation, options.name)
+    constants, seed = dict(options.settings), options.seed
     try:
         known = entry(options.system)
         id, title = known.id, f"{known.id}: {known.title}"

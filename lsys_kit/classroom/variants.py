@@ -6,13 +6,14 @@ a variant may be is decided as for any model: it is written, read back, and deri
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from typing import TypeAlias, TypeVar
 
 from lsys_kit.budget import Task, check_budget, current, limits
+from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.errors import LSystemError, ModelValueError, require, shown
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
@@ -21,6 +22,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
 
+_T = TypeVar("_T")
 MOST_MODULES = 20_000
 """A variant that grows larger than this is passed over."""
 TRIES = 60
@@ -49,7 +51,7 @@ def variants(system: LSystem, number: int = 9, *, seed: int = 0) -> tuple[LSyste
     Raises
     ------
     ModelValueError
-        The number is not possible.
+        The number or the seed is not possible.
 
     Examples
     --------
@@ -61,9 +63,11 @@ def variants(system: LSystem, number: int = 9, *, seed: int = 0) -> tuple[LSyste
     F -> F[+F]F[-F]F
     """
     require(system, LSystem, "A system")
+    if isinstance(seed, bool) or not isinstance(seed, int):
+        raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
     if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 100:
         raise ModelValueError(f"The number of variants must be a whole number from 1 to 100, not {shown(number)}")
-    chance, found = random.Random(f"variants {seed}"), list[LSystem]()
+    chance, found = Chance(seed, 0, 0), list[LSystem]()
     with Task("The variants were not all found"):
         for _ in range(number * TRIES):
             check_budget()
@@ -75,15 +79,15 @@ def variants(system: LSystem, number: int = 9, *, seed: int = 0) -> tuple[LSyste
     return tuple(found)
 
 
-def _changed(system: LSystem, chance: random.Random) -> LSystem | None:
+def _changed(system: LSystem, chance: Chance) -> LSystem | None:
     """A copy with one change; None where the change that was drawn is not possible."""
-    if chance.random() < 0.2:
-        return replace(system, angle=normalised(round(Fraction(system.angle) * chance.choice(_SHARES), 1)))
+    if chance.unit() < 0.2:
+        return replace(system, angle=normalised(round(Fraction(system.angle) * _one_of(chance, _SHARES), 1)))
     if not system.productions:
         return None
-    place = chance.randrange(len(system.productions))
+    place = _one_of(chance, range(len(system.productions)))
     production = system.productions[place]
-    successor = chance.choice(_CHANGES)(production.successor, chance)
+    successor = _one_of(chance, _CHANGES)(production.successor, chance)
     if successor is None:
         return None
     productions = [*system.productions]
@@ -91,6 +95,11 @@ def _changed(system: LSystem, chance: random.Random) -> LSystem | None:
     with suppress(LSystemError):
         return replace(system, productions=tuple(productions))
     return None
+
+
+def _one_of(chance: Chance, choices: Sequence[_T]) -> _T:
+    """One of some things, each equally likely."""
+    return choices[int(chance.unit() * len(choices))]
 
 
 def _read_back(system: LSystem) -> LSystem | None:
@@ -106,7 +115,7 @@ def _read_back(system: LSystem) -> LSystem | None:
 
 # --- changes of a successor -------------------------------------------------------------------------------------------
 
-Successor = tuple[Item, ...]
+Successor: TypeAlias = tuple[Item, ...]
 
 
 def _parts(items: Successor) -> list[tuple[int, int]]:
@@ -124,59 +133,59 @@ def _parts(items: Successor) -> list[tuple[int, int]]:
     return parts
 
 
-def _copied(items: Successor, chance: random.Random) -> Successor | None:
+def _copied(items: Successor, chance: Chance) -> Successor | None:
     """A module or a branch stands there twice, the second time elsewhere."""
     parts = _parts(items)
     if not parts:
         return None
-    start, stop = chance.choice(parts)
-    at = chance.choice([end for _, end in parts])
+    start, stop = _one_of(chance, parts)
+    at = _one_of(chance, [end for _, end in parts])
     return (*items[:at], *items[start:stop], *items[at:])
 
 
-def _left_out(items: Successor, chance: random.Random) -> Successor | None:
+def _left_out(items: Successor, chance: Chance) -> Successor | None:
     """A module or a branch is gone."""
     parts = [(start, stop) for start, stop in _parts(items) if stop - start < len(items)]
     if not parts:
         return None
-    start, stop = chance.choice(parts)
+    start, stop = _one_of(chance, parts)
     return (*items[:start], *items[stop:])
 
 
-def _other_way(items: Successor, chance: random.Random) -> Successor | None:
+def _other_way(items: Successor, chance: Chance) -> Successor | None:
     """A turn goes the other way."""
     turns = [place for place, item in enumerate(items) if isinstance(item, Pattern) and item.symbol in _OTHER_WAY]
     if not turns:
         return None
-    place = chance.choice(turns)
+    place = _one_of(chance, turns)
     turn = items[place]
     assert isinstance(turn, Pattern)
     return (*items[:place], replace(turn, symbol=_OTHER_WAY[turn.symbol]), *items[place + 1:])
 
 
-def _branched(items: Successor, chance: random.Random) -> Successor | None:
+def _branched(items: Successor, chance: Chance) -> Successor | None:
     """A module stands on a branch of its own."""
     places = [place for place, item in enumerate(items) if isinstance(item, Pattern) and item.symbol[0].isalpha()]
     if not places:
         return None
-    place, turn = chance.choice(places), Pattern(chance.choice("+-"))
+    place, turn = _one_of(chance, places), Pattern(_one_of(chance, "+-"))
     return (*items[:place], Pattern("["), turn, items[place], Pattern("]"), *items[place + 1:])
 
 
-def _other_number(items: Successor, chance: random.Random) -> Successor | None:
+def _other_number(items: Successor, chance: Chance) -> Successor | None:
     """A number is a little greater or less."""
     numbers = [number for item in items for number in _numbers_in(item) if number.value]
     if not numbers:
         return None
-    chosen = chance.choice(numbers)
+    chosen = _one_of(chance, numbers)
     other = Number(_near(chosen.value, chance))
     return tuple(_with_number(item, chosen, other) for item in items)
 
 
-def _near(value: Value, chance: random.Random) -> Value:
+def _near(value: Value, chance: Chance) -> Value:
     if isinstance(value, int):
-        return max(1, value + chance.choice((-1, 1)))
-    return normalised(Fraction(f"{float(value * chance.choice(_SHARES)):.3g}"))
+        return max(1, value + _one_of(chance, (-1, 1)))
+    return normalised(Fraction(f"{float(value * _one_of(chance, _SHARES)):.3g}"))
 
 
 def _numbers_in(part: Item | Expression) -> Iterator[Number]:
@@ -209,5 +218,5 @@ def _with_number(item: Item, old: Number, new: Number) -> Item:
     return replace(item, arguments=tuple(map(put, item.arguments)))
 
 
-_CHANGES: tuple[Callable[[Successor, random.Random], Successor | None], ...] = (
+_CHANGES: tuple[Callable[[Successor, Chance], Successor | None], ...] = (
     _copied, _left_out, _other_way, _branched, _other_number, _other_number)

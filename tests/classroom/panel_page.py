@@ -79,7 +79,8 @@ def open_panel(browser: Browser, explorer: Explorer, dark: bool = False, **conte
     page.on("console", lambda message: found.errors.append(message.text) if message.type == "error" else None)
     page.expose_function("kernel", lambda content: answered(explorer, content))
     theme = "false" if dark else "true"
-    page.set_content(f'{PAPER}<style>{style()}</style><body data-jp-theme-light="{theme}"><main id="here"></main></body></html>')
+    body = f'<body data-jp-theme-light="{theme}"><main id="here"></main></body></html>'
+    page.set_content(f"{PAPER}<style>{style()}</style>{body}")
     data = json.dumps({name: getattr(explorer, name) for name in TRAITS})
     page.add_script_tag(content=f"{bundled('panel')}\nconst data = {data};\n{HOST}", type="module")
     page.locator("canvas[data-drawn]").first.wait_for()

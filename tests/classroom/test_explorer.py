@@ -88,7 +88,7 @@ def test_a_step_beyond_the_last_says_why_there_are_no_more():
 
 
 def test_a_first_step_past_the_limit_is_refused():
-    with pytest.raises(ModelValueError, match="steps 0 to 6, not 7.*195,311 modules; the limit is 100,000"):
+    with pytest.raises(ModelValueError, match=r"steps 0 to 6, not 7.*195,311 modules; the limit is 100,000"):
         explore("K5", 7)
 
 
@@ -145,7 +145,8 @@ def test_a_mistake_in_the_rules_is_answered_with_its_place(monkeypatch, text, to
 
 def test_new_rules_are_a_new_model_with_its_own_sliders(monkeypatch):
     panel = explore("J4", 4)
-    found = answer(panel, monkeypatch, kind="rules", text="c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(1)")["model"]
+    text = "c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(1)"
+    found = answer(panel, monkeypatch, kind="rules", text=text)["model"]
     assert [each["name"] for each in found["constants"]] == ["c"]
     assert found["book"]["title"] == ""
     assert str(panel.system.axiom[0]) == "A(1)"
@@ -153,7 +154,8 @@ def test_new_rules_are_a_new_model_with_its_own_sliders(monkeypatch):
 
 def test_rules_may_be_typed_in_another_notation(monkeypatch):
     panel = explore("J1", 4)
-    assert "model" in answer(panel, monkeypatch, kind="rules", text="#define n 3\nLsystem: 1\nAxiom: F\nF --> F[+F]F\nendlsystem")
+    text = "#define n 3\nLsystem: 1\nAxiom: F\nF --> F[+F]F\nendlsystem"
+    assert "model" in answer(panel, monkeypatch, kind="rules", text=text)
 
 
 @pytest.mark.parametrize(("choices", "message"), [

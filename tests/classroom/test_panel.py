@@ -164,7 +164,8 @@ def test_a_cell_of_the_drawing_is_traced_by_the_pointer(opened):
     canvas = panel.at("canvas")
     box = canvas.bounding_box()
     canvas.click(position={"x": box["width"] / 2 + 17, "y": 38})
-    expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
+    expect(panel.at(".lsys-sentence")).to_have_text(
+        "Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
 
 
 def test_the_word_of_an_empty_drawing_says_so(opened):

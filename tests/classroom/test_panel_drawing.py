@@ -145,7 +145,10 @@ def test_with_one_scale_growth_is_seen(opened):
         heights.append(canvas.evaluate("""canvas => {
             const { width, height } = canvas, { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
             let first = height, last = 0;
-            for (let i = 0; i < width * height; i++) if (data[4 * i] < 128) { const y = Math.floor(i / width); first = Math.min(first, y); last = y; }
+            for (let i = 0; i < width * height; i++) {
+                if (data[4 * i] >= 128) continue;
+                [first, last] = [Math.min(first, Math.floor(i / width)), Math.floor(i / width)];
+            }
             return last - first;
         }"""))
         panel.control("step").press("ArrowLeft")

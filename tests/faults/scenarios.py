@@ -73,9 +73,10 @@ def panel(asked: Any) -> object:
     """What a panel shows when its sliders have been moved."""
     asked.step = 0
     asked.step = 3
-    asked.settings = {name: 99 for name in asked.settings}
+    asked.settings = dict.fromkeys(asked.settings, 99)
     asked.mark = asked.model["book"]["net"]["names"][0]
-    return asked.text, asked.settings, asked.model, asked._book_for({"constants": asked.settings, "seed": 1}), asked.sight.picture.svg
+    other = asked._book_for({"constants": asked.settings, "seed": 1})
+    return asked.text, asked.settings, asked.model, other, asked.sight.picture.svg
 
 
 SCENARIOS: Mapping[str, Scenario] = {

@@ -1,7 +1,7 @@
 """The scripts of the panel, joined into one text: a widget and a page without a kernel each take a single module.
 
-The scripts are modules of JavaScript that import one another by name. Joined, each is a function of its own that returns what the
-module exports, so that their other names do not meet.
+The scripts are modules of JavaScript that import one another by name. Joined, each is a function of its own that returns what
+the module exports, so that their other names do not meet.
 """
 
 from __future__ import annotations

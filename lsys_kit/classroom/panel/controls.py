@@ -92,7 +92,7 @@ def slider_values(span: SliderRange) -> tuple[Value, ...]:
     >>> [str(value) for value in slider_values(SliderRange(1, Fraction(1, 2), 2, Fraction(1, 2)))]
     ['1/2', '1', '3/2', '2']
     """
-    low, high, step = map(Fraction, (span.low, span.high, span.step))
+    low, high, step = (Fraction(part) for part in (span.low, span.high, span.step))
     many = (high - low) // step if step > 0 else 0
     coarser = -(-many // MOST_VALUES) or 1
     grid = {normalised(low + number * coarser * step) for number in range(many // coarser + 1)}

@@ -1,8 +1,8 @@
 """The explorer: a system's rules, word, stage diagram and drawing side by side, with sliders made from the model.
 
-The kernel sends a book of the system for a setting of its constants, and the browser turns its pages: neither a step, an angle,
-a point of view, a mark nor a trace asks the kernel (see `book`). What the browser shows, the kernel knows as soon as the sliders
-have come to rest, so that other widgets can be linked to the panel.
+The kernel sends a book of the system for a setting of its constants, and the browser turns its pages: neither a step, an
+angle, a point of view, a mark nor a trace asks the kernel (see `book`). What the browser shows, the kernel knows as soon as the
+sliders have come to rest, so that other widgets can be linked to the panel.
 """
 
 from __future__ import annotations
@@ -80,7 +80,8 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
         what = catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
-        return explore(there.system, **{**there.settings, **_given(step, angle, seed), **constants})
+        given: dict[str, Any] = {**there.settings, **_given(step, angle, seed), **constants}
+        return explore(there.system, **given)  # type: ignore[arg-type]
     system = read(what) if isinstance(what, str) else what
     if not isinstance(system, LSystem):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
@@ -278,7 +279,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
         """Nine variants of the system, each with its book."""
-        return {"variants": [{"text": str(variant), "book": book(variant, {}, self.seed)} for variant in variants(self.system, 9)]}
+        return {"variants": [{"text": str(each), "book": book(each, {}, self.seed)} for each in variants(self.system, 9)]}
 
     def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""

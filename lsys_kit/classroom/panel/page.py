@@ -1,6 +1,6 @@
 """A page without a kernel: the panel of a system with the books of its settings, one HTML file with no address outside it.
 
-The data stand in the page as JSON in which no markup can begin; the one script that runs is named by its hash in the page's
+The data stand in the page as JSON in which no markup can begin; the scripts that run are named by their hashes in the page's
 Content Security Policy, which forbids everything else: other scripts, connections, frames and forms.
 """
 
@@ -57,7 +57,8 @@ Promise.all(texts).then(([style, script]) => {
 });
 """
 """The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
-_NOT_NEEDED = {"filament": frozenset(("turtle", "painter")), "plane": frozenset(("filament",)), "space": frozenset(("filament",))}
+_CELLS, _STROKES = frozenset(("filament",)), frozenset(("turtle", "painter"))
+_NOT_NEEDED = {"filament": _STROKES, "plane": _CELLS, "space": _CELLS}
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
@@ -91,9 +92,10 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     if not isinstance(language, str) or not _LANGUAGE.fullmatch(language):
         raise ModelValueError(f'A language is named as in "en" or "de-AT", not {shown(language)}')
     script = f'"use strict";\n{compact("page", _NOT_NEEDED[data["mode"]])}\nopenPage();\n'
-    policy = (f"default-src 'none'; script-src {_hashed(_FIRST)} {_hashed(script)}; style-src 'unsafe-inline'; img-src data: blob:; "
-              "base-uri 'none'; form-action 'none'; require-trusted-types-for 'script'; trusted-types lsys")
-    content = json.dumps({**data, "script": deflated_text(script), "style": deflated_text(style())}, separators=(",", ":")).replace("<", "\\u003c")
+    policy = (f"default-src 'none'; script-src {_hashed(_FIRST)} {_hashed(script)}; style-src 'unsafe-inline'; "
+              "img-src data: blob:; base-uri 'none'; form-action 'none'; require-trusted-types-for 'script'; trusted-types lsys")
+    packed = {**data, "script": deflated_text(script), "style": deflated_text(style())}
+    content = json.dumps(packed, separators=(",", ":")).replace("<", "\\u003c")
     return f"""<!doctype html>
 <html lang="{language}">
 <head>
