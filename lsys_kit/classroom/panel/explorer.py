@@ -233,7 +233,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         for name, span in self._opened.ranges.items():
             if not hasattr(self, name):
                 whole = all(isinstance(part, int) for part in self._opened.values[name])
-                self.add_traits(**{name: (traitlets.Int if whole else traitlets.Float)(_plain(span.value))})
+                kind: Any = traitlets.Int if whole else traitlets.Float
+                self.add_traits(**{name: kind(_plain(span.value))})
                 self.observe(self._set_constant, name)
         self.observe(self._tell_constants, "settings")
 

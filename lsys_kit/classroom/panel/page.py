@@ -93,7 +93,8 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
         raise ModelValueError(f'A language is named as in "en" or "de-AT", not {shown(language)}')
     script = f'"use strict";\n{compact("page", _NOT_NEEDED[data["mode"]])}\nopenPage();\n'
     policy = (f"default-src 'none'; script-src {_hashed(_FIRST)} {_hashed(script)}; style-src 'unsafe-inline'; "
-              "img-src data: blob:; base-uri 'none'; form-action 'none'; require-trusted-types-for 'script'; trusted-types lsys")
+              "img-src data: blob:; base-uri 'none'; form-action 'none'; "
+              "require-trusted-types-for 'script'; trusted-types lsys")
     packed = {**data, "script": deflated_text(script), "style": deflated_text(style())}
     content = json.dumps(packed, separators=(",", ":")).replace("<", "\\u003c")
     return f"""<!doctype html>
