@@ -27,7 +27,7 @@ from lsys_kit.classroom.panel.growth_rate import growth_entry
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages
-from lsys_kit.errors import LSystemError
+from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.geometry.turtle.mode import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
@@ -127,7 +127,8 @@ def _derived(system: LSystem, given: dict[str, Any], seed: int | None, least: in
 
 
 def _sentence(error: LSystemError) -> str:
-    return f"{error.message}. {error.hint or ''}".rstrip()
+    """Why there is no further step; how limits are set does not help whoever moves a slider."""
+    return f"{error.message}." if isinstance(error, ModelLimitError) else f"{error.message}. {error.hint or ''}".rstrip()
 
 
 def _pages(derivation: Derivation, end: str) -> _Pages:

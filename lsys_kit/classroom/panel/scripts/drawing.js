@@ -28,8 +28,8 @@ export function drawingView(parent, told) {
     book = next;
     [near, shift, glide] = [1, [0, 0], null];
     const turning = inSpace() ? "Drag or arrow keys turn it. " : "";
-    hint.textContent = isFilament() ? "Click a cell to trace it; N and P go to the next and the one before."
-      : `${turning}Plus, minus or the wheel bring it nearer, Shift and arrows move it, Home puts it back. Click a part to trace it; N and P go to the next and the one before.`;
+    hint.textContent = `${turning}Plus, minus or the wheel bring it nearer, ${inSpace() ? "Shift and arrows" : "arrows"} move it, Home puts it back. `
+      + `Click a ${isFilament() ? "cell" : "part"} to trace it; N and P go to the next and the one before.`;
     canvas.classList.toggle("lsys-turned", inSpace());
   }
 
@@ -78,7 +78,8 @@ export function drawingView(parent, told) {
     pen.fillStyle = look.theme.paper;
     pen.fillRect(0, 0, width, height);
     if (isFilament()) {
-      sheet = sequence(book, now.step, { rows: ROWS, width, height, boxed: now.boxed });
+      sheet = sequence(book, now.step, { rows: ROWS, width: width * near, height, boxed: now.boxed });
+      pen.translate(leftOf(width), 0);
       paintSequence(pen, sheet, look);
     } else if (fault) sentence(fault, width, height);
     else {
@@ -92,6 +93,13 @@ export function drawingView(parent, told) {
     for (const name of ["step", "angle", "around", "above"]) canvas.dataset[name] = now[name];
     canvas.dataset.near = near.toFixed(2);
     if (glide) draw();
+  }
+
+  // Where a filament begins that has been brought nearer: it is moved to the sides, and stays in sight.
+  function leftOf(width) {
+    const most = ((near - 1) * width) / 2;
+    shift[0] = Math.max(-most, Math.min(most, shift[0]));
+    return shift[0] - most;
   }
 
   // The shapes on their way from the mothers' places to their own.
@@ -126,14 +134,13 @@ export function drawingView(parent, told) {
   }
 
   function move(right, down) {
-    if (near === 1 || isFilament()) return;
+    if (near === 1) return;
     shift = [shift[0] + right, shift[1] + down];
     draw();
   }
 
   // Come nearer, so that one point of the canvas stays where it is; by default its middle.
   function come(nearer, x = canvas.clientWidth / 2, y = canvas.clientHeight / 2) {
-    if (isFilament()) return;
     const wanted = Math.min(NEAREST, near * nearer), next = wanted < 1.01 ? 1 : wanted;
     const from = [x - canvas.clientWidth / 2, y - canvas.clientHeight / 2];
     shift = next === 1 ? [0, 0] : shift.map((places, i) => from[i] + ((places - from[i]) * next) / near);
@@ -167,7 +174,7 @@ export function drawingView(parent, told) {
   function trace(event) {
     const { x, y } = placeOf(event);
     if (isFilament()) {
-      const cell = cellAt(sheet, x, y);
+      const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
       if (cell) told.traced(cell.step, cell.position);
       else told.traced(now.step, -1);
     } else told.traced(now.step, shapeAt(shapes, frame, x, y, REACH));
@@ -217,7 +224,7 @@ export function drawingView(parent, told) {
   canvas.addEventListener("pointerup", released);
   canvas.addEventListener("pointercancel", released);
   canvas.addEventListener("wheel", (event) => {
-    if (document.activeElement !== canvas || isFilament()) return;
+    if (document.activeElement !== canvas) return;
     event.preventDefault();
     const { x, y } = placeOf(event);
     come(ZOOM ** (-event.deltaY / 100), x, y);
