@@ -19,8 +19,10 @@ from lsys_kit.classroom.panel.growth_rate import rate_text
 from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.derivation.growth.recurrences import greatest_root
 from lsys_kit.derivation.timed.ages import age_model
+from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.registry import dialect_named
@@ -298,6 +300,11 @@ def test_a_book_is_not_much_larger_than_two_megabytes():
     assert "The panel ends" in made["end"]
 
 
+def test_a_turn_without_an_angle_of_its_own_asks_for_the_angle():
+    asks = {text: book(read(f"axiom: {text}"))["turtle"]["uses angle"] for text in ("F+F", "F+(30)F", "F&F", "F|F", "F[f]F")}
+    assert asks == {"F+F": True, "F+(30)F": False, "F&F": True, "F|F": False, "F[f]F": False}
+
+
 def test_a_step_that_is_asked_for_is_in_the_book():
     assert book(system("J1"), least=17)["steps"] == 17
 
@@ -326,6 +333,16 @@ def test_where_there_is_no_diagram_the_book_says_why():
     assert made["net"]["places"] == made["net"]["names"] == []
     assert "900 arcs" in made["net"]["besides"][0]["text"]
     assert {place for _, _, place, _ in made["states"]} == {-1}
+
+
+@pytest.mark.parametrize("text", ["axiom: F ~X RH ~L A", "axiom: A\nA -> F ~ q F",
+                                  "axiom: A\nA -> F\ninterpretation:\nF -> ~s F RL"])
+def test_what_the_turtle_passes_over_is_told(text):
+    model = read(text)
+    made, scene = book(model), scene_of(derive(model, 1), 90)
+    assert made["unknown"]
+    assert {*scene.unknown} <= {*made["unknown"]}
+    assert made["said"] == passed_over(made["unknown"])
 
 
 @pytest.mark.parametrize("name", HOSTILE, ids=range(len(HOSTILE)))
