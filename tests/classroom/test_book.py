@@ -280,6 +280,13 @@ def test_a_book_ends_before_a_step_that_is_too_large():
     assert MOST_MODULES == 100_000
 
 
+def test_a_book_ends_before_a_later_step_that_takes_too_long(monkeypatch):
+    monkeypatch.setattr("lsys_kit.classroom.panel.book.TIME_FOR_LATER", 1e-9)
+    made = book(system("K25"))
+    assert made["steps"] == system("K25").steps == 120
+    assert "Step 121 was not reached" in made["end"]
+
+
 def test_a_book_ends_before_a_step_with_an_error():
     made = book(read("axiom: A(3)\nA(x) -> A(x - 1) B(1/x)"))
     assert made["steps"] == 3

@@ -44,8 +44,8 @@ STATE_BYTES, HISTORY_BYTES = 60, 6
 """About what a state takes in it beside its text, and a module of a word with what it becomes."""
 USUAL_STEPS, FEWEST_STEPS = 5, 10
 """The steps of a system that does not say how many, and the last step of a book at least, where it can be reached."""
-SHARE_OF_TIME, SECONDS = 0.6, 2.0
-"""The part of the limit of time that the steps asked for may take, and the seconds after which no further step is begun."""
+TIME_FOR_ASKED, TIME_FOR_LATER = 0.6, 0.2
+"""The parts of the limit of time after which the steps that are asked for, and those beyond, are given up."""
 
 
 def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: int | None = None, *, title: str = "",
@@ -114,12 +114,12 @@ class _Pages:
 def _derived(system: LSystem, given: dict[str, Any], seed: int | None, least: int) -> tuple[Derivation, str]:
     """The derivation as far as a book may hold it, and why it ends earlier than it should; "" where it does not."""
     asked = USUAL_STEPS if system.steps is None else system.steps
-    most, seconds = min(MOST_MODULES, current().modules), SHARE_OF_TIME * current().seconds
-    with limits(modules=most, seconds=seconds):
+    most, seconds = min(MOST_MODULES, current().modules), current().seconds
+    with limits(modules=most):
         derivation = derive(system, 0, seed=seed, **given)
         try:
             for step in range(1, max(2 * asked, FEWEST_STEPS, least) + 1):
-                with limits(seconds=min(SECONDS, seconds) if step > max(asked, least) else seconds):
+                with limits(seconds=seconds * (TIME_FOR_LATER if step > max(asked, least) else TIME_FOR_ASKED)):
                     derivation = derivation.to(step)
         except LSystemError as error:
             return derivation, _sentence(error)

@@ -94,7 +94,7 @@ function kept(made) {
     if (!known.has(step)) {
       const found = made(step);
       held += found?.length ?? 0;
-      for (const [old, row] of held > HELD ? known : []) {
+      for (const [old, row] of known) {
         if (held <= HELD) break;
         held -= row?.length ?? 0;
         known.delete(old);
