@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 
 import numpy as np
 import pytest
@@ -119,6 +120,34 @@ def words(dialect, *, flat=False):
         st.lists(modules(dialect, flat=flat), min_size=3, max_size=40), st.sampled_from([22.5, 60, 90, 97]),
         st.sampled_from([90, 0, -30]), st.sampled_from(["", "pixels", "units"]))
     return made.map(lambda made: derive(made, 0)[0])
+
+
+SELDOM = {
+    "abop": ["{ f f } F", "{ f f f } F", "{ f { f + f + f } f + f } F", "{ f ] f [ + f } F", "] F ] ] + F", "F(-2) + F",
+             "F ;(2.5) F ;(3.5) F ,(-7) F ;(0.5) F ; F , F", "~ L F ~ X F ~ K(2)", "!(0) F !(-3) F #(30) F #(1.5) F # F",
+             "@Ts(0.2) F & F + F @Ts(2,0.25,1,0,0) F F F [ @Ts(0.5) F ] F @Ts(1,2,3) F F @Ts F & F", "@M(1,2) F @M(3) F @M F",
+             "F /(180) + F /(-180) + F /(540) + F", "F /(180) + F /(-180) + F /(540) + F /(90) F", "&(90) F $ F @v F",
+             "F" + " &(7) F +" * 1100],
+    "grogra": ["Dl(3) F F", "Dl(3) [ F ] F F", "Dl(3) Dl(5) Ll(2) F F", "F @(0.5) RH F", "@(0.5) F",
+               "RV F RL(90) RV(2) F RG F RL RG F RG F", "V(2) RV F V+(1) RV F Vl*(3) RV F RV F", "P(1) F P F P(-3) F P(17) F",
+               "D*(3) F D F D+(20) F", "RL(180) RV(3) F RV(0.5) F"],
+    "fractint": ["C(255) F <(1) F >(2) F <(-1) F >(-1) F <(0) F C(0) F C(-1) F C(2.5) F", "@Q(2) F @IQ(3) F @I(0) F @(0) F",
+                 "\\(30) D ! \\(12) D F [ + D ] /(5) M + D", "F | F + | F ! | F", "F ! + F ! - F [ ! + F ] + F"],
+    "plant-string": ["I ( I [ I L ) F ] A B L", "( ( ( I", "L F L"],
+}
+"""Rows of modules by which something happens that is seldom met by chance."""
+
+
+def module_in(text):
+    """A module as it is written in such a row."""
+    symbol, values = re.fullmatch(r"(.+?)(?:\(([-\d.,]+)\))?", text).groups()
+    return Pattern(symbol, tuple(Number(float(value)) for value in (values or "").split(",") if value))
+
+
+@pytest.mark.parametrize(("dialect", "row"), [(dialect, row) for dialect, rows in SELDOM.items() for row in rows])
+def test_what_happens_seldom(page, dialect, row):
+    word = derive(LSystem(tuple(map(module_in, row.split())), (), angle=72, turtle=dialect), 0)[0]
+    expect_drawn(page, [[word]], [72.0, *ANGLES])
 
 
 @pytest.mark.slow
