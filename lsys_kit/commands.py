@@ -16,7 +16,6 @@ from lsys_kit.budget import current
 from lsys_kit.decoding import decoded
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file
-from lsys_kit.notation.fragments import is_link
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -152,21 +151,27 @@ def print_link(options: argparse.Namespace) -> None:
 
 def write_page(options: argparse.Namespace) -> None:
     """Write the panel of a system into an HTML file that needs no kernel, and print what it shows first."""
-    from lsys_kit.classroom.catalogue import entry
     from lsys_kit.classroom.panel.page import page, page_data, save_page
     from lsys_kit.classroom.panel.view_model import ViewModel
 
-    system = _named_system(options.system, options.notation, options.name)
-    constants, seed = dict(options.settings), options.seed
-    try:
-        known = entry(options.system)
-        id, title = known.id, f"{known.id}: {known.title}"
-    except ModelNameError:
-        id, title = "", "L-system" if options.system == "-" or is_link(options.system) else Path(options.system).stem
+    system, constants = _named_system(options.system, options.notation, options.name), dict(options.settings)
+    seed, (id, title) = options.seed, _titles(options.system)
     data = page_data(system, constants, seed or system.seed or 0, title=id, step=options.steps, angle=options.angle)
     sight = ViewModel(system, seed).sight(data["model"]["step"], constants, data["model"]["angle"])
     save_page(options.output, page(title, data, str(sight)))
     print(f"{sight} {data['model']['fixed']}".strip())
+
+
+def _titles(name: str) -> tuple[str, str]:
+    """The id of a system of the catalogue, if it is one, and what its page is called."""
+    from lsys_kit.classroom.catalogue import entry
+    from lsys_kit.notation.fragments import is_link
+
+    try:
+        known = entry(name)
+    except ModelNameError:
+        return "", "L-system" if name == "-" or is_link(name) else Path(name).stem
+    return known.id, f"{known.id}: {known.title}"
 
 
 def open_lab(options: argparse.Namespace) -> None:
@@ -200,6 +205,7 @@ def _system_with_constants(options: argparse.Namespace) -> LSystem:
 def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
     """The system of a link, or of the catalogue with this id or name; else that in the file of this name, or an entry."""
     from lsys_kit.classroom.catalogue import system
+    from lsys_kit.notation.fragments import is_link
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
 

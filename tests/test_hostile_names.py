@@ -300,7 +300,8 @@ def test_the_shell_prints_nothing_that_a_terminal_obeys(text, tmp_path, capsys):
                       ["derive", "J1", "-n", "1", "--set", text], ["derive", "J1", "-n", "1", "--set", f"{text}=1"],
                       ["derive", "J1", "-n", "1", "--notation", text], ["convert", "J1", "--to", text], [text], ["list", text],
                       ["derive", str(tmp_path / "model.txt"), "-n", "2"],
-                      ["convert", str(tmp_path / "model.txt"), "--to", "abop"],
+                      ["convert", str(tmp_path / "model.txt"), "--to", "abop"], ["link", text], ["link", "J1", "--base", text],
+                      ["link", "J1", "--qr", text], ["link", "J1", "--set", f"{text}=1"], ["page", "J1", "-o", text],
                       ["derive", "J1", "-n", "1", "--seed", text], ["derive", "J1", "-n", "1", "--arithmetic", text],
                       ["draw", "J1", "-n", "1", "-o", "a.gif", "--seconds", text]):
         with contextlib.suppress(SystemExit):

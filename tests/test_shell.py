@@ -244,6 +244,35 @@ def test_link_refuses_what_the_model_has_not(shell):
     refused(shell("link", "K28", "--set", "dt=1"), "no constant")
 
 
+# --- pages ------------------------------------------------------------------------------------------------------------
+
+def test_page_writes_one_file_and_says_what_it_shows(shell, tmp_path):
+    said = shell("page", "J4", "-n", "9", "--set", "lifeTimeA=4", "-o", str(tmp_path / "j4.html"))
+    assert (said.status, said.err) == (0, "")
+    assert said.out.startswith("Step 9: 5 modules. Al(2)Br(2)")
+    text = (tmp_path / "j4.html").read_text("utf-8")
+    assert "<title>J4: " in text
+    assert said.out.partition(".")[0] in text
+    assert '"step":9' in text
+
+
+def test_page_takes_models_of_files_and_links_and_says_what_it_fixes(shell, model, tmp_path):
+    random = model("n = 3 in 1 .. 1000000\naxiom: A(n)\nA(t) -> A(t+n) B : 0.5\n")
+    said = shell("page", random, "--seed", "7", "-o", str(tmp_path / "a.html"))
+    assert said.out.endswith("Fixed on this page: n = 3, seed = 7.\n")
+    assert "<title>model</title>" in (tmp_path / "a.html").read_text("utf-8")
+    assert shell("page", shell("link", "K5").out.strip(), "-n", "2", "-o", str(tmp_path / "a.html")).status == 0
+
+
+def test_page_refuses_what_it_cannot_show(shell, tmp_path):
+    target = str(tmp_path / "a.html")
+    refused(shell("page", "J4", "-o", "j4.htm"), "j4.htm", "end in .html")
+    refused(shell("page", "K28", "-o", target), "map system")
+    refused(shell("page", "J4", "--set", "lifeTimeA=99", "-o", target), "outside its slider's range")
+    refused(shell("page", "J4", "--angle", "x", "-o", target), "x")
+    assert not Path(target).exists()
+
+
 # --- other notations --------------------------------------------------------------------------------------------------
 
 def test_convert_prints_the_same_system_in_another_notation(shell):

@@ -1,0 +1,280 @@
+"""A page without a kernel: one file in which everything is, and in which nothing runs but the kit's own script."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+import zlib
+from html.parser import HTMLParser
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from playwright.sync_api import Browser, Page, expect
+
+from lsys_kit import ModelFileError, ModelNameError, ModelValueError, derive, link, linked, read, system, systems
+from lsys_kit.classroom.panel.book import book
+from lsys_kit.classroom.panel.page import MOST_BOOKS, deflated, live_constants, page, page_data, save_page, shared
+from lsys_kit.notation.fragments import unpacked
+from tests.classroom.front_end import joined
+from tests.classroom.test_link import forged
+from tests.test_hostile_names import HOSTILE, made, refused
+
+TAGS = {"html", "head", "meta", "link", "title", "style", "body", "h1", "main", "noscript", "p", "script"}
+
+
+class Parts(HTMLParser):
+    """What a browser finds in a page: its elements, what they point to, its scripts, its text."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.tags: list[str] = []
+        self.attributes: list[tuple[str, str | None]] = []
+        self.inside: dict[str, list[str]] = {}
+        self._open: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += attrs
+        if tag not in ("meta", "link"):
+            self._open.append(tag)
+            self.inside.setdefault(tag, []).append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self._open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self._open:
+            self.inside[self._open[-1]][-1] += data
+
+    def handle_comment(self, data: str) -> None:
+        self.tags.append("!--")
+
+
+def books_of(data: dict[str, Any]) -> list[dict[str, Any]]:
+    """The books of a page, as its script reads them."""
+    found = json.loads(zlib.decompress(base64.b64decode(data["books"])))
+    return [{name: part[number] for name, part, number in zip(found["names"], found["parts"], row, strict=True) if number >= 0}
+            for row in found["rows"]]
+
+
+@pytest.fixture(scope="module")
+def j4() -> str:
+    return page("J4: Anabaena", page_data(system("J4"), title="J4", step=9), "Nine cells.")
+
+
+# --- what stands in it ------------------------------------------------------------------------------------------------------
+
+def test_it_points_to_nothing_outside_and_runs_one_script(j4: str) -> None:
+    parts = Parts(j4)
+    assert set(parts.tags) == TAGS
+    assert [value for name, value in parts.attributes if name in ("src", "href", "action", "data")] == ["data:,"]
+    assert not [name for name, _ in parts.attributes if name.startswith("on") or name == "style"]
+    data, script = parts.inside["script"]
+    assert json.loads(data)["model"]["step"] == 9
+    policy = next(value for _, value in parts.attributes if value and value.startswith("default-src"))
+    known = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert policy.split("; ")[:2] == ["default-src 'none'", f"script-src 'sha256-{known}'"]
+    assert "unsafe-eval" not in policy
+    addresses = set(re.findall(r"[a-z]+://[^\s\"'`)]*", j4))
+    assert addresses <= {"http://www.w3.org/2000/svg"}  # a name, which nobody opens
+    assert "@import" not in j4
+    assert "url(" not in j4
+
+
+def test_all_settings_of_the_life_spans_are_in_few_bytes(j4: str) -> None:
+    data = json.loads(Parts(j4).inside["script"][0])
+    found = books_of(data)
+    spans = [*product(range(1, 7), repeat=2)]
+    assert len(found) == len(spans) == 36
+    for (a, b), made_book in zip(spans, found, strict=True):
+        assert made_book == json.loads(json.dumps(book(system("J4"), {"lifeTimeA": a, "lifeTimeB": b}, 0, title="J4", least=9)))
+    assert len(data["books"]) < 15_000
+    assert len(zlib.compress(j4.encode(), 9)) < 60_000  # as a server sends it
+
+
+ENTRIES = st.one_of(st.integers(), st.text(), st.lists(st.integers()))
+
+
+@given(st.lists(st.dictionaries(st.sampled_from("abcd"), ENTRIES), max_size=6))
+def test_books_that_share_their_parts_are_the_same_books(books: list[dict[str, Any]]) -> None:
+    assert books_of({"books": deflated(shared(books))}) == books
+
+
+def test_constants_are_live_while_there_is_room() -> None:
+    sizes = {"a": range(16), "b": range(5), "c": range(20), "d": range(5)}
+    assert live_constants(sizes, 100) == ["a", "b", "c"]
+    assert live_constants(sizes, 10_000) == ["a", "b", "d"]
+    assert live_constants(sizes, 10_000_000) == []
+    assert live_constants({"a": range(MOST_BOOKS + 1), "b": range(MOST_BOOKS)}, 100) == ["b"]
+
+
+def test_what_is_fixed_is_said() -> None:
+    data = page_data(read("n = 3 in 1 .. 1000000\nk = 2\naxiom: A(n)\nA(t) -> A(t+n) B(k) : 0.5"), {"k": "5/2"}, 7)
+    assert data["model"]["constants"] == []
+    assert data["model"]["fixed"] == "Fixed on this page: k = 2.5, n = 3, seed = 7."
+    assert data["fixed"] == {"k": "2.5", "n": "3"}
+
+
+def test_settings_that_cannot_be_are_mistakes_in_the_page() -> None:
+    found = books_of(page_data(read("n = 1 in 0 .. 2\naxiom: A(1/n)\nA(t) -> A(t+1)")))
+    assert ["mistake" in each for each in found] == [True, False, False]
+    assert "zero" in found[0]["mistake"]["message"]
+
+
+@pytest.mark.parametrize("choices", [{"changes": {"lifetimeA": 3}}, {"changes": {"lifeTimeA": 99}}, {"angle": "x"}])
+def test_first_settings_that_make_no_sense_are_refused(choices: dict[str, Any]) -> None:
+    with pytest.raises((ModelNameError, ModelValueError)):
+        page_data(system("J4"), **choices)
+
+
+@pytest.mark.parametrize("language", ["", "english please", '"><script>', "de_AT", 3])
+def test_a_language_has_a_name(language: object) -> None:
+    with pytest.raises(ModelValueError, match="language"):
+        page("A", {}, "", language)
+    assert '<html lang="de-AT">' in page("A", {}, "", "de-AT")
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=ascii)
+def test_no_text_becomes_markup(text: str) -> None:
+    said = f"{text} and {text}"
+    for data in ({"text": text, text: [text]}, refused(lambda: page_data(made(text)))):
+        whole = page(said, data, said)
+        parts = Parts(whole)
+        whole.encode()
+        assert sorted(parts.tags) == sorted(Parts(page("A", {}, "A")).tags)
+        assert json.loads(parts.inside["script"][0]) == data
+        assert parts.inside["title"] == parts.inside["h1"]
+
+
+def test_a_page_is_saved_over_a_page_and_over_nothing_else(tmp_path: Path, j4: str) -> None:
+    save_page(tmp_path / "a.html", j4)
+    save_page(tmp_path / "a.html", j4)
+    assert (tmp_path / "a.html").read_text("utf-8") == j4
+    (tmp_path / "mine.html").write_text("mine")
+    for name, words in (("mine.html", "not made by the kit"), ("a.txt", "end in .html"), ("no/where.html", "be written")):
+        with pytest.raises(ModelFileError, match=words):
+            save_page(tmp_path / name, j4)
+    assert (tmp_path / "mine.html").read_text() == "mine"
+
+
+# --- in a browser -------------------------------------------------------------------------------------------------------------
+
+@pytest.fixture
+def opened(browser: Browser, tmp_path: Path):
+    """Opens a page from a file, with no network; whatever it asks for, or complains of, is a fault."""
+    contexts = []
+
+    def open_one(text: str, fragment: str = "", **context: Any) -> Page:
+        (tmp_path / "page.html").write_text(text, "utf-8")
+        contexts.append(browser.new_context(offline=True, **context))
+        found = contexts[-1].new_page()
+        found.on("pageerror", lambda error: faults.append(str(error)))
+        found.on("console", lambda message: faults.append(message.text))
+        found.on("request", lambda request: asked.append(request.url))
+        found.goto((tmp_path / "page.html").as_uri() + fragment)
+        return found
+
+    faults: list[str] = []
+    asked: list[str] = []
+    yield open_one
+    for context in contexts:
+        context.close()
+    assert faults == []
+    assert {url.partition("#")[0] for url in asked} <= {(tmp_path / "page.html").as_uri()}
+
+
+def status(shown: Page) -> Any:
+    return expect(shown.locator(".lsys-status"))
+
+
+def press(shown: Page, control: str, key: str) -> None:
+    shown.get_by_role("slider", name=f"{control}, slider", exact=True).press(key)
+
+
+def test_steps_and_constants_are_moved_without_a_kernel(opened, j4: str) -> None:
+    shown = opened(j4)
+    status(shown).to_contain_text("step 9: 9 modules; 5 of 5 stages occupied")
+    expect(shown.locator(".lsys-word")).to_have_text("Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2)")
+    press(shown, "step", "ArrowRight")
+    status(shown).to_contain_text("step 10: 12 modules")
+    for moved, a, b in (("lifeTimeA", 4, 2), ("lifeTimeB", 4, 3), ("lifeTimeA", 5, 3)):
+        press(shown, moved, "ArrowRight")
+        word = str(derive(system("J4"), 10, lifeTimeA=a, lifeTimeB=b)[-1])
+        expect(shown.locator(".lsys-word")).to_have_text(word.replace(" ", ""))
+
+
+def test_the_address_keeps_what_is_seen_and_gives_it_back(opened, j4: str) -> None:
+    shown = opened(j4)
+    press(shown, "lifeTimeA", "ArrowRight")
+    press(shown, "step", "ArrowLeft")
+    shown.wait_for_url(re.compile("#lsys="))
+    there = linked(shown.url)
+    assert there.system == system("J4")
+    assert there.settings == {"step": 8, "lifeTimeA": 4, "lifeTimeB": 2}
+    shown.reload()
+    status(shown).to_contain_text("step 8: 5 modules")
+    expect(shown.get_by_role("slider", name="lifeTimeA, slider")).to_have_attribute("aria-valuetext", "4")
+
+
+@pytest.mark.parametrize(("settings", "seen"), [
+    ({"step": 7, "lifeTimeA": 5, "lifeTimeB": 1}, "step 7: 4 modules"), ({"step": 10**8}, "step 20: 200 modules"),
+    ({"step": 3, "lifeTimeA": 77}, "step 3: 2 modules"), ({"angle": "77/3", "seed": 5}, "step 9: 9 modules")])
+def test_a_link_of_the_model_opens_its_settings(opened, j4: str, settings: dict[str, Any], seen: str) -> None:
+    status(opened(j4, link(system("J4"), settings))).to_contain_text(seen)
+
+
+@pytest.mark.parametrize("fragment", [
+    link(system("J5"), {"step": 2}), link(system("J4"), {"step": 2})[:-3], "#lsys=", "#lsys=a", "#lsys=b12", "#top",
+    "#" + forged(b"abop?step=2\naxiom: " + b"A" * 50_000_000).partition("#")[2], "#lsys=a<script>"])
+def test_another_link_changes_nothing(opened, j4: str, fragment: str) -> None:
+    status(opened(j4, fragment)).to_contain_text("step 9: 9 modules")
+
+
+def test_a_plant_keeps_its_angle_in_its_link(opened) -> None:
+    shown = opened(page("K5", page_data(system("K5"), title="K5", angle=40), ""))
+    status(shown).to_contain_text("step 4: 1,561 modules")
+    press(shown, "angle", "ArrowRight")
+    shown.wait_for_url(re.compile("#lsys="))
+    assert float(linked(shown.url).settings["angle"]) == 40.1
+
+
+def test_python_and_the_page_write_links_that_the_other_reads(browser: Browser) -> None:
+    shown = browser.new_page()
+    chosen = {id: link(system(id), {"step": 4, "angle": "77/3"}) for id in systems()}
+    code = f"""given => {{ {joined('link')}
+        return Promise.all(given.map(unpackedLink).map(async (each) => [await each, await packedLink(await each)])); }}"""
+    for address, (content, again) in zip(chosen.values(), shown.evaluate(code, [*chosen.values()]), strict=True):
+        assert content == {**unpacked(address)._asdict(), "settings": dict(unpacked(address).settings)}
+        assert unpacked(again) == unpacked(address)
+    shown.close()
+
+
+def test_a_phone_needs_no_sideways_scrolling_and_the_page_is_dark_in_the_dark(opened, j4: str) -> None:
+    shown = opened(j4, viewport={"width": 390, "height": 800}, color_scheme="dark")
+    status(shown).to_contain_text("step 9")
+    assert shown.evaluate("document.documentElement.scrollWidth") <= 390
+    assert shown.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 27, 32)"
+
+
+def test_without_scripts_the_page_says_what_it_would_show(opened, j4: str) -> None:
+    assert "It shows: Nine cells." in opened(j4, java_script_enabled=False).inner_text("body")
+
+
+def test_the_policy_stops_what_is_put_into_the_page(browser: Browser, tmp_path: Path, j4: str) -> None:
+    put_in = '<img src="x" onerror="window.run = 1"><script>window.run = 1</script>'
+    (tmp_path / "page.html").write_text(j4.replace("<main", f"{put_in}<main"))
+    shown = browser.new_page()
+    shown.goto((tmp_path / "page.html").as_uri())
+    status(shown).to_contain_text("step 9")
+    assert shown.evaluate("window.run === undefined")
+    with pytest.raises(Exception, match="TrustedHTML"):
+        shown.evaluate("document.body.innerHTML = '<b>'")
+    shown.close()
