@@ -10,6 +10,7 @@ import zlib
 from html.parser import HTMLParser
 from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -17,9 +18,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from playwright.sync_api import Browser, Page, expect
 
-from lsys_kit import ModelFileError, ModelNameError, ModelValueError, derive, link, linked, read, system, systems
+import lsys_kit.classroom.panel.page as panel_page
+from lsys_kit import ModelFileError, ModelNameError, ModelValueError, derive, limits, link, linked, read, system, systems
 from lsys_kit.classroom.panel.book import book
-from lsys_kit.classroom.panel.page import MOST_BOOKS, deflated, live_constants, page, page_data, save_page, shared
+from lsys_kit.classroom.panel.page import deflated, live_constants, page, page_data, save_page, shared
 from lsys_kit.notation.fragments import unpacked
 from tests.classroom.front_end import joined
 from tests.classroom.test_link import forged
@@ -72,21 +74,31 @@ def j4() -> str:
 
 # --- what stands in it ------------------------------------------------------------------------------------------------------
 
-def test_it_points_to_nothing_outside_and_runs_one_script(j4: str) -> None:
-    parts = Parts(j4)
+def inflated(text: str) -> str:
+    return zlib.decompress(base64.b64decode(text)).decode()
+
+
+def hashed(script: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
+
+
+@pytest.mark.parametrize("id", ["J4", "K5", "K19"])
+def test_it_points_to_nothing_outside_and_runs_the_scripts_of_the_kit_alone(id: str) -> None:
+    text = page(id, page_data(system(id), title=id, step=3), "")
+    parts = Parts(text)
     assert set(parts.tags) == TAGS
     assert [value for name, value in parts.attributes if name in ("src", "href", "action", "data")] == ["data:,"]
     assert not [name for name, _ in parts.attributes if name.startswith("on") or name == "style"]
-    data, script = parts.inside["script"]
-    assert json.loads(data)["model"]["step"] == 9
+    data, first = json.loads(parts.inside["script"][0]), parts.inside["script"][1]
+    assert data["model"]["step"] == 3
+    script, style = inflated(data["script"]), inflated(data["style"])
     policy = next(value for _, value in parts.attributes if value and value.startswith("default-src"))
-    known = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    assert policy.split("; ")[:2] == ["default-src 'none'", f"script-src 'sha256-{known}'"]
+    assert policy.split("; ")[:2] == ["default-src 'none'", f"script-src {hashed(first)} {hashed(script)}"]
     assert "unsafe-eval" not in policy
-    addresses = set(re.findall(r"[a-z]+://[^\s\"'`)]*", j4))
-    assert addresses <= {"http://www.w3.org/2000/svg"}  # a name, which nobody opens
-    assert "@import" not in j4
-    assert "url(" not in j4
+    whole = text + script + style
+    assert set(re.findall(r"[a-z]+://[^\s\"'`)]*", whole)) <= {"http://www.w3.org/2000/svg"}  # a name, which nobody opens
+    for word in ("@import", "url(", "fetch(", "XMLHttpRequest", "WebSocket", "innerHTML", "eval(", "new Function"):
+        assert word not in whole, word
 
 
 def test_all_settings_of_the_life_spans_are_in_few_bytes(j4: str) -> None:
@@ -97,7 +109,7 @@ def test_all_settings_of_the_life_spans_are_in_few_bytes(j4: str) -> None:
     for (a, b), made_book in zip(spans, found, strict=True):
         assert made_book == json.loads(json.dumps(book(system("J4"), {"lifeTimeA": a, "lifeTimeB": b}, 0, title="J4", least=9)))
     assert len(data["books"]) < 15_000
-    assert len(zlib.compress(j4.encode(), 9)) < 60_000  # as a server sends it
+    assert len(j4) < 60_000
 
 
 ENTRIES = st.one_of(st.integers(), st.text(), st.lists(st.integers()))
@@ -110,10 +122,20 @@ def test_books_that_share_their_parts_are_the_same_books(books: list[dict[str, A
 
 def test_constants_are_live_while_there_is_room() -> None:
     sizes = {"a": range(16), "b": range(5), "c": range(20), "d": range(5)}
-    assert live_constants(sizes, 100) == ["a", "b", "c"]
-    assert live_constants(sizes, 10_000) == ["a", "b", "d"]
-    assert live_constants(sizes, 10_000_000) == []
-    assert live_constants({"a": range(MOST_BOOKS + 1), "b": range(MOST_BOOKS)}, 100) == ["b"]
+    assert [live_constants(sizes, most) for most in (1_600, 1_599, 400, 80, 79, 1)] == [
+        ["a", "b", "c"], ["a", "b", "d"], ["a", "b", "d"], ["a", "b"], ["a"], []]
+
+
+@pytest.mark.parametrize("setting", ["MOST_BOOKS", "MOST_CHARACTERS", "seconds"])
+def test_a_page_has_room_for_few_books_and_time_for_one_task(monkeypatch, setting: str) -> None:
+    found = read("n = 1 in 1 .. 4\nm = 1 in 1 .. 2\naxiom: A(n)\nA(t) -> A(t+m)")
+    unit = len(json.dumps(book(found, {"n": 1, "m": 1}, 0, least=5))) if setting == "MOST_CHARACTERS" else 1
+    for room, live in ((8, ["n", "m"]), (7.9, ["n"])):
+        monkeypatch.setattr(panel_page, "time", SimpleNamespace(thread_time=iter((0.0, 1.0)).__next__))  # a second a book
+        if setting != "seconds":
+            monkeypatch.setattr(panel_page, setting, room * unit)
+        with limits(seconds=room if setting == "seconds" else 3_600):
+            assert [each["name"] for each in page_data(found)["model"]["constants"]] == live
 
 
 def test_what_is_fixed_is_said() -> None:
@@ -138,19 +160,20 @@ def test_first_settings_that_make_no_sense_are_refused(choices: dict[str, Any]) 
 @pytest.mark.parametrize("language", ["", "english please", '"><script>', "de_AT", 3])
 def test_a_language_has_a_name(language: object) -> None:
     with pytest.raises(ModelValueError, match="language"):
-        page("A", {}, "", language)
-    assert '<html lang="de-AT">' in page("A", {}, "", "de-AT")
+        page("A", {"mode": "plane"}, "", language)
+    assert '<html lang="de-AT">' in page("A", {"mode": "plane"}, "", "de-AT")
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_no_text_becomes_markup(text: str) -> None:
     said = f"{text} and {text}"
-    for data in ({"text": text, text: [text]}, refused(lambda: page_data(made(text)))):
+    plain = {"mode": "plane"}
+    for data in (plain | {text: [text]}, refused(lambda: page_data(made(text))) or plain):
         whole = page(said, data, said)
         parts = Parts(whole)
         whole.encode()
-        assert sorted(parts.tags) == sorted(Parts(page("A", {}, "A")).tags)
-        assert json.loads(parts.inside["script"][0]) == data
+        assert parts.tags == Parts(page("A", plain, "A")).tags
+        assert json.loads(parts.inside["script"][0]).items() >= data.items()
         assert parts.inside["title"] == parts.inside["h1"]
 
 

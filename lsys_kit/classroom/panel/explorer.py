@@ -195,7 +195,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         save_page(path, self._page())
 
     def _page(self) -> str:
-        with self._limited(), Task("The page was not made"):
+        with self._limited():  # each book is a task of its own
             data = page_data(self.system, self._constants(self.settings), self.seed, title=self._opened.title, step=self.step,
                              angle=self.angle, around=self.around, above=self.above)
             return page(self._opened.title or "An L-system", data, self.text)

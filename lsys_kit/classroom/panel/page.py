@@ -10,6 +10,7 @@ import base64
 import hashlib
 import json
 import re
+import time
 import zlib
 from collections.abc import Mapping, Sequence
 from itertools import product
@@ -17,7 +18,7 @@ from math import prod
 from pathlib import Path
 from typing import Any
 
-from lsys_kit.budget import check_budget
+from lsys_kit.budget import current
 from lsys_kit.classroom.panel.book import book
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
@@ -30,7 +31,8 @@ from lsys_kit.notation.write import write
 from lsys_kit.pictures.style.labels import escaped
 
 MOST_BOOKS, MOST_CHARACTERS = 2_000, 4_000_000
-"""A page holds no more books, and no more than about so many characters of them before they are deflated."""
+"""A page holds no more books, and no more than about so many characters of them before they are deflated; nor more than can be
+made in the time of one task."""
 USUAL_STEPS = 5
 """The step that is shown first of a system that names none."""
 STYLE = """
@@ -151,8 +153,9 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     start = {**{name: value for name, value in given.items() if name not in ranges},
              **{name: span.value for name, span in ranges.items()}}
     wanted = _first_step(system) if step is None else step
+    began = time.thread_time()
     first = book(system, start, seed, title=title, least=wanted)
-    live = live_constants(values, len(json.dumps(first)))
+    live = live_constants(values, _room(len(json.dumps(first)), time.thread_time() - began))
     fixed = {name: number_text(value) for name, value in start.items() if name not in live}
     books = [_book(system, {**start, **dict(zip(live, chosen, strict=True))}, seed, title, wanted)
              for chosen in product(*(values[name] for name in live))]
@@ -178,18 +181,22 @@ def save_page(path: str | Path, text: str) -> None:
     save_file(Path(path), text.encode())
 
 
-def live_constants(values: Mapping[str, Sequence[Value]], size: int) -> list[str]:
-    """The constants that can be moved on a page whose books have about so many characters: in their order, while there is room.
+def live_constants(values: Mapping[str, Sequence[Value]], most: int) -> list[str]:
+    """The constants that can be moved on a page with room for so many books: in their order, while there is room.
 
-    >>> live_constants({"a": range(6), "b": range(1000), "c": range(6)}, 5_000)
+    >>> live_constants({"a": range(6), "b": range(1000), "c": range(6)}, 800)
     ['a', 'c']
     """
     live: list[str] = []
-    most = min(MOST_BOOKS, MOST_CHARACTERS // size)
     for name in values:
         if prod(len(values[each]) for each in (*live, name)) <= most:
             live.append(name)
     return live
+
+
+def _room(size: int, seconds: float) -> int:
+    """How many books of about so many characters, each made in about so many seconds, a page has room for."""
+    return int(min(MOST_BOOKS, MOST_CHARACTERS / size, current().seconds / max(seconds, 1e-3)))
 
 
 def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
@@ -222,7 +229,6 @@ def _hashed(script: str) -> str:
 
 def _book(system: LSystem, settings: Mapping[str, object], seed: int, title: str, least: int) -> dict[str, Any]:
     """The book of some settings, or why there is none."""
-    check_budget()
     try:
         return book(system, settings, seed, title=title, least=least)
     except LSystemError as error:
