@@ -5,7 +5,7 @@ import { made, button } from "./controls.js";
 const REST = 250; // milliseconds without a key after which a text is read
 
 export function rulesView(parent, asked) {
-  const backdrop = made("pre", { class: "lsys-backdrop", "aria-hidden": "true" });
+  const backdrop = made("div", { class: "lsys-backdrop", "aria-hidden": "true" });
   const area = made("textarea", { class: "lsys-rules", spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": "rules of the model" });
   const said = made("div", { class: "lsys-mistake", role: "status", "aria-live": "polite" });
   const back = button("back to the first rules", "put back the rules with which the panel was opened", () => put(first), { hidden: true });
