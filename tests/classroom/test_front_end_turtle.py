@@ -191,3 +191,15 @@ def test_a_stroke_knows_its_module(page):
         return [strokes, faces, rounds].map(({ positions }) => Array.from(positions));""", book_of([word]), *TURTLE)
     assert [[str(word[place]) for place in places] for places in found] == [["F"] * 6, ["{"], ["@o(1)"]]
     assert found[0] == [place for place, module in enumerate(word) if module.symbol == "F"]
+
+
+def test_the_paths_of_few_large_words_are_kept(page):
+    """Of six words of 131,072 strokes each those four that were asked for last, but of small words all."""
+    def kept(steps):
+        words = list(derive(read("axiom: F\nF -> FF"), steps))
+        return answers(page, """
+            const book = bookOf({ ...given, words: Array(6).fill(given.words.at(-1)) });
+            for (const step of [0, 1, 2, 3, 4, 5, 3]) traced(book, step);
+            return [...openedTurtle(book).paths.keys()];""", book_of(words[-1:]), *TURTLE)
+    assert kept(3) == [0, 1, 2, 4, 5, 3]
+    assert kept(17) == [2, 4, 5, 3]

@@ -9,18 +9,20 @@ import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
 const SIGN_COLOUR = "#009E73"; // of what a sign draws
 const MOST_CALLS = 10_000_000;
-const PATHS_KEPT = 8;
+const POINTS_KEPT = 300_000; // of the paths of earlier steps, of which two are kept in any case
 const PICTURE_WIDTH = 600, PICTURE_HEIGHT = 400, PICTURE_MARGIN = 12, PICTURE_SCALE = 120;
 const BROADEST_PART = 0.5; // of a picture that the broadest stroke may fill before the drawing is made smaller for it
 
 const openedTurtles = new WeakMap();
 
-// The path of a step's word; the last few are kept.
+// The path of a step's word; those asked for last are kept.
 export function traced(book, step) {
-  const opened = openedTurtle(book), known = opened.paths.get(step), path = known ?? tracedAnew(book, step, opened);
-  opened.paths.delete(step);
-  opened.paths.set(step, path);
-  if (opened.paths.size > PATHS_KEPT) opened.paths.delete(opened.paths.keys().next().value);
+  const opened = openedTurtle(book), { paths } = opened, path = paths.get(step) ?? tracedAnew(book, step, opened);
+  paths.delete(step);
+  paths.set(step, path);
+  let points = 0;
+  for (const [other, { trail }] of [...paths].reverse().slice(2))
+    if ((points += trail.n) > POINTS_KEPT) paths.delete(other);
   return path;
 }
 
