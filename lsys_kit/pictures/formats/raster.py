@@ -201,9 +201,11 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
     [[0, 1, 0], [1, 1, 1], [0, 1, 0]]
     >>> spread(np.array([[0, 0, 5, 7]]), 1).tolist()
     [[0, 5, 7, 7]]
+    >>> spread(np.array([[1], [0], [0], [0]]), 5).ravel().tolist()  # a disc larger than the grid
+    [1, 1, 1, 1]
     """
     row, side, whole, height = found.copy(), 0, np.zeros_like(found), len(found)  # the row is dilated to both sides
-    for up in counted(range(int(radius), -1, -1), 1):
+    for up in counted(range(min(int(radius), height - 1), -1, -1), 1):
         while side < int((radius * radius - up * up) ** 0.5):
             side += 1
             np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])
