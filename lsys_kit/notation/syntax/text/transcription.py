@@ -203,8 +203,8 @@ class _Listing:
                 if number and following and following.arrow:
                     above = number[1]
                     yield Edit(line.start, line.end, "")
-                elif self._goes_on(index):
-                    yield Edit(line.start, line.start, "  ")
+                elif self._goes_on(index):  # on one line, since "C : .5" alone on its line would begin a production
+                    yield Edit(self.lines[index - 1].end, line.start, " ")
                 continue
             yield from self._head(line, line.text[:arrow.start()])
             condition = ":" in self._bare(line)[:arrow.start()]  # which may end with a number, too
