@@ -116,3 +116,9 @@ def test_what_comes_and_goes_within_steps_is_limited(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(cell_lineage, "MOST_FOLLOWED", 10)
     with pytest.raises(ModelLimitError, match="More than 10 modules come and go"):
         lineage(passing, 3)
+
+
+def test_modules_without_an_age_have_stages_too() -> None:
+    net = stages(read("axiom: A(0) X\nA(t) -> A(t+1)\nX -> Y\nY -> A(0)"), durations=True)
+    assert repr(net) == "X -> Y after 1\nY -> A(0) after 1"
+    assert net.tokens(derive(net.system, 2)[2]) == (2, 0, 0)

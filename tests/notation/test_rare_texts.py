@@ -49,6 +49,9 @@ SLIPS = [
     ("grogra", "\\axiom a,\na # b\n c ,d @", "An arrow is missing here", 3, 7),
     ("grogra", "\\axiom a,\na\n b @ # c", "Only one symbol can be replaced", 3, 2),
     ("abop", "axiom: A(1)\nA(t) B < C < D -> B", 'This is a second "<"', 2, 12),
+    ("abop", "axiom: A\n{A, B}", "An arrow is missing here", 2, 2),
+    ("abop", "axiom: A\nP = {A, B}", "A value is missing here", 2, 5),
+    ("abop", "axiom: A\n{A -> B, C -> D} E", 'A "," is not needed here', 2, 8),
     (None, "I -> I[A]A /* and so on", "This comment is never closed", 1, 12),
     ("grogra", "\\var f function 2 1,\n\\axiom a,\na # F(f)", '"f" is a function, and its values are missing', 3, 7),
 ]
@@ -249,3 +252,11 @@ def test_sums_are_multiplied_out_before_they_are_compared() -> None:
         equal_values(k, 2 * k)
     with pytest.raises(OverflowError):
         expanded_value((k + 1) ** 1_000)
+
+
+@pytest.mark.parametrize(("text", "marked"), [("Axiom  :", "Axiom"), ("Axiomm : A", "Axiomm"), ("Axiom A", "Axiom")])
+def test_the_keyword_alone_is_marked(text: str, marked: str) -> None:
+    with pytest.raises(LSystemError) as caught:
+        read(text, "cpfg")
+    assert caught.value.column == 1
+    assert caught.value.end == 1 + len(marked)
