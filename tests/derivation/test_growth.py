@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from fractions import Fraction
+from itertools import islice
 
 import pytest
 import sympy
@@ -11,7 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import derive, system
-from lsys_kit.budget import limits
+from lsys_kit.budget import Task, limits
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.growth.counts import counts_of_steps
 from lsys_kit.derivation.growth.growth import Growth, growth
 from lsys_kit.derivation.growth.recurrences import leading_weights, shortest_recurrence, shortest_rule
 from lsys_kit.derivation.timed.equations import growth_base
@@ -215,3 +218,10 @@ def test_multiple_roots_of_the_third_degree_are_in_no_closed_form() -> None:
     assert twofold.recurrence == (0, 2, 2, -1, -2, -1)
     assert twofold.closed_form is None
     assert growth(read("axiom: p\np -> q\nq -> r\nr -> p q")).closed_form is not None
+
+
+def test_counting_step_after_step_ends_with_its_budget() -> None:
+    states = States(ANABAENA)
+    assert len(list(islice(counts_of_steps(states), 3))) == 3
+    with limits(seconds=1e-9), pytest.raises(ModelLimitError), Task("The counts were not found"):
+        list(islice(counts_of_steps(states), 3))
