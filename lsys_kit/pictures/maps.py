@@ -14,7 +14,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
@@ -83,10 +83,11 @@ class MapPicture:
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        panels = arranged(self.scenes)
-        body = "".join(map(panel_svg, self.maps, self.places, self.scenes, panels, self.numbers))
-        width, height = panels[0].frame.width, panels[0].frame.height
-        return document(background(width, height) + body, width, height, described([self.text, self._colours]))
+        with Task("The picture was not drawn"):
+            panels = arranged(self.scenes)
+            body = "".join(map(panel_svg, self.maps, self.places, self.scenes, panels, self.numbers))
+            width, height = panels[0].frame.width, panels[0].frame.height
+            return document(background(width, height) + body, width, height, described([self.text, self._colours]))
 
     @property
     def _colours(self) -> str:

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, draw, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.meshes import SIDES, mesh_of
+from lsys_kit.geometry.meshes import mesh_of
+from lsys_kit.geometry.solids import SIDES
 from lsys_kit.geometry.triangulation import triangulate
 
 BUSH = """angle: 22.5
