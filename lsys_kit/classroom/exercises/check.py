@@ -14,7 +14,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from lsys_kit.budget import Task, limits
+from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, Exercise, KnownMistake
 from lsys_kit.classroom.exercises.differences import proved_equal
 from lsys_kit.classroom.exercises.verdict import Verdict
@@ -95,13 +95,18 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
         after = " The solution is shown after an attempt." if solution else ""
         return Verdict("Not answered yet", f"Replace the ... with your {ANSWER_KINDS[asked.kind].what}.{after}")
     try:
-        with limits(**BUDGET), Task("It was not checked"):
+        with limits(**_budget()), Task("It was not checked"):
             verdict = _judged(asked, answer)
     except ModelLimitError as grown:
         return Verdict("Not yet", f"Your answer is too large. {grown.message}.")
     except LSystemError as mistake:
         return Verdict("Not readable yet", str(mistake))
     return _with_solution(verdict, asked) if solution else verdict
+
+
+def _budget() -> dict[str, float]:
+    """The limits for an answer, or those in force where these are narrower."""
+    return {name: min(most, getattr(current(), name)) for name, most in BUDGET.items()}
 
 
 def exercise_of(id: str) -> Exercise:

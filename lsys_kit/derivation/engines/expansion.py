@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.budget import counted
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, popped
 
 BYTES = 256
 """How many different bytes there are."""
@@ -109,8 +109,7 @@ def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any
     written: dict[tuple[int, int], int] = {}
     todo = [(state, 0) for state in reversed(states.axiom)]
     at = 0
-    while todo:
-        state, step = todo.pop()
+    for state, step in counted(popped(todo)):
         size = sizes[step][state]
         if size <= PIECE:
             word[at:at + size] = pieces[step][state]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import overload
 
-from lsys_kit.budget import Task, check_budget
+from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.maps.divisions import map_step
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
 from lsys_kit.errors import ModelLimitError, ModelValueError, shown
@@ -48,8 +48,9 @@ class Development(Sequence[Map]):
         return self._maps[index]
 
     def __repr__(self) -> str:
-        lines = (f"{step} {found}" for step, found in enumerate(self._maps))
-        return "\n".join(line if len(line) <= MOST_MAPS_SHOWN else f"{line[:MOST_MAPS_SHOWN]}..." for line in lines)
+        with Task("The text of the maps was not written"):
+            lines = (f"{step} {found}" for step, found in enumerate(counted(self._maps, 1)))
+            return "\n".join(line if len(line) <= MOST_MAPS_SHOWN else f"{line[:MOST_MAPS_SHOWN]}..." for line in lines)
 
 
 def develop(system: MapSystem, steps: int) -> Development:
