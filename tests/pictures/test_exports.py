@@ -13,7 +13,21 @@ import pytest
 import trimesh
 from PIL import Image, ImageSequence
 
-from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, animate, derive, draw, figure, read, stages, system
+from lsys_kit import (
+    ModelFileError,
+    ModelLimitError,
+    ModelValueError,
+    animate,
+    derive,
+    draw,
+    figure,
+    limits,
+    lineage,
+    map_system,
+    read,
+    stages,
+    system,
+)
 from lsys_kit.__main__ import main
 from lsys_kit.geometry.meshes import mesh_of
 from lsys_kit.pictures.formats.mesh_files import channels
@@ -348,3 +362,19 @@ def test_no_window_and_no_pyplot_is_opened_by_an_export(tmp_path):
             "animate(system('K14'), 2).save(sys.argv[1] + '/a.gif'); print('matplotlib.pyplot' in sys.modules)")
     done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, timeout=120, check=True)
     assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj"])
+def test_a_mesh_is_written_within_the_limit_of_bytes(tmp_path, ending):
+    with limits(bytes=2_400), pytest.raises(ModelLimitError, match="The file was not written: it would take"):
+        draw(read("axiom: &F")).save(tmp_path / f"stroke.{ending}")
+    draw(read("axiom: &F")).save(tmp_path / f"stroke.{ending}")
+
+
+def test_what_a_picture_or_a_file_is_made_of_is_given_up_in_time(tmp_path):
+    tree, maps = draw(lineage(system("J4"), 5)), draw(map_system("K28"), 2)
+    net, plant = draw(stages(system("J4"))), draw(BUSH, 3)
+    for make in (lambda: tree.svg, lambda: maps.svg, lambda: plant.save(tmp_path / "plant.obj")):
+        with limits(seconds=1e-9), pytest.raises(ModelLimitError, match="in 1e-09 seconds"):
+            make()
+    assert net.svg
