@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from lsys_kit.budget import check_bytes, counted
 from lsys_kit.derivation.core.interpretation import interpretations, is_cell, modules_between_checks
-from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.core.words import Word, blocks
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
 from lsys_kit.geometry.turtle.instructions import values_of
@@ -45,10 +45,10 @@ def filament(word: Word) -> Scene:
     numbers = word.numbers()
     shapes = {state: [_cell_or_wall(made, word.states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
               for state, image in counted(interpretations(word.states, numbers).items(), 1)}
-    size = sum(len(shapes[state]) * count for state, count in state_counts(word).items())
-    check_bytes(size * SHAPE_BYTES, lambda: "The cells were not drawn")
-    interval = modules_between_checks(shapes.values())
-    rows = [(*shape, state) for state in counted(numbers, interval) for shape in shapes[state]]
+    rows: list[tuple[float, ...]] = []
+    for block in blocks(numbers, modules_between_checks(shapes.values())):
+        rows += [(*shape, state) for state in block for shape in shapes[state]]
+        check_bytes(len(rows) * SHAPE_BYTES, lambda: "The cells were not drawn")
     table = np.array(rows, dtype=np.float64).reshape(-1, 6)
     ends = np.cumsum(table[:, 1])
     is_wall = table[:, 0] == 1

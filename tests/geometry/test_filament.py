@@ -124,5 +124,5 @@ def test_a_cell_whose_length_is_not_known_is_an_error_that_names_it() -> None:
 
 def test_a_filament_has_its_limits() -> None:
     many = derive(read("axiom: a\na -> a a\ninterpretation:\na -> repeat(1000,i)<R(1,1)>"), 3)[-1]
-    with limits(bytes=1_000_000), pytest.raises(ModelLimitError, match="The cells were not drawn: it would take 1,920,000 bytes"):
+    with limits(bytes=1_000_000), pytest.raises(ModelLimitError, match="were not drawn: it would take 1,200,000 bytes"):
         filament(many)

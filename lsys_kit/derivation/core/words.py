@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, overload
 
 import numpy as np
 
-from lsys_kit.budget import Task, check_bytes, counted
+from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.modules import Module, joined
 from lsys_kit.notation.registry import dialect_named
 
 MOST_SHOWN = 2_000
 """How many characters `repr` shows of a long word."""
-LONG = 10_000
-"""While the text of a longer word is written, the budget is looked at."""
 
 
 class Word(Sequence[Module]):
@@ -122,6 +121,15 @@ def word_bytes(word: Word) -> int:
     return word.bytes
 
 
+def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[int]]:
+    """A row of numbers in blocks, with a look at the budget after each.
+
+    >>> list(blocks([1, 2, 3, 4, 5], 2))
+    [[1, 2], [3, 4], [5]]
+    """
+    return (numbers[first:first + size] for first in counted(range(0, len(numbers), size), 1))
+
+
 def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     """The text of a row of states, in their system's notation."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
@@ -130,8 +138,7 @@ def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     texts = {state: notation.module(states.modules[state]) for state in counted(counts)}
     size = sum(len(texts[state]) * count for state, count in counts.items())
     check_bytes(size, lambda: "The text of the word was not written")
-    parts = map(texts.__getitem__, numbers)
-    return notation.joined(counted(parts) if len(numbers) > LONG else parts)
+    return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
 
 
 def abridged(word: Word, characters: int) -> str:
