@@ -15,7 +15,7 @@ SENTENCE = r"[A-ZÄÖÜ][a-zäöüß]*+(?:,?[ \t]++(?:[A-Za-zÄÖÜäöüß'’-
 RULES = r"(?:(?:rewriting |production )?rules|(?:produktions)?regeln|produktionen)\b(?![ \t]*+(?:=(?!=)|[(<>]))"
 _PRINTED = re.compile(rf"^[ \t]*+(?:(?P<rules>(?i:{RULES})[ \t]*+(?::|(?!{ARROW.pattern})))|(?:(?i:{HEADING})|{SENTENCE})$)",
                       re.MULTILINE)
-_AND = re.compile(r"(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
+_AND = re.compile(r"(?<![ \t])(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
 
 
 def headings(plain: str, notes: list[str]) -> Iterator[Edit]:

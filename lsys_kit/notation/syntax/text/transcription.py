@@ -260,7 +260,8 @@ class _Listing:
 
     def _bare(self, line: _Line) -> str:
         """A line without its label, its values and what stands over its arrow, every other character in its place."""
-        text = _LABEL.sub(lambda match: " " * len(match.group()), line.text, count=1) if _LABEL.match(line.text) else line.text
+        label = _LABEL.match(line.text)
+        text = " " * label.end() + line.text[label.end():] if label else line.text
         return _PROBABILITY.sub(lambda match: " " * len(match.group()), blank_parentheses(text))
 
 
