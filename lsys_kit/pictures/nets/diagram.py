@@ -17,6 +17,7 @@ from lsys_kit.derivation.petri.net import Place, Stages
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import COMMANDS, symbols_with
+from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, short, terms_of, width_of
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS, ROUND, Layout, Point, Texts, layout_of
@@ -159,7 +160,8 @@ def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, str]]:
 
 
 def _rank(place: Place) -> tuple[float, ...]:
-    return tuple(float(value) for value in place.modules[0].arguments) if place.modules else ()
+    """By what a place comes before others of its symbol: its values; unknown ones say nothing."""
+    return tuple(0.0 if is_symbolic(value) else float(value) for value in place.modules[0].arguments) if place.modules else ()
 
 
 def _stage(net: Stages, number: int, centre: Point, colours_: tuple[str, str]) -> str:
