@@ -18,7 +18,7 @@ from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, shown
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
 from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
@@ -121,6 +121,7 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
         what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
+    require(iterations, Sequence, "A list of iterations")
     if iterations:
         _check_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)

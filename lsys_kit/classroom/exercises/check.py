@@ -19,7 +19,7 @@ from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, Exercise, KnownMi
 from lsys_kit.classroom.exercises.differences import proved_equal
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.derivation.core.rules import number_from
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError, require
 from lsys_kit.notation.analysis.checks import suggestion
 
 _FOLDER = files(__package__) / "questions"
@@ -89,6 +89,8 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     Not answered yet. Replace the ... with your word, as a text in quotation marks.
     """
     asked = exercise_of(exercise)
+    require(hint, int, "The number of a hint")
+    require(solution, bool, 'True or False for "solution"')
     if hint:
         return _hint(asked, hint)
     if answer is None or answer is ... or (isinstance(answer, str) and answer.strip().strip("\"'") in ("", "...", "…")):

@@ -23,7 +23,7 @@ from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.errors import LSystemError, ModelValueError, shown
+from lsys_kit.errors import LSystemError, ModelValueError, whole_number
 from lsys_kit.geometry.turtle.mode import DrawingMode
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import number_text
@@ -110,9 +110,7 @@ class Explorer(widgets.VBox):  # type: ignore[misc]
 
     def _make_controls(self, step: int | None, angle: object) -> None:
         asked = self.system.steps if self.system.steps is not None else 5
-        first = asked if step is None else step
-        if isinstance(first, bool) or not isinstance(first, int) or first < 0:
-            raise ModelValueError(f"The step must be a whole number from 0 on, not {shown(step)}")
+        first = asked if step is None else whole_number(step, "The step")
         most = max(2 * asked, 10, first)
         self._step = control("step", SliderRange(first, 0, most, 1))
         self.step = self._step.slider

@@ -11,6 +11,7 @@ import numpy as np
 
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
+from lsys_kit.errors import require
 from lsys_kit.notation.model.modules import Module, joined
 from lsys_kit.notation.registry import dialect_named
 
@@ -91,6 +92,7 @@ class Word(Sequence[Module]):
         >>> derive(read("axiom: S L(1)"), 0)[0].coded({"S": "M(1)"})
         'M(1)L(1)'
         """
+        require(coding, Mapping, "A dictionary of what is written in place of modules")
         with Task("The text of the word was not written"):
             return joined(coding.get(text, text) for text in map(str, counted(self)))
 
