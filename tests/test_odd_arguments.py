@@ -13,7 +13,8 @@ import sympy
 from matplotlib.figure import Figure
 
 import lsys_kit
-from lsys_kit import LSystemError, derive, growth, lineage, map_system, read, stages, timed
+from lsys_kit import LSystemError, ModelValueError, derive, growth, lineage, map_system, read, stages, timed
+from lsys_kit.derivation.derive import Derivation
 
 
 class Incomparable:
@@ -103,6 +104,13 @@ def test_every_public_function_is_tried() -> None:
 def test_an_odd_argument_is_used_or_refused(name: str, argument: str, odd: object) -> None:
     with suppress(LSystemError):
         called(name, argument, odd)
+
+
+@pytest.mark.parametrize("step", [-1, 4, 10**30, 10**5000, -10**5000], ids=["before", "beyond", "far", "very far", "far back"])
+@pytest.mark.parametrize("ask", [Derivation.counts, Derivation.origins, Derivation.ancestors, Derivation.sight])
+def test_a_step_that_a_derivation_lacks_is_refused(ask: Callable[..., object], step: int) -> None:
+    with pytest.raises(ModelValueError, match=r"step"):
+        ask(derive(GROWING, 3), step)
 
 
 @pytest.mark.slow

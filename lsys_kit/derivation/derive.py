@@ -142,7 +142,7 @@ class Derivation(Sequence[Word]):
         step = place(index)
         step += len(self) if step < 0 else 0
         if not 0 <= step <= self.steps:
-            raise IndexError(f"step {index} of a derivation of {self.steps} steps")
+            raise IndexError(f"step {shown(index)} of a derivation of {self.steps} steps")
         return self._engine.word(step)
 
     def __iter__(self) -> Iterator[Word]:
@@ -174,7 +174,14 @@ class Derivation(Sequence[Word]):
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a step, known without building its word."""
-        return self._engine.counts(step)
+        return self._engine.counts(self._reached(step))
+
+    def _reached(self, step: int) -> int:
+        """A step that the derivation has."""
+        found = whole_number(step, "The step")
+        if found > self.steps:
+            raise ModelValueError(f"A derivation of {self.steps} steps has no step {shown(step)}")
+        return found
 
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from: which module of the previous word, and which production.
@@ -183,8 +190,8 @@ class Derivation(Sequence[Word]):
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
         Origins(parents=[0, 0, 1], productions=[0, 0, 1])
         """
-        require(step, int, "A whole number, the step,")
-        if not 1 <= step <= self.steps:
+        step = self._reached(step)
+        if step == 0:
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} have a previous word, not that of step {step}")
         with Task(f"The origins of step {step} were not found"):
             return self._engine.origins(step)
@@ -197,9 +204,7 @@ class Derivation(Sequence[Word]):
         >>> print(apex[2], "and", apex.sight(2).word)
         F F F A?P(0,2) and F F F A?P(0,3)
         """
-        require(step, int, "A whole number, the step,")
-        self[step]  # an IndexError, where there is no such step
-        return self._engine.sight(step)
+        return self._engine.sight(self._reached(step))
 
     def ancestors(self, step: int, before: int = 0) -> list[int]:
         """For each module of a step's word the position of its ancestor in the word of an earlier step.
@@ -208,9 +213,8 @@ class Derivation(Sequence[Word]):
         >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
         [0, 0, 0, 1, 1, 1, 1, 1]
         """
-        require(step, int, "A whole number, the step,")
-        require(before, int, "A whole number, the earlier step,")
-        if not 0 <= before <= step <= self.steps:
+        step, before = self._reached(step), self._reached(before)
+        if before > step:
             raise ModelValueError(f"Step {before} is not before step {step} of a derivation of {self.steps} steps")
         with Task(f"The ancestors of step {step} were not found"):
             positions = list(range(len(self[before])))

@@ -145,6 +145,8 @@ ATTRIBUTES = ("svg", "png", "mesh", "text", "gif", "lengths", "notes", "matrix",
 
 def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> None:
     """Look at a result in some ways: as a notebook shows it, its attributes, its methods, its saved files."""
+    from lsys_kit import LSystemError
+
     told.append(f"shown: {type(result).__name__}")
     str(result), repr(result)
     for attribute in ATTRIBUTES:
@@ -158,7 +160,7 @@ def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> No
                 value = folder / f"file{chance.choice(('.svg', '.png', '.pdf', '.glb', '.obj', '.gif', '.pnml', '.x', ''))}"
             told.append(f".{method}({shown(value)})")
             odd = method == "counts_of" or not isinstance(value, int | Path)  # it has a second argument
-            with contextlib.suppress(TypeError) if odd else contextlib.nullcontext():
+            with contextlib.suppress(LSystemError, *[TypeError] * odd):  # whatever one refuses, the next is tried
                 getattr(result, method)(value)
 
 
