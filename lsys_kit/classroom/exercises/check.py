@@ -89,9 +89,8 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     Not answered yet. Replace the ... with your word, as a text in quotation marks.
     """
     asked = exercise_of(exercise)
-    require(hint, int, "The number of a hint")
     require(solution, bool, 'True or False for "solution"')
-    if hint:
+    if not isinstance(hint, int) or hint:
         return _hint(asked, hint)
     if answer is None or answer is ... or (isinstance(answer, str) and answer.strip().strip("\"'") in ("", "...", "…")):
         after = " The solution is shown after an attempt." if solution else ""
