@@ -8,6 +8,7 @@ caret under the place, and suggests what to try. Faults of the kit itself are ne
 from __future__ import annotations
 
 import unicodedata
+from numbers import Integral
 from typing import Self
 
 
@@ -135,6 +136,18 @@ def require(value: object, kind: type | tuple[type, ...], what: str) -> None:
     """
     if not isinstance(value, kind):
         raise ModelValueError(f"{what} is needed, not {type(value).__name__}")
+
+
+def whole_number(given: object, what: str) -> int:
+    """A whole number from 0 on, of any type that counts; anything else is refused.
+
+    >>> whole_number(-1, "The step")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelValueError: The step must be a whole number from 0 on, not -1.
+    """
+    if isinstance(given, bool) or not isinstance(given, Integral) or int(given) < 0:
+        raise ModelValueError(f"{what} must be a whole number from 0 on, not {shown(given)}")
+    return int(given)
 
 
 def printable(character: str) -> str:

@@ -63,6 +63,20 @@ def test_a_clock_on_the_wall_is_seen() -> None:
     assert clocks_read(ast.parse(text)) == [3, 4]
 
 
+FILLED_IN = {"Chance", "Definitions", "Draft", "_Shares"}
+"""Classes of data that are filled in while a text is read or random numbers are drawn."""
+
+
+def test_records_are_frozen() -> None:
+    files = [path for room in ("notation", "derivation") for path in sorted((ROOT / "lsys_kit" / room).rglob("*.py"))]
+    classes = [node for path in files for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+               if isinstance(node, ast.ClassDef)]
+    records = {node.name: ast.unparse(made) for node in classes for made in node.decorator_list
+               if ast.unparse(made).startswith("dataclass")}
+    assert {name for name, made in records.items() if "frozen=True" not in made} == FILLED_IN
+    assert len(records) > 70
+
+
 def test_whatever_is_no_law_has_the_limits_of_a_user() -> None:
     assert current() == Limits()
 

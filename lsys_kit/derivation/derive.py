@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from operator import index as place
 from typing import Any, overload
-
-import numpy as np
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.closure import check_d0l
@@ -19,7 +18,7 @@ from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
 from lsys_kit.derivation.engines.table import engine_for
 from lsys_kit.derivation.maps.development import Development, develop
-from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
@@ -108,16 +107,14 @@ class Derivation(Sequence[Word]):
         ModelLimitError
             A step would be too large.
         """
-        if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
-            raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {shown(steps)}")
-        reached = 0
+        last, reached = whole_number(steps, "The number of steps"), 0
         try:
             with Task(lambda: f"Step {reached} was not reached"):
-                for reached in range(int(steps) + 1):
+                for reached in range(last + 1):
                     self._reach(reached)
         except ModelLimitError as error:
             raise self._refusal(error, reached) from None
-        return Derivation(self._engine, int(steps))
+        return Derivation(self._engine, last)
 
     def _reach(self, step: int) -> None:
         """Make the next step known; a known one is still refused where it is past a limit."""
@@ -142,9 +139,10 @@ class Derivation(Sequence[Word]):
     def __getitem__(self, index: int | slice) -> Word | list[Word]:
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
-        step = index + len(self) if index < 0 else index
+        step = place(index)
+        step += len(self) if step < 0 else 0
         if not 0 <= step <= self.steps:
-            raise IndexError(f"step {index} of a derivation of {self.steps} steps")
+            raise IndexError(f"step {shown(index)} of a derivation of {self.steps} steps")
         return self._engine.word(step)
 
     def __iter__(self) -> Iterator[Word]:
@@ -176,7 +174,14 @@ class Derivation(Sequence[Word]):
 
     def counts(self, step: int) -> Counter[int]:
         """How often each state occurs at a step, known without building its word."""
-        return self._engine.counts(step)
+        return self._engine.counts(self._reached(step))
+
+    def _reached(self, step: int) -> int:
+        """A step that the derivation has."""
+        found = whole_number(step, "The step")
+        if found > self.steps:
+            raise ModelValueError(f"A derivation of {self.steps} steps has no step {shown(step)}")
+        return found
 
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from: which module of the previous word, and which production.
@@ -185,8 +190,8 @@ class Derivation(Sequence[Word]):
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
         Origins(parents=[0, 0, 1], productions=[0, 0, 1])
         """
-        require(step, int, "A whole number, the step,")
-        if not 1 <= step <= self.steps:
+        step = self._reached(step)
+        if step == 0:
             raise ModelValueError(f"Only the words of steps 1 to {self.steps} have a previous word, not that of step {step}")
         with Task(f"The origins of step {step} were not found"):
             return self._engine.origins(step)
@@ -199,8 +204,7 @@ class Derivation(Sequence[Word]):
         >>> print(apex[2], "and", apex.sight(2).word)
         F F F A?P(0,2) and F F F A?P(0,3)
         """
-        self[step]  # an IndexError, where there is no such step
-        return self._engine.sight(step)
+        return self._engine.sight(self._reached(step))
 
     def ancestors(self, step: int, before: int = 0) -> list[int]:
         """For each module of a step's word the position of its ancestor in the word of an earlier step.
@@ -209,9 +213,8 @@ class Derivation(Sequence[Word]):
         >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
         [0, 0, 0, 1, 1, 1, 1, 1]
         """
-        require(step, int, "A whole number, the step,")
-        require(before, int, "A whole number, the earlier step,")
-        if not 0 <= before <= step <= self.steps:
+        step, before = self._reached(step), self._reached(before)
+        if before > step:
             raise ModelValueError(f"Step {before} is not before step {step} of a derivation of {self.steps} steps")
         with Task(f"The ancestors of step {step} were not found"):
             positions = list(range(len(self[before])))
@@ -238,8 +241,9 @@ class Derivation(Sequence[Word]):
         2   a b a
         3 a b a a b
         """
+        require(centred, bool, 'True or False for "centred"')
         with Task("The column was not written"):
-            texts = [word.coded(coding) if coding else repr(word) for word in counted(self, 1)]
+            texts = [repr(word) if coding is None else word.coded(coding) for word in counted(self, 1)]
         width = max(map(len, texts)) if centred else 0
         digits = len(str(self.steps))
         return Column("\n".join(f"{step:>{digits}} {text.center(width)}".rstrip() for step, text in enumerate(texts)))

@@ -15,13 +15,17 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.derivation.core.interpretation import interpretations, is_cell
+from lsys_kit.budget import check_bytes, counted
+from lsys_kit.derivation.core.interpretation import interpretations, is_cell, modules_between_checks
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.core.words import Word, blocks
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
 from lsys_kit.geometry.turtle.instructions import values_of
 from lsys_kit.notation.model.modules import CELLS, WALL, Module
+
+SHAPE_BYTES = 240
+"""About what a cell or a wall takes in memory while it is drawn."""
 
 
 def filament(word: Word) -> Scene:
@@ -42,7 +46,10 @@ def filament(word: Word) -> Scene:
     """
     numbers = word.numbers()
     shapes = shapes_of(word.states, numbers)
-    rows = [(*shape, state) for state in numbers for shape in shapes[state]]
+    rows: list[tuple[float, ...]] = []
+    for block in blocks(numbers, modules_between_checks(shapes.values())):
+        rows += [(*shape, state) for state in block for shape in shapes[state]]
+        check_bytes(len(rows) * SHAPE_BYTES, lambda: "The cells were not drawn")
     table = np.array(rows, dtype=np.float64).reshape(-1, 6)
     ends = np.cumsum(table[:, 1])
     is_wall = table[:, 0] == 1
@@ -70,7 +77,7 @@ def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[fl
     {0: [(0, 2.0, 1.0, -1, 0.0), (1, 0, 0, 3.0, 0.0)]}
     """
     return {state: [_cell_or_wall(made, states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
-            for state, image in interpretations(states, numbers).items()}
+            for state, image in counted(interpretations(states, numbers).items(), 1)}
 
 
 def _wall_heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:

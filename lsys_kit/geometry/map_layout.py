@@ -17,8 +17,6 @@ from lsys_kit.notation.model.maps import Edge
 
 FIRST_WALL = 0.28
 """The length of a wall of the first cell before relaxation."""
-ITERATIONS_PER_CHECK = 20
-"""The budget is checked after this number of iterations."""
 
 
 def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
@@ -60,7 +58,7 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
 
 def _equilibrium(positions: Iterator[Floats]) -> Floats:
     """The last positions of a relaxation."""
-    return deque(counted(positions, ITERATIONS_PER_CHECK), maxlen=1)[0]
+    return deque(counted(positions, 1), maxlen=1)[0]
 
 
 def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
@@ -76,7 +74,7 @@ def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: For
     way = relax(initial_vertices(maps[-1], before), tissue(maps[-1]), forces)
     reached, points = 0, next(way)
     for iteration in iterations:
-        points = (deque(counted(islice(way, iteration - reached), ITERATIONS_PER_CHECK), maxlen=1) or [points])[0]
+        points = (deque(counted(islice(way, iteration - reached), 1), maxlen=1) or [points])[0]
         reached = iteration
         yield points
 
@@ -103,7 +101,7 @@ def insert_vertices(found: Map, points: Floats) -> Floats:
 def tissue(found: Map) -> Tissue:
     """The topology of a map."""
     ends = np.array([(wall.start, wall.end) for wall in found.walls], dtype=np.int64)
-    corners = [corner for cell in found.cells for corner in found.corners(cell)]
+    corners = [corner for cell in counted(found.cells) for corner in found.corners(cell)]
     return Tissue(ends, np.array(corners, dtype=np.int64), np.cumsum([0, *map(len, found.cells)]))
 
 

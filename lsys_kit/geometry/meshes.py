@@ -6,25 +6,18 @@ stays flat, a sphere is a subdivided icosahedron, a cell is an ellipsoid. A scen
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
 from itertools import pairwise
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lsys_kit.budget import check_bytes, current
+from lsys_kit.budget import check_bytes, counted, current
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.geometry.solids import SIDES, Numbers, Singles, Solid, ball, circle, disc, prism_triangles
 from lsys_kit.geometry.triangulation import triangulate
 
-Singles: TypeAlias = NDArray[np.float32]
-Numbers: TypeAlias = NDArray[np.uint32]
-
-SIDES, ROUND = 8, 24
-"""The number of sides of a stroke, and of corners of a disc."""
 LARGEST_COORDINATE = 1e37
 """Greater coordinates cannot be computed in single precision."""
 OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
@@ -32,8 +25,12 @@ OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
 RELATIVE_WIDTH, LEAST_WIDTH, GREATEST_WIDTH, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
 """The width of such a stroke relative to the median length of strokes; its bounds, and the least width of any stroke, relative
 to the extent of the scene."""
-MOST_CORNERS, TRIANGLE_BYTES = 10_000, 40
-"""A polygon with more corners takes too long to triangulate. A triangle takes about so much, with its share of vertices."""
+MOST_CORNERS = 10_000
+"""A polygon with more corners takes too long to triangulate."""
+VERTEX_BYTES, TRIANGLE_BYTES = 80, 36
+"""About what a vertex and a triangle take while a mesh is made."""
+SHAPES_AT_A_TIME = 2**12
+"""Strokes and copies of round shapes are computed in blocks of so many, with a look at the budget after each."""
 _SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
 
 
@@ -104,24 +101,32 @@ def mesh_of(scene: Scene) -> Mesh:
     return _merged_meshes([
         _tubes(scene.segments, _extent(scene)),
         _faces(scene.polygons),
-        _copies(_disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
-        _copies(_ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
-        _copies(_ball(), _in_space(cells.centres), np.stack([lengths, breadths, breadths], axis=1), cells.states,
+        _copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
+        _copies(ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
+        _copies(ball(), _in_space(cells.centres), np.stack([lengths, breadths, breadths], axis=1), cells.states,
                 np.full(len(cells), OWN))])
 
 
 def _check_triangles(scene: Scene) -> None:
-    needed = (len(scene.segments) * (_SIDE + _CAPS) + len(scene.polygons.points)
-              + len(_ball().triangles) * (len(scene.discs) + len(scene.cells)))
+    vertices, needed = _size(scene)
     if needed > current().triangles:
         raise ModelLimitError(f"The drawing would have {needed:,} triangles; the limit is {current().triangles:,}",
                               limit=current().triangles, needed=needed,
                               hint="Take fewer steps, or set limits(triangles=...).")
-    check_bytes(needed * TRIANGLE_BYTES, lambda: "The mesh was not made")
+    check_bytes(vertices * VERTEX_BYTES + needed * TRIANGLE_BYTES, lambda: "The mesh was not made")
     most = int(np.diff(scene.polygons.starts).max(initial=0))
     if most > MOST_CORNERS:
         raise ModelLimitError(f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be triangulated",
                               limit=MOST_CORNERS, needed=most, hint="Take fewer steps.")
+
+
+def _size(scene: Scene) -> tuple[int, int]:
+    """How many vertices and triangles the mesh of a scene has at most."""
+    balls = int((scene.discs.kinds == SPHERE).sum()) + len(scene.cells)
+    copies = ((disc(), len(scene.discs) + len(scene.cells) - balls), (ball(), balls))
+    return (len(scene.segments) * _SIDE + len(scene.polygons.points) + sum(len(shape.vertices) * n for shape, n in copies),
+            len(scene.segments) * (_SIDE + _CAPS) + len(scene.polygons.points)
+            + sum(len(shape.triangles) * n for shape, n in copies))
 
 
 def _in_space(points: Floats) -> Floats:
@@ -136,6 +141,9 @@ def _extent(scene: Scene) -> float:
 
 
 def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
+    meshes = [mesh for mesh in meshes if len(mesh.vertices)] or meshes[:1]
+    if len(meshes) == 1:
+        return meshes[0]
     firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     triangles = [mesh.triangles + np.uint32(first) for mesh, first in zip(meshes, firsts, strict=False)]
     joined = {name: np.concatenate([getattr(mesh, name) for mesh in meshes])
@@ -154,14 +162,20 @@ def _tubes(segments: Segments, reach: float) -> Mesh:
     widths = _widths(segments, lengths, reach)
     radii = np.stack([_previous_widths(segments, widths, reach), widths], axis=1)[there] / 2
     ways = (points[:, 1] - points[:, 0])[there] / lengths[there, None]
-    rings = _rings(ways)
-    vertices = points[there][:, :, None] + radii[:, :, None, None] * rings[:, None]
-    normals = np.broadcast_to(rings[:, None], vertices.shape)
+    ends, colours = points[there], np.broadcast_to(segments.colours, len(segments))[there]
+    vertices, normals = np.empty((2, len(ways), 2, SIDES, 3), np.float32)
+    for some in _blocks(len(ways)):
+        rings = _rings(ways[some])[:, None]
+        vertices[some] = ends[some, :, None] + radii[some, :, None, None] * rings
+        normals[some] = rings
     firsts = np.arange(len(ways), dtype=np.uint32) * np.uint32(_SIDE)
-    colours = np.broadcast_to(segments.colours, len(segments))[there]
-    return Mesh(vertices.reshape(-1, 3).astype(np.float32), normals.reshape(-1, 3).astype(np.float32),
-                (firsts[:, None, None] + _prism()).reshape(-1, 3),
+    return Mesh(vertices.reshape(-1, 3), normals.reshape(-1, 3), (firsts[:, None, None] + prism_triangles()).reshape(-1, 3),
                 np.repeat(segments.states[there], _SIDE), np.repeat(colours, _SIDE))
+
+
+def _blocks(size: int) -> Iterator[slice]:
+    """So many shapes in blocks."""
+    return (slice(first, first + SHAPES_AT_A_TIME) for first in counted(range(0, size, SHAPES_AT_A_TIME), 1))
 
 
 def _widths(segments: Segments, lengths: Floats, reach: float) -> Floats:
@@ -192,28 +206,9 @@ def _rings(ways: Floats) -> Floats:
     first = np.cross(ways, aside)
     first /= np.linalg.norm(first, axis=1)[:, None]
     second = np.cross(ways, first)
-    cos, sin = _circle(SIDES)
+    cos, sin = circle(SIDES)
     ring: Floats = first[:, None] * cos[:, None] + second[:, None] * sin[:, None]
     return ring
-
-
-def _circle(count: int) -> tuple[Floats, Floats]:
-    """Cosines and sines of angles all around, the same to the last bit on every machine."""
-    angles: Floats = np.arange(count, dtype=np.float64) * (2 * np.pi / count)
-    cos: Floats = np.cos(angles).round(12)
-    sin: Floats = np.sin(angles).round(12)
-    return cos, sin
-
-
-@cache
-def _prism() -> Numbers:
-    """The triangles of a prism whose first ring of vertices is its start: sides, then both ends."""
-    here = np.arange(SIDES)
-    there = (here + 1) % SIDES
-    sides = np.concatenate([np.stack([here, there, there + SIDES], axis=1),
-                            np.stack([here, there + SIDES, here + SIDES], axis=1)])
-    start = np.array([(0, k + 1, k) for k in range(1, SIDES - 1)])
-    return np.concatenate([sides, start, start[:, [0, 2, 1]] + SIDES]).astype(np.uint32)
 
 
 # Polygons
@@ -224,7 +219,7 @@ def _faces(polygons: Polygons) -> Mesh:
     points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
     facing = _facing(points, polygons.starts)
     triangles = [np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
-                 for (first, last), way in zip(pairwise(polygons.starts.tolist()), facing, strict=True)]
+                 for (first, last), way in counted(zip(pairwise(polygons.starts.tolist()), facing, strict=True), 1)]
     return Mesh(points.astype(np.float32), np.repeat(facing, sizes, axis=0).astype(np.float32),
                 np.concatenate([np.empty((0, 3), np.int64), *triangles]).astype(np.uint32),
                 np.repeat(polygons.states, sizes), np.repeat(polygons.colours, sizes))
@@ -245,56 +240,14 @@ def _facing(points: Floats, starts: Integers) -> Floats:
 # Round shapes
 
 
-def _copies(shape: Mesh, centres: Floats, sizes: Floats, states: Integers, colours: Integers) -> Mesh:
+def _copies(shape: Solid, centres: Floats, sizes: Floats, states: Integers, colours: Integers) -> Mesh:
     """Copies of a shape about the origin, translated and scaled along the axes; sizes have the shape (n, 1) or (n, 3)."""
     count = len(shape.vertices)
-    normals = shape.normals / np.where(sizes > 0, sizes, 1.0)[:, None]
-    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
+    vertices, normals = np.empty((2, len(centres), count, 3), np.float32)
+    for some in _blocks(len(centres)):
+        vertices[some] = centres[some, None] + sizes[some, None] * shape.vertices
+        outward = shape.normals / np.where(sizes[some] > 0, sizes[some], 1.0)[:, None]
+        normals[some] = outward / np.linalg.norm(outward, axis=2, keepdims=True)
     firsts = np.arange(len(centres), dtype=np.uint32) * np.uint32(count)
-    return Mesh((centres[:, None] + sizes[:, None] * shape.vertices).reshape(-1, 3).astype(np.float32),
-                normals.reshape(-1, 3).astype(np.float32), (firsts[:, None, None] + shape.triangles).reshape(-1, 3),
+    return Mesh(vertices.reshape(-1, 3), normals.reshape(-1, 3), (firsts[:, None, None] + shape.triangles).reshape(-1, 3),
                 np.repeat(states, count), np.repeat(colours, count))
-
-
-@cache
-def _disc() -> Mesh:
-    """A disc of radius 1 that faces the viewer."""
-    cos, sin = _circle(ROUND)
-    rim = np.stack([cos, np.zeros(ROUND), sin], axis=1)
-    fan = [(ROUND, k, (k + 1) % ROUND) for k in range(ROUND)]
-    return _shape_mesh(np.vstack([rim, np.zeros(3)]), np.tile([0.0, -1.0, 0.0], (ROUND + 1, 1)), fan)
-
-
-@cache
-def _ball() -> Mesh:
-    """A sphere of radius 1: an icosahedron, subdivided twice."""
-    golden = (1 + 5 ** 0.5) / 2
-    corners = [np.roll(np.array([0.0, a, b * golden]), k) for k in range(3) for a in (1, -1) for b in (1, -1)]
-    points = [corner / np.linalg.norm(corner) for corner in corners]
-    edge = 1.1 * min(float(np.linalg.norm(points[0] - other)) for other in points[1:])
-    faces = [(a, b, c) if np.linalg.det([points[a], points[b], points[c]]) > 0 else (a, c, b)
-             for a in range(12) for b in range(a) for c in range(b)
-             if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge]
-    for _ in range(2):
-        faces = _subdivided(faces, points)
-    vertices = np.array(points)
-    return _shape_mesh(vertices, vertices, faces)
-
-
-def _subdivided(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> list[tuple[int, int, int]]:
-    """Each face of a sphere divided into four; the midpoints of the edges become new points."""
-    middles: dict[frozenset[int], int] = {}
-
-    def middle(i: int, j: int) -> int:
-        if frozenset((i, j)) not in middles:
-            middles[frozenset((i, j))] = len(points)
-            points.append((points[i] + points[j]) / np.linalg.norm(points[i] + points[j]))
-        return middles[frozenset((i, j))]
-
-    return [part for a, b, c in faces for ab, bc, ca in [(middle(a, b), middle(b, c), middle(c, a))]
-            for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-
-
-def _shape_mesh(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Mesh:
-    none = np.empty(0, np.int64)
-    return Mesh(vertices.astype(np.float32), normals.astype(np.float32), np.array(triangles, np.uint32), none, none)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats
 
 _STRAIGHT = 1e-12
@@ -65,7 +66,7 @@ def _corner_products(plane: Floats) -> Floats:
 def _ear(plane: Floats, level: float) -> int:
     """The first corner whose triangle contains no other corner; if there is none, the first where the outline turns left."""
     candidates = np.flatnonzero(_corner_products(plane) > level).tolist()
-    for corner in candidates:
+    for corner in counted(candidates, 1):
         a, b, c = plane[corner - 1], plane[corner], plane[(corner + 1) % len(plane)]
         within = _on_the_left(plane, a, b, level) & _on_the_left(plane, b, c, level) & _on_the_left(plane, c, a, level)
         if not (within & ~_equal_to_any(plane, (a, b, c))).any():

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelValueError, require
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.map.dialect import MAP
@@ -79,6 +79,7 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     if _MAP.match(text):
         raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
+    require(notation, (str, type(None)), "The name of a notation")
     if notation:
         return _read_or_claimed(dialect_named(notation), text, name)
     chosen, mistakable = recognise(text), mistakable_format(text)

@@ -102,7 +102,46 @@ Run: TypeAlias = Faces | Strokes | Rounds
 """Shapes that are painted one after another."""
 
 
-def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Iterator[Run]:
+FACE, ROUND = -2, -1
+"""The keys of runs that are not of strokes, whose keys are not negative."""
+
+
+@dataclass(frozen=True)
+class DisplayList:
+    """The shapes of a scene in the order in which they are painted, as runs of shapes that look alike.
+
+    In space there may be as many runs as strokes: whoever paints many of them takes the arrays.
+
+    Attributes
+    ----------
+    numbers
+        Shape (n,): the shapes in their order, each by its number among those of its kind.
+    starts
+        Shape (m + 1,): the index in `numbers` of the first shape of each run; the last is n.
+    keys
+        Shape (m,): for each run of strokes the key of its looks; `FACE` for polygons, `ROUND` for circles, discs and spheres.
+    looks
+        The looks of strokes.
+    """
+
+    numbers: Integers
+    starts: Integers
+    keys: Integers
+    looks: StrokeLooks
+
+    def __iter__(self) -> Iterator[Run]:
+        """The runs, one after another."""
+        colours, widths = colours_and_widths(self.keys)
+        for (start, stop), key, colour, width in zip(pairwise(self.starts.tolist()), self.keys.tolist(), colours.tolist(),
+                                                     widths.tolist(), strict=True):
+            numbers = self.numbers[start:stop]
+            if key >= 0:
+                yield Strokes(numbers, self.looks.names[colour], width)
+            else:
+                yield Faces(numbers) if key == FACE else Rounds(numbers)
+
+
+def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> DisplayList:
     """The shapes of a scene in the order in which they are painted: what comes later covers what came before.
 
     In space that is from far to near. In the plane first polygons, then strokes, by colours and of one colour the broad ones
@@ -129,27 +168,20 @@ def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> It
     """
     looks = stroke_looks(scene.segments, scale, colour_of)
     if scene.order is not None:
-        yield from _from_far_to_near(scene, scene.order, looks)
-        return
-    yield Faces(np.arange(len(scene.polygons)))
-    for key in np.flatnonzero(np.bincount(looks.keys)).tolist():
-        yield Strokes(np.flatnonzero(looks.keys == key), *looks.colour_and_width(key))
-    yield Rounds(np.arange(len(scene.discs)))
+        return _from_far_to_near(scene, scene.order, looks)
+    runs = {FACE: np.arange(len(scene.polygons)),
+            **{key: np.flatnonzero(looks.keys == key) for key in np.flatnonzero(np.bincount(looks.keys)).tolist()},
+            ROUND: np.arange(len(scene.discs))}
+    return DisplayList(np.concatenate([*runs.values()]), np.cumsum([0, *map(len, runs.values())]), np.array([*runs]), looks)
 
 
-def _from_far_to_near(scene: Scene, order: Integers, looks: StrokeLooks) -> Iterator[Run]:
+def _from_far_to_near(scene: Scene, order: Integers, looks: StrokeLooks) -> DisplayList:
     """The shapes in their order, as long as they look alike in one run; the length of a run is often 1 or 2."""
-    face, disc = -2, -1  # beside the keys of strokes, which are not negative
     counts = [len(scene.polygons), len(scene.segments), len(scene.discs)]
-    keys = np.concatenate([np.full(counts[0], face), looks.keys, np.full(counts[2], disc)])[order]
+    keys = np.concatenate([np.full(counts[0], FACE), looks.keys, np.full(counts[2], ROUND)])[order]
     numbers = order - np.repeat([0, counts[0], counts[0] + counts[1]], counts)[order]
-    starts = np.flatnonzero(np.diff(keys, prepend=face - 1))
-    styles = {key: looks.colour_and_width(key) for key in np.unique(looks.keys).tolist()}
-    for (start, stop), key in zip(pairwise([*starts.tolist(), len(order)]), keys[starts].tolist(), strict=True):
-        if key >= 0:
-            yield Strokes(numbers[start:stop], *styles[key])
-        else:
-            yield Faces(numbers[start:stop]) if key == face else Rounds(numbers[start:stop])
+    starts = np.flatnonzero(np.diff(keys, prepend=FACE - 1))
+    return DisplayList(numbers, np.append(starts, len(order)), keys[starts], looks)
 
 
 @dataclass(frozen=True)
@@ -159,9 +191,10 @@ class StrokeLooks:
     keys: Integers
     names: Sequence[str]
 
-    def colour_and_width(self, key: int) -> tuple[str, int]:
-        """The colour of a key, and its width in tenths of a pixel."""
-        return self.names[key // (BROADEST + 1)], BROADEST - key % (BROADEST + 1)
+
+def colours_and_widths(keys: Integers) -> tuple[Integers, Integers]:
+    """The numbers of the colours that keys stand for, and the widths in tenths of a pixel."""
+    return keys // (BROADEST + 1), BROADEST - keys % (BROADEST + 1)
 
 
 def stroke_looks(segments: Segments, scale: float, colour_of: Mapping[int, str]) -> StrokeLooks:

@@ -13,7 +13,7 @@ from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
-from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
+from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
@@ -111,6 +111,7 @@ def _check_options(given: Iterable[str], options: Sequence[str], constants: Sequ
 
 
 def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
+    require(positions, bool, 'True or False for "positions"')
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
 
 
@@ -119,6 +120,8 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
     if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
+    require(marked, Collection, "A collection of states")
+    marked = frozenset(whole_number(each, "A state") for each in marked)
     what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
     if drawing_mode(what.states.system) is DrawingMode.FILAMENT:
         return _sequence(what, marked, cells)

@@ -14,11 +14,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, shown
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
 from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import Forces
@@ -83,10 +83,11 @@ class MapPicture:
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        panels = arranged(self.scenes)
-        body = "".join(map(panel_svg, self.maps, self.places, self.scenes, panels, self.numbers))
-        width, height = panels[0].frame.width, panels[0].frame.height
-        return document(background(width, height) + body, width, height, described([self.text, self._colours]))
+        with Task("The picture was not drawn"):
+            panels = arranged(self.scenes)
+            body = "".join(map(panel_svg, self.maps, self.places, self.scenes, panels, self.numbers))
+            width, height = panels[0].frame.width, panels[0].frame.height
+            return document(background(width, height) + body, width, height, described([self.text, self._colours]))
 
     @property
     def _colours(self) -> str:
@@ -120,6 +121,7 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
         what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
+    require(iterations, Sequence, "A list of iterations")
     if iterations:
         _check_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)

@@ -159,7 +159,8 @@ class NetPicture:
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        return drawn_stages(self.net, self.tokens, positions=self.positions)
+        with Task("The picture was not drawn"):
+            return drawn_stages(self.net, self.tokens, positions=self.positions)
 
     def save(self, path: str | Path) -> None:
         """Write the picture to an .svg file, or the net to a .pnml file for Petri-net tools (see `pnml`).

@@ -38,7 +38,7 @@ def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene
     right, up, towards = _axes(math.radians(azimuth), math.radians(elevation))
     plane = np.stack([right, up], axis=1)
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    ends = np.concatenate([_mapped(segments.ends[:, :3], plane), _mapped(segments.ends[:, 3:], plane)], axis=1)
+    ends = _mapped(segments.points, plane).reshape(-1, 4)
     return Scene(replace(segments, ends=ends), polygons=replace(polygons, points=_mapped(polygons.points, plane)),
                  discs=replace(discs, centres=_mapped(discs.centres, plane)), unknown=scene.unknown,
                  order=_far_to_near(scene, towards))

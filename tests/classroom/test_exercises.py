@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from lsys_kit import ModelNameError, ModelValueError, check, derive, read, system
+from lsys_kit import ModelNameError, ModelValueError, check, derive, limits, read, system
 from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, leftmost_only, sequential
 from lsys_kit.classroom.exercises.check import exercise_of, lessons
 from lsys_kit.classroom.exercises.differences import differing_system, differing_word, proved_equal
@@ -335,3 +335,8 @@ def test_where_neighbours_have_a_say_the_first_difference_is_found_in_the_words(
     assert differing_system(erased, kept, 1).endswith("look at your productions for a, position 2 of step 0.")
     unlucky, lucky = (derive(read(f"axiom: a\na -> {made} : 1"), 1) for made in ("b", "c"))
     assert differing_system(unlucky, lucky, 1).endswith("which is\n  a -> b : 1")
+
+
+def test_an_answer_is_checked_within_the_limits_in_force():
+    with limits(modules=50):
+        assert "the limit is 50" in repr(check("1.3", "axiom: a\na -> a a a a a a a a a a"))

@@ -359,3 +359,36 @@ def test_ages_may_stand_behind_other_values() -> None:
                  .replace("LEFT", "0"))
     assert continuity(cells, {"M": "2^t"}).continuous
     assert not continuity(cells, {"M": "1 + t^2"}, order=1).continuous
+
+
+ONE_OR_TWO = read("axiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
+
+
+def test_a_letter_that_lives_for_ever_never_jumps() -> None:
+    found = continuity(read("axiom: M(0)\nM(t) -> M(t+1)\nN(t) -> N(t+1)\ndecomposition:\nM(t) : t >= 3 -> N(t-3) N(t-2)"),
+                       {"M N": "t + 1"})
+    assert str(found) == "M(t) : t >= 3 -> N(t - 3)N(t - 2): 4 before, 3 after, a jump by -1"
+
+
+def test_each_division_says_whether_it_is_continuous() -> None:
+    assert str(continuity(ONE_OR_TWO, {"a": "1", "b": "t"})) == \
+        "a(1) -> a(0)b(0): continuous\nb(1) -> a(0): continuous"
+
+
+def test_a_sine_is_solved_between_two_numbers() -> None:
+    found = continuity(read("axiom: a(0)\na(1) -> a(0) a(0)"), {"a": "2 + 4*sin(c*t)"})
+    assert float(found.solve("c", 1, 80)) == pytest.approx(30)
+
+
+def test_where_a_length_is_not_real_it_is_no_solution() -> None:
+    rooted = {"a": "1 + max(sqrt(c-2),1)*t", "b": "1 + c*t"}
+    with pytest.raises(ModelValueError, match='No rule finds where "Max\\(1, sqrt\\(c - 2\\)\\) - 1" is 0'):
+        continuity(ONE_OR_TWO, rooted).solve("c", -5, 9)
+    with pytest.raises(ModelValueError, match='No value of "c" in that range'):
+        continuity(ONE_OR_TWO, {"a": "c*t", "b": "c*(c+4)*(1 + max(sqrt(c),1)*t)"}).solve("c", -5, 9)
+
+
+def test_a_length_at_a_first_age_must_be_real() -> None:
+    born_early = read("c = 2\naxiom: a(0)\na(3) -> b(1)\nb(c) -> a(0)")
+    with pytest.raises(ModelValueError, match="The length of b has no value at a division"):
+        continuity(born_early, {"a": "1", "b": "max(sqrt(t-9),1)"}, c="c")

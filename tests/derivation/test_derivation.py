@@ -38,6 +38,8 @@ def test_a_derivation_has_the_axiom_and_one_word_a_step() -> None:
 
 
 def test_there_is_no_word_behind_the_last_step() -> None:
+    with pytest.raises(IndexError, match="step a very large int of a derivation of 2 steps"):
+        derive(FIBONACCI, 2)[10**5000]
     with pytest.raises(IndexError, match="step 3 of a derivation of 2 steps"):
         derive(FIBONACCI, 2)[3]
     with pytest.raises(IndexError):

@@ -77,3 +77,8 @@ def test_only_later_words_come_from_a_word(step: int) -> None:
         derive(read("axiom: A"), 2).origins(step)
     with pytest.raises(ModelValueError):
         derive(read("axiom: A"), 2).ancestors(1, 2)
+
+
+def test_a_left_context_that_is_not_there_is_named() -> None:
+    told = str(explain(derive(read("axiom: B A\nC < A -> C"), 1), 1))
+    assert "production 1, C < A -> C: needs C on its left, and there is B" in told

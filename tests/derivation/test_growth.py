@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
+from fractions import Fraction
+from itertools import islice
 
 import pytest
 import sympy
@@ -10,11 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import derive, system
-from lsys_kit.budget import limits
+from lsys_kit.budget import Task, limits
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.growth.counts import counts_of_steps
 from lsys_kit.derivation.growth.growth import Growth, growth
-from lsys_kit.derivation.growth.recurrences import shortest_recurrence
+from lsys_kit.derivation.growth.recurrences import leading_weights, shortest_recurrence, shortest_rule
 from lsys_kit.derivation.timed.equations import growth_base
-from lsys_kit.errors import ModelLimitError
+from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.read import read
 
 ANABAENA = read("axiom: ar\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al")
@@ -178,3 +182,46 @@ def test_a_closed_form_gives_every_length(id: str) -> None:
     for step in (*range(9), 15, 30, 100):
         length = found.length(step)
         assert abs(written_out.evalf(40, subs={"t": step}) - length) < sympy.Float("1e-30") * length
+
+
+def test_numbers_of_millions_of_digits_are_refused() -> None:
+    """2^(10^7) has 10^7 log 2 digits."""
+    doubling = growth(read("axiom: a\na -> a a"))
+    assert doubling.length(1_000) == 2**1_000
+    with pytest.raises(ModelLimitError, match="would have about 3,010,300 digits"):
+        doubling.length(10**7)
+
+
+@pytest.mark.parametrize("step", [-1, 1.0, True])
+def test_a_step_is_a_whole_number_from_0_on(step: object) -> None:
+    for ask in (growth(ANABAENA).length, growth(ANABAENA).lengths, growth(ANABAENA).counts):
+        with pytest.raises(ModelValueError, match="The step must be a whole number from 0 on"):
+            ask(step)  # type: ignore[operator]
+
+
+def test_a_sequence_may_have_a_rule_in_fractions() -> None:
+    assert shortest_rule([4, 2, 1]) == (Fraction(1, 2),)
+    assert shortest_rule([1, 3, 9]) == (3,)
+
+
+def test_what_dies_out_has_no_shares_in_the_long_run() -> None:
+    dying = growth(read("axiom: a\na -> b b\nb -> ε"))
+    assert dying.lengths(3) == [1, 2, 0, 0]
+    assert dying.rate == 0
+    assert leading_weights((0, 0), 1) is None
+    assert dying.frequencies is None
+
+
+def test_multiple_roots_of_the_third_degree_are_in_no_closed_form() -> None:
+    """Each symbol of Padovan's sequence makes one of a second such sequence, too: (x^3 - x - 1)^2."""
+    twofold = growth(read("axiom: p\np -> q x\nq -> r\nr -> p q\nx -> y\ny -> z\nz -> x y"))
+    assert twofold.recurrence == (0, 2, 2, -1, -2, -1)
+    assert twofold.closed_form is None
+    assert growth(read("axiom: p\np -> q\nq -> r\nr -> p q")).closed_form is not None
+
+
+def test_counting_step_after_step_ends_with_its_budget() -> None:
+    states = States(ANABAENA)
+    assert len(list(islice(counts_of_steps(states), 3))) == 3
+    with limits(seconds=1e-9), pytest.raises(ModelLimitError), Task("The counts were not found"):
+        list(islice(counts_of_steps(states), 3))

@@ -222,3 +222,22 @@ def test_a_cyclic_word_reads_least_from_where_it_is_said_to(letters: list[str]) 
     row = [(letter, "") for letter in letters]
     first = least_rotation(row)
     assert row[first:] + row[:first] == min(row[start:] + row[:start] for start in range(len(row)))
+
+
+@given(map_systems())
+def test_walls_lead_from_corner_to_corner_around_each_cell(system: MapSystem) -> None:
+    assert_corners_meet(maps_of(system))
+
+
+def test_walls_lead_around_the_cells_of_seed_003() -> None:
+    maps = derive(read_map(K29), 3)
+    assert (maps.steps, len(maps)) == (3, 4)
+    assert_corners_meet(maps)
+
+
+def assert_corners_meet(maps: Development) -> None:
+    """The corner at which a side ends is that at which the next one begins."""
+    for found in maps:
+        for cell in found.cells:
+            turned = [side._replace(forward=not side.forward) for side in cell]
+            assert found.corners(turned) == [*found.corners(cell)[1:], found.corners(cell)[0]]

@@ -10,7 +10,7 @@ import pytest
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core import rules
 from lsys_kit.derivation.core.chance import Chance, choose
-from lsys_kit.derivation.core.interpretation import interpretation_of
+from lsys_kit.derivation.core.interpretation import interpretation_of, interpretations
 from lsys_kit.derivation.core.rules import ModuleTemplate, real_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import derive
@@ -129,3 +129,33 @@ def test_brackets_without_partners_open_and_close_nothing() -> None:
         for letter, left, right in (("B", "A", ""), ("C", "B", ""), ("A", "", "[D]"))))
     assert str(derive(system, 1)[1]) == "A]X[X"
     assert str(derive(dataclasses.replace(system, axiom=tuple(map(Pattern, "A[D"))), 1)[1]) == "X[D"
+    assert str(derive(dataclasses.replace(system, axiom=tuple(map(Pattern, "A[E"))), 1)[1]) == "A[E"
+
+
+def test_different_modules_are_drawn_as_no_more_than_a_word_may_have() -> None:
+    states = States(read("axiom: A(1)A(2)A(1)\ninterpretation:\nA(t) -> repeat(20) <F>"))
+    with limits(modules=40):
+        assert sum(map(len, interpretations(states, states.axiom).values())) == 40
+    with limits(modules=39), pytest.raises(ModelLimitError, match="drawn as more than 39 different ones"):
+        interpretations(states, states.axiom)
+
+
+def test_what_the_modules_of_a_successor_are_decomposed_into_adds_up() -> None:
+    doubling = read("axiom: A\nA -> B B\ndecomposition:\nB -> repeat(30) <C>")
+    with limits(modules=60):
+        assert len(derive(doubling, 1)[1]) == 60
+    with limits(modules=59), pytest.raises(ModelLimitError, match="A becomes more than 59 modules in one step") as caught:
+        derive(doubling, 1)
+    assert caught.value.line == 2
+
+
+@pytest.mark.parametrize("seed", [1.5, True, "1"])
+def test_a_seed_is_a_whole_number(seed: object) -> None:
+    with pytest.raises(ModelValueError, match="The seed must be a whole number, not "):
+        derive(read("axiom: A"), 1, seed=seed)  # type: ignore[arg-type]
+
+
+def test_neighbours_decide_which_rule_rewrites_a_state() -> None:
+    states = States(read("axiom: A B\nA < B -> C"))
+    with pytest.raises(ModelValueError, match="What becomes of B does not depend on its symbol and values alone"):
+        states.rule(1)

@@ -184,3 +184,20 @@ def test_a_step_that_would_be_too_large_is_refused() -> None:
 def test_equal_values_of_different_kinds_are_not_mistaken_for_each_other() -> None:
     word = derive(read("axiom: A B(1) A B(exp(0))\nA B(y) -> C(y)"), 1)[1]
     assert [type(module.arguments[0]) for module in word] == [int, float]
+
+
+def test_the_first_meta_rule_whose_condition_holds_is_applied() -> None:
+    rules = "meta: f(x) f(y) : x > 5 -> f(x+y)\nmeta: f(x) f(y) : x < 5 -> f(y)"
+    assert str(derive(read(f"axiom: f(6) f(2)\n{rules}"), 1)[1]) == "f(8)"
+    assert str(derive(read(f"axiom: f(1) f(2)\n{rules}"), 1)[1]) == "f(2)"
+
+
+def test_what_a_meta_rule_makes_comes_from_the_mother_of_the_first_module() -> None:
+    joining = read("axiom: g f(1)\nf(x) -> f(x) f(x)\nmeta: f(x) f(y) -> f(x+y)")
+    assert derive(joining, 1).origins(1) == Origins([0, 1], [None, 0])
+
+
+def test_behind_a_rule_with_a_weight_one_without_is_passed_over() -> None:
+    """The rules with weights are drawn among themselves; where there are neighbours as well."""
+    text = "axiom: B A\nB < A -> C : 0.5\nB < A -> D\nB < A -> E : 0.5"
+    assert {str(derive(read(text), 1, seed=seed)[1]) for seed in range(20)} == {"B C", "B E"}

@@ -392,3 +392,14 @@ def test_the_rule_that_is_the_first_to_apply_ends_a_life() -> None:
 def test_durations_that_no_rule_tells(name: str) -> None:
     with pytest.raises(ModelValueError, match="How long a module lives cannot be told, since"):
         stages(catalogued(name), durations=True)
+
+
+def test_what_is_repeated_no_times_has_no_arc() -> None:
+    text = "c = {}\naxiom: A(1)\nA(t) : t > 5 -> A(t+1)\nA(t) -> repeat(c) <B> C A(t+1)\nB -> C"
+    assert repr(stages(read(text.format(0)))) == "A -> A if t > 5\nA -> C + A\nB -> C"
+    assert repr(stages(read(text.format(2)))) == "A -> A if t > 5\nA -> 2 B + C + A\nB -> C"
+
+
+def test_unknown_weights_are_shown_as_they_are_written() -> None:
+    net = stages(read("k = 1\naxiom: A\nA -> B : k\nA -> C : 1"), k="k")
+    assert repr(net) == "A -> B if with weight k\nA -> C if with weight 1"

@@ -50,7 +50,8 @@ EXTREME: tuple[object, ...] = (
     0, 1, -1, 2, 3, 7, 1e308, -1e308, 1e-308, float("nan"), float("inf"), 10**50, 10**5000, -10**5000, -10**400, Fraction(1, 3),
     Fraction(10**400, 7), True, None, "", "a", "1/3", "1e400", "9" * 900, "x", "A", "\ud800", "a\x00b", b"x", (), [], {},
     object(), ..., int, np.int64(3), np.float64(0.5), np.array([1, 2]), np.nan, complex(1, 2), sympy.Symbol("x"), sympy.pi,
-    sympy.oo, sympy.Rational(1, 3), sympy.nan, range(3), {1, 2}, "1.1", "J4", "P4", "2.1", "pdf", "ellipses", "float", "abop",
+    sympy.oo, sympy.Rational(1, 3), sympy.nan, sympy.zoo, sympy.Symbol("x") < 1,
+    sympy.Matrix([sympy.Symbol("x")]), range(3), {1, 2}, "1.1", "J4", "P4", "2.1", "pdf", "ellipses", "float", "abop",
     "cpfg", "mathematica", [(0, 1)], [(1, "a")], -0.0,
 )
 """Values for any argument."""
@@ -145,6 +146,8 @@ ATTRIBUTES = ("svg", "png", "mesh", "text", "gif", "lengths", "notes", "matrix",
 
 def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> None:
     """Look at a result in some ways: as a notebook shows it, its attributes, its methods, its saved files."""
+    from lsys_kit import LSystemError
+
     told.append(f"shown: {type(result).__name__}")
     str(result), repr(result)
     for attribute in ATTRIBUTES:
@@ -158,7 +161,7 @@ def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> No
                 value = folder / f"file{chance.choice(('.svg', '.png', '.pdf', '.glb', '.obj', '.gif', '.pnml', '.x', ''))}"
             told.append(f".{method}({shown(value)})")
             odd = method == "counts_of" or not isinstance(value, int | Path)  # it has a second argument
-            with contextlib.suppress(TypeError) if odd else contextlib.nullcontext():
+            with contextlib.suppress(LSystemError, *[TypeError] * odd):  # whatever one refuses, the next is tried
                 getattr(result, method)(value)
 
 

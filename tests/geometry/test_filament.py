@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import pytest
 
-from lsys_kit import ModelValueError, continuity, derive, draw, read, system, timed
+from lsys_kit import ModelLimitError, ModelValueError, continuity, derive, draw, limits, read, system, timed
 from lsys_kit.geometry.filament import filament
 
 CELLS = read("t_div = 1\nt_s = 0\nt_l = 0.2\naxiom: R(0)\nL(t_div) -> L(t_s) R(t_l)\nR(t_div) -> L(t_l) R(t_s)")
@@ -120,3 +120,9 @@ def test_a_cell_whose_length_is_not_known_is_an_error_that_names_it() -> None:
     word = derive(read("dt = 1\naxiom: a(dt)\ninterpretation:\na(t) -> R(t,1)"), 0, dt="dt")[0]
     with pytest.raises(ModelValueError, match="cannot be drawn"):
         filament(word)
+
+
+def test_a_filament_has_its_limits() -> None:
+    many = derive(read("axiom: a\na -> a a\ninterpretation:\na -> repeat(1000,i)<R(1,1)>"), 3)[-1]
+    with limits(bytes=1_000_000), pytest.raises(ModelLimitError, match="were not drawn: it would take 1,200,000 bytes"):
+        filament(many)

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, draw, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.meshes import SIDES, mesh_of
+from lsys_kit.geometry.meshes import mesh_of
+from lsys_kit.geometry.solids import SIDES
 from lsys_kit.geometry.triangulation import triangulate
 
 BUSH = """angle: 22.5
@@ -142,3 +143,8 @@ def test_a_hundred_thousand_strokes_are_made_at_once():
     before = time.process_time()
     assert len(mesh_of(drawn).triangles) == 28 * 65536
     assert time.process_time() - before < 5
+
+
+def test_a_mesh_with_its_vertices_takes_no_more_memory_than_the_limit():
+    with limits(bytes=1_000), pytest.raises(ModelLimitError, match="The mesh was not made: it would take 2,288 bytes"):
+        mesh_of(scene_of(derive(read("axiom: F"), 0)))

@@ -15,6 +15,7 @@ FOUND = {
     "letters that part a name only after another is parted": "axiom: F\nF -> JJJ+JJF",
     "a number of many digits": "axiom: A(0)\nA(t) -> A(1." + "4" * 99 + "1)",
     "a very small number": "axiom: A(0)\nA(t) -> A(t + 3e-99)",
+    "parameters of a macro that are no names": "Axiom: A\n#define x(" + "n" * 60 + " * g,p)",
     "an @ before a name": "steps: 15\naxiom: @b@ a a a a a a/a a/!a @b a a a a aa d\nb < a -> V",
 }
 

@@ -44,7 +44,8 @@ TOKENS = (
 """Something for each token of each grammar, and what a printed listing has beside them."""
 BEGINNINGS = {
     "abop": ("", "axiom: A\nA -> ", "axiom: A\nA(t) : t > "), "plant-string": ("", "Axiom: A\nA -> "),
-    "cpfg": ("", "Axiom: A\nA --> ", "Axiom: A\nA(t) : t > "), "grogra": ("", "\\axiom A,\nA # ", "\\axiom A,\n(t > "),
+    "cpfg": ("", "Axiom: A\nA --> ", "Axiom: A\nA(t) : t > ", "Axiom: A\n#define x(", "Axiom: A\n#define x ",
+             "Axiom: A\narray x[1] = {1};\nstart: {"), "grogra": ("", "\\axiom A,\nA # ", "\\axiom A,\n(t > "),
     "fractint": ("", "K {\nAngle 8\nAxiom A\nA="),
     "mathematica": ("", "axiom = AXIOM[A];\nlrules = LRULES[LRule[LEFT[], PRED[A], RIGHT[], SUCC[")}
 RECOGNISED, TEXT, LINE = 100_000, 48_000, 12_000

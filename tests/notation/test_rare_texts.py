@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+import sympy
 
-from lsys_kit.errors import LSystemError, ModelLimitError
+from lsys_kit.budget import limits
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
+from lsys_kit.notation.analysis.lint import warnings
+from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.cpfg.expressions import simplified
 from lsys_kit.notation.dialects.fractint import systems as files
 from lsys_kit.notation.dialects.grogra.conditions import exclusive
+from lsys_kit.notation.model.arithmetic import equal_values, expanded_value
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.modules import Pattern
-from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.read import read, read_expression
+from lsys_kit.notation.syntax.systems import text_in
+from lsys_kit.notation.syntax.text.transcript import Edit, edited
 from lsys_kit.notation.write import write
 
 SLIPS = [
@@ -26,19 +35,31 @@ SLIPS = [
     ("cpfg", f"Axiom: A(1)\nA(t) : 1 {{{'if (t > 1) {' * 60}x = 1;{'}' * 60}}} --> F(x)",
      "Choices are nested more than 50 deep", 2, 123),
     ("fractint", "Koch {\nAngle 6\nAxiom F\nF\n}", "This rule has no successor", 4, 1),
+    ("fractint", "Angle 6\nAxiom F\nF\u2003", "This rule has no successor", 3, 1),
     ("fractint", "Koch {\nAngle 6\nAxiom F\nF  -> FF\n}", "Fractint has no arrows", 4, 4),
     ("fractint", "Angle 6\nAxiom F\nF --> F\u2014F", "Fractint has no arrows", 3, 3),
     ("fractint", "Angle 6\nAxiom F\nF=F}F", 'This "}" closes nothing', 3, 4),
     ("fractint", "Angle 6\nAxiom F\n}\nF=F", 'This "}" closes nothing', 3, 1),
     ("grogra", "\\axiom a;\na # b;\nb # a", 'This ";" does not separate rules', 1, 9),
     ("grogra", "\\axiom a\n\\axiom b", 'A "," is missing here', 1, 9),
+    ("cpfg", "Axiom: A(1)\nA(t) : 1 {x = t + 1 ]} --> F(x)", 'I did not expect "]} " here', 2, 21),
+    ("cpfg", "#define a ,1\nAxiom: A", 'The macro "a" is not a number', 1, 11),
+    ("mathematica", "LRule[LEFT[], PRED[a], RIGHT[], SUCC[b] PRED[c]]\nAXIOM[a]", "PRED[...] is outside of an LRule", 1, 41),
+    ("mathematica", "LRule[LEFT[], PRED[a], RIGHT[], SUCC[b] x]\nAXIOM[a]", 'I did not expect "x" here', 1, 41),
+    ("grogra", "\\axiom a,\na # b\n c ,d @", "An arrow is missing here", 3, 7),
+    ("grogra", "\\axiom a,\na\n b @ # c", "Only one symbol can be replaced", 3, 2),
+    ("abop", "axiom: A(1)\nA(t) B < C < D -> B", 'This is a second "<"', 2, 12),
+    ("abop", "axiom: A\n{A, B}", "An arrow is missing here", 2, 2),
+    ("abop", "axiom: A\nP = {A, B}", "A value is missing here", 2, 5),
+    ("abop", "axiom: A\n{A -> B, C -> D} E", 'A "," is not needed here', 2, 8),
+    (None, "I -> I[A]A /* and so on", "This comment is never closed", 1, 12),
     ("grogra", "\\var f function 2 1,\n\\axiom a,\na # F(f)", '"f" is a function, and its values are missing', 3, 7),
 ]
-"""A notation, a text, what is said of it, the line and the column."""
+"""A notation, or None where the text is to show which, a text, what is said of it, the line and the column."""
 
 
 @pytest.mark.parametrize(("notation", "text", "message", "line", "column"), SLIPS)
-def test_a_slip_is_named_at_its_place(notation: str, text: str, message: str, line: int, column: int) -> None:
+def test_a_slip_is_named_at_its_place(notation: str | None, text: str, message: str, line: int, column: int) -> None:
     with pytest.raises(LSystemError) as caught:
         read(text, notation)
     assert (caught.value.message, caught.value.line, caught.value.column) == (message, line, column)
@@ -107,3 +128,135 @@ def test_fractint_has_no_empty_axiom() -> None:
 def test_a_digit_that_nothing_declares_is_declared() -> None:
     system = LSystem((Pattern("1"),), (Production((Pattern("1"),), (Pattern("F"), Pattern("1"))),), angle=Fraction(90))
     assert read(write(system, "abop"), "abop").productions == system.productions
+
+
+def test_a_function_of_grogra_without_values_is_called_by_its_name() -> None:
+    found = read("\\var f function 2 0,\n\\axiom a,\na # F(f)", "grogra")
+    assert str(found.productions[0].successor[0]) == "F(sensed(2))"
+
+
+def test_a_star_alone_needs_no_axiom_in_grogra() -> None:
+    found = read("* # A", "grogra")
+    assert write(found, "grogra") == "* # A"
+    assert write(replace(found, steps=3), "grogra") == "\\axiom * 1-3,\n* # A"
+
+
+def test_empty_lines_that_a_condition_leaves_out_are_not_told() -> None:
+    found = read("#if 0\n\n  \nA --> B\n#endif\nAxiom: A\nA --> C", "cpfg")
+    assert found.notes == ("Left out, because of the conditions around: line 4.",)
+
+
+def test_a_macro_or_an_array_without_its_brackets_is_a_name() -> None:
+    """As for the preprocessor of C: only f(...) is put in place."""
+    called = read("#define f(x) B(x+x)\nAxiom: A(1)\nA(t) --> f(t) [f]", "cpfg")
+    assert str(called.productions[0]) == "A(t) -> B(t + t)[f]"
+    indexed = read("Define: { array a[2] = {1,2}; }\nAxiom: A(1)\nA(t) --> B(a[1]) [a]", "cpfg")
+    assert str(indexed.productions[0]) == "A(t) -> B(2)[a]"
+
+
+COUNTED = [
+    ("n = 0; m = 0;", "n = n + m; m = m + 1;", "A : n < 3 --> F A",
+     "Axiom: A(0,0)\nA(n,m) : n < 3 --> FA(n + m,m + 1)\nA(n,m) --> A(n + m,m + 1)", "A carries n, m as parameters"),
+    ("n = 0;", "n = n + 1;", "A --> C\nC < B : n < 3 --> A\nB --> B\nC --> B",
+     "Axiom: A(0)\nA(n) --> C(n + 1)\nC(n_l0) < B(n) : n < 3 --> A(n + 1)\nB(n) --> B(n + 1)\nC(n) --> B(n + 1)",
+     "A, B, C carry n as a parameter"),
+]
+"""Counters of cpfg, how they change, productions, the system whose modules carry them, and what is said of it."""
+
+
+@pytest.mark.parametrize(("first", "then", "productions", "carrying", "said"), COUNTED)
+def test_counters_that_depend_on_one_another_or_have_neighbours_are_carried(
+        first: str, then: str, productions: str, carrying: str, said: str) -> None:
+    found = read(f"Axiom: A\nStart: {{{first}}}\nEndEach: {{{then}}}\n{productions}", "cpfg")
+    assert write(found, "cpfg") == f"Lsystem: 1\n{carrying}\nendlsystem"
+    assert found.notes == (f"To follow the steps {said}.",)
+
+
+def test_cpfg_has_no_remainder_of_a_random_number() -> None:
+    random = read("axiom: A\nA -> B(mod(uniform(0,1),2))")
+    with pytest.raises(ModelValueError, match='The notation cpfg has no function "mod" of random numbers'):
+        write(random, "cpfg")
+    assert "mod" not in write(read("axiom: A(5)\nA(t) -> A(mod(t,2))"), "cpfg")
+
+
+def test_widths_may_be_in_pixels() -> None:
+    found = read("widths: pixels\naxiom: A")
+    assert found.widths == "pixels"
+    assert read(write(found, "abop"), "abop") == found
+
+
+def test_a_name_that_might_be_glued_is_declared() -> None:
+    """JF reads as J F where both are symbols, unless the alphabet names it."""
+    glued = LSystem((Pattern("JF"), Pattern("J")), (Production((Pattern("F"),), (Pattern("J"), Pattern("J"))),))
+    assert write(glued, "abop") == "alphabet: JF\naxiom: JF J\nF -> J J"
+
+
+LOST = [
+    ("axiom: A\nA -> B", "the angle 60"),
+    ("angle: 60\naxiom: B\nA -> B", '"axiom: A"'),
+    ("angle: 60\naxiom: A\nA -> C", '"A -> B"'),
+    ("angle: 60\naxiom: A\nA -> B\nB -> A", 'the productions without "B -> A"'),
+    ("angle: 60\naxiom: A\n?", '"?"'),
+]
+"""What a careless writer might make of a system, and what of it does not read back."""
+
+
+@pytest.mark.parametrize(("text", "lost"), LOST)
+def test_a_text_that_reads_back_as_another_system_is_never_given(text: str, lost: str) -> None:
+    careless = replace(ABOP, write=lambda _: text)
+    with pytest.raises(ModelValueError, match=re.escape(f"no way to write {lost}, which")):
+        text_in(careless, read("angle: 60\naxiom: A\nA -> B"))
+
+
+def test_a_text_that_is_longer_than_what_is_read_is_never_given() -> None:
+    system = read("axiom: AAAAAAAA\nA -> B")
+    with limits(line=10), pytest.raises(ModelLimitError, match="the limit is 10"):
+        write(system, "abop")
+
+
+def test_of_overlapping_edits_the_first_is_made() -> None:
+    assert edited("ABCD", [Edit(1, 3, "x"), Edit(2, 4, "y")]).text == "AxD"
+
+
+@pytest.mark.parametrize("rest", ["C", "+C", "[-F]F", "C\n\n  D"])
+def test_a_production_with_its_probability_over_the_arrow_may_go_on_below(rest: str) -> None:
+    found = read(f"ω : F\np1 : F .5→ F[+F]\n  {rest}\np2 : F .5→ F", "abop")
+    assert found.productions[0] == read(f"axiom: F\nF -> F[+F] {' '.join(rest.split())} : 0.5").productions[0]
+    assert len(found.productions) == 2
+
+
+def test_rows_of_latex_end_with_two_backslashes() -> None:
+    found = read("\\omega : A \\\\\nA \\rightarrow B \\\\\nB \\rightarrow A")
+    assert write(found, "abop") == "axiom: A\nA -> B\nB -> A"
+
+
+def test_an_and_within_a_word_joins_no_productions() -> None:
+    found = read("Axiom: I\nRules: I -> IA and A -> I", "plant-string")
+    assert write(found, "plant-string") == "Axiom: I\nI -> IA\nA -> I"
+    assert str(read("Axiom: I\nRules: I -> I and A", "plant-string").productions[0]) == "I -> I a n d A"
+
+
+def test_a_constant_without_a_value_warns_of_nothing() -> None:
+    """Neither does a value that is not known: whether A(d) is ever A(1) is open."""
+    rules = (Production((Pattern("A", (Number(1),)),), (Pattern("B"),)),)
+    young = Pattern("A", (Number(0),))
+    assert [found.code for found in warnings(LSystem((young,), rules))] == ["only in time"]
+    assert warnings(LSystem((young,), rules, constants=(Constant("c", Name("d")),))) == []
+    assert warnings(LSystem((Pattern("A", (Name("d"),)),), rules)) == []
+
+
+def test_sums_are_multiplied_out_before_they_are_compared() -> None:
+    k = sympy.Symbol("k", real=True)
+    assert equal_values(k * (k + 1), k**2 + k)
+    with pytest.raises(TypeError):
+        equal_values(k, 2 * k)
+    with pytest.raises(OverflowError):
+        expanded_value((k + 1) ** 1_000)
+
+
+@pytest.mark.parametrize(("text", "marked"), [("Axiom  :", "Axiom"), ("Axiomm : A", "Axiomm"), ("Axiom A", "Axiom")])
+def test_the_keyword_alone_is_marked(text: str, marked: str) -> None:
+    with pytest.raises(LSystemError) as caught:
+        read(text, "cpfg")
+    assert caught.value.column == 1
+    assert caught.value.end == 1 + len(marked)

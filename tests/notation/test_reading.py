@@ -12,6 +12,7 @@ from lsys_kit.notation.analysis.checks import check_word
 from lsys_kit.notation.model.expressions import Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, Production, symbols
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.read import read, read_expression, read_number, read_word
 from lsys_kit.notation.syntax.text.statements import statements, without_comments
 from lsys_kit.notation.write import write
@@ -183,3 +184,16 @@ def test_capital_letters_in_a_row_are_symbols_if_one_of_them_is_rewritten(rules:
     system = read(f"axiom: A\n{rules}")
     assert " ".join(module.symbol for module in system.productions[0].successor) == successor
     assert read(write(system)) == system
+
+
+TURTLES = {
+    "abop": (1.0, 1, 2.4, True, False), "grogra": (100.0, -1, 0.1, False, False),
+    "plant-string": (1.0, 1, 0.1, False, False), "fractint": (1.0, 1, 0.1, False, True),
+}
+"""For each dialect of turtle commands the length of a step, the side of the turtle's left, the width of its strokes, whether
+that is in pixels, and whether any sign is a symbol."""
+
+
+def test_each_turtle_begins_as_its_program_lets_it() -> None:
+    found = {name: (one.length, one.left, one.width, one.pixels, one.any_sign) for name, one in TURTLE_DIALECTS.items()}
+    assert found == TURTLES

@@ -13,7 +13,20 @@ import pytest
 import trimesh
 from PIL import Image, ImageSequence
 
-from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, animate, derive, draw, figure, read, stages, system
+from lsys_kit import (
+    ModelFileError,
+    ModelLimitError,
+    ModelValueError,
+    animate,
+    derive,
+    draw,
+    figure,
+    limits,
+    lineage,
+    read,
+    stages,
+    system,
+)
 from lsys_kit.__main__ import main
 from lsys_kit.geometry.meshes import mesh_of
 from lsys_kit.pictures.formats.mesh_files import channels
@@ -348,3 +361,18 @@ def test_no_window_and_no_pyplot_is_opened_by_an_export(tmp_path):
             "animate(system('K14'), 2).save(sys.argv[1] + '/a.gif'); print('matplotlib.pyplot' in sys.modules)")
     done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, timeout=120, check=True)
     assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj"])
+def test_a_mesh_is_written_within_the_limit_of_bytes(tmp_path, ending):
+    with limits(bytes=2_400), pytest.raises(ModelLimitError, match="The file was not written: it would take"):
+        draw(read("axiom: &F")).save(tmp_path / f"stroke.{ending}")
+    draw(read("axiom: &F")).save(tmp_path / f"stroke.{ending}")
+
+
+def test_what_a_picture_or_a_file_is_made_of_is_given_up_in_time(tmp_path):
+    tree, plant = draw(lineage(read("axiom: a\na -> a\ndepth: 100\ninterpretation:\na -> a a"), 2)), draw(BUSH, 3)
+    with limits(seconds=0.01), pytest.raises(ModelLimitError, match=r"The picture was not drawn in 0\.01 seconds"):
+        assert tree.svg
+    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match="in 1e-09 seconds"):
+        plant.save(tmp_path / "plant.obj")

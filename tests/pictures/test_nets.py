@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import ModelValueError, derive, read, stages, system, systems, timed
+from lsys_kit import ModelValueError, derive, draw, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.pictures.nets import diagram, parts
 from lsys_kit.pictures.nets.captions import short, width_of
@@ -213,6 +213,11 @@ def test_a_marked_stage_is_not_told_by_colour_alone() -> None:
     assert MARK not in plain
     assert marked.count(MARK) == 1
     assert marked.count("<circle") == plain.count("<circle") + 2
+
+
+def test_values_that_are_not_known_stand_at_their_stages() -> None:
+    net = stages(read("c = 1\naxiom: a(c)\na(x) -> a(x) b(c+1)\nb(x) -> b(x)"), c="c")
+    assert repr(draw(net)) == "Stage diagram: 2 stages a(c), b(c + 1)"
 
 
 @pytest.mark.parametrize("name", HOSTILE)

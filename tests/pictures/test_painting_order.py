@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cProfile
 import io
+import pstats
 import re
 from itertools import pairwise
 
@@ -147,6 +149,18 @@ def test_a_far_sphere_does_not_cover_a_near_one(far_first):
     assert image.getpixel((image.width // 2, image.height // 2)) == near_one
     assert re.findall(r'<circle [^>]*fill="([^"]*)"', picture.svg)[-1] == tinted(CHOSEN[2], 0.7)
     assert figure(picture).collections[0].get_facecolors()[-1][:3] == pytest.approx(np.array(near_one) / 255)
+
+
+def test_ten_times_as_many_strokes_of_changing_looks_are_painted_with_hardly_more_calls():
+    def calls(strokes):
+        points = [(0, depth, 0) for depth in range(strokes)]
+        scene = project(built([(point, (1, *point[1:]), 0.01 + point[1] % 2 / 100, point[1] % 3) for point in points], [], []))
+        frame, profile = frame_of(scene.box), cProfile.Profile()
+        profile.runcall(turtle_image, scene, {}, frame)
+        return pstats.Stats(profile).total_calls
+
+    calls(1)  # imports what paints
+    assert calls(2_000) < 1.5 * calls(200)
 
 
 def test_where_nothing_is_drawn_in_space_the_picture_is_empty():

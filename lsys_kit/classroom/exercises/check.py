@@ -14,12 +14,12 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from lsys_kit.budget import Task, limits
+from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.exercises.answers import ANSWER_KINDS, Exercise, KnownMistake
 from lsys_kit.classroom.exercises.differences import proved_equal
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.derivation.core.rules import number_from
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError, require
 from lsys_kit.notation.analysis.checks import suggestion
 
 _FOLDER = files(__package__) / "questions"
@@ -89,19 +89,25 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     Not answered yet. Replace the ... with your word, as a text in quotation marks.
     """
     asked = exercise_of(exercise)
-    if hint:
+    require(solution, bool, 'True or False for "solution"')
+    if not isinstance(hint, int) or hint:
         return _hint(asked, hint)
     if answer is None or answer is ... or (isinstance(answer, str) and answer.strip().strip("\"'") in ("", "...", "…")):
         after = " The solution is shown after an attempt." if solution else ""
         return Verdict("Not answered yet", f"Replace the ... with your {ANSWER_KINDS[asked.kind].what}.{after}")
     try:
-        with limits(**BUDGET), Task("It was not checked"):
+        with limits(**_budget()), Task("It was not checked"):
             verdict = _judged(asked, answer)
     except ModelLimitError as grown:
         return Verdict("Not yet", f"Your answer is too large. {grown.message}.")
     except LSystemError as mistake:
         return Verdict("Not readable yet", str(mistake))
     return _with_solution(verdict, asked) if solution else verdict
+
+
+def _budget() -> dict[str, float]:
+    """The limits for an answer, or those in force where these are narrower."""
+    return {name: min(most, getattr(current(), name)) for name, most in BUDGET.items()}
 
 
 def exercise_of(id: str) -> Exercise:

@@ -30,7 +30,7 @@ from lsys_kit.classroom.panel.page import page, page_data, save_page
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.errors import LSystemError, ModelValueError, shown
+from lsys_kit.errors import LSystemError, ModelValueError, whole_number
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
@@ -133,9 +133,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     def __init__(self, system: LSystem, title: str, step: int | None, angle: object, seed: int,
                  changes: Mapping[str, object]) -> None:
-        first = _first_step(system) if step is None else step
-        if isinstance(first, bool) or not isinstance(first, int) or first < 0:
-            raise ModelValueError(f"The step must be a whole number from 0 on, not {shown(step)}")
+        first = _first_step(system) if step is None else whole_number(step, "The step")
         turn = real_from(angle, "angle") if angle is not None else float(system.angle)
         if not 0 <= turn <= 180:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")

@@ -40,6 +40,7 @@ class RuleApplication:
 
     def __init__(self, system: LSystem, constants: dict[str, object] | None = None, arithmetic: str = "exact") -> None:
         require(system, LSystem, "An L-system")
+        require(arithmetic, str, "The name of an arithmetic")
         if arithmetic not in ("exact", "float"):
             raise ModelNameError(f'There is no arithmetic called "{arithmetic}"', hint='Choose "exact" or "float".')
         self.system, self.arithmetic = system, arithmetic

@@ -3,11 +3,11 @@ Introduction to Modeling with L-systems, section 7)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Sized
 from itertools import islice
 from typing import TypeVar
 
-from lsys_kit.budget import counted, current
+from lsys_kit.budget import INTERVAL, counted, current
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.rules import rules_of
 from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States, popped
@@ -63,6 +63,15 @@ def _bounded(made: Iterable[_T], already: int, module: Module) -> list[_T]:
         raise ModelLimitError(f"{module} is drawn as more than {most:,} modules", limit=most,
                               hint="Use smaller numbers of repetitions, or a smaller depth.")
     return taken
+
+
+def modules_between_checks(images: Iterable[Sized]) -> int:
+    """After how many modules of a word to look at the budget, given what its modules are drawn as.
+
+    >>> modules_between_checks([]), modules_between_checks(["", "abcd"]), modules_between_checks([range(10**6)])
+    (1024, 256, 1)
+    """
+    return max(1, INTERVAL // max((1, *map(len, images))))
 
 
 def is_cell(made: Module | Pattern) -> bool:

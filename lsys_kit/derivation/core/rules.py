@@ -239,7 +239,7 @@ def number_from(given: object, name: str = "value") -> Value:
     """
     if isinstance(given, str):
         return unknown_constant(name) if given == name else read_number(given)
-    if hasattr(given, "free_symbols") and given.free_symbols:
+    if getattr(given, "free_symbols", None) and getattr(given, "is_commutative", False) and hasattr(given, "is_real"):
         return expanded_value(given)
     if isinstance(given, numbers.Real) and not isinstance(given, bool) and _finite(given):
         if isinstance(given, numbers.Rational):

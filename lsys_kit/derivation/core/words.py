@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, overload
 
 import numpy as np
 
-from lsys_kit.budget import check_bytes
+from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
+from lsys_kit.errors import require
 from lsys_kit.notation.model.modules import Module, joined
 from lsys_kit.notation.registry import dialect_named
 
@@ -67,7 +69,8 @@ class Word(Sequence[Module]):
         return hash(tuple(self))
 
     def __str__(self) -> str:
-        return text_of(self.states, self.codes)
+        with Task("The text of the word was not written"):
+            return text_of(self.states, self.codes)
 
     def __repr__(self) -> str:
         return abridged(self, MOST_SHOWN)
@@ -89,7 +92,9 @@ class Word(Sequence[Module]):
         >>> derive(read("axiom: S L(1)"), 0)[0].coded({"S": "M(1)"})
         'M(1)L(1)'
         """
-        return joined(coding.get(text, text) for text in map(str, self))
+        require(coding, Mapping, "A dictionary of what is written in place of modules")
+        with Task("The text of the word was not written"):
+            return joined(coding.get(text, text) for text in map(str, counted(self)))
 
     def counts(self) -> Mapping[str, int]:
         """How often each symbol occurs.
@@ -118,15 +123,24 @@ def word_bytes(word: Word) -> int:
     return word.bytes
 
 
+def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[int]]:
+    """A row of numbers in blocks, with a look at the budget after each.
+
+    >>> list(blocks([1, 2, 3, 4, 5], 2))
+    [[1, 2], [3, 4], [5]]
+    """
+    return (numbers[first:first + size] for first in counted(range(0, len(numbers), size), 1))
+
+
 def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     """The text of a row of states, in their system's notation."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)
-    counts = Counter(numbers)
-    texts = {state: notation.module(states.modules[state]) for state in counts}
+    counts = state_counts(Word(states, codes))
+    texts = {state: notation.module(states.modules[state]) for state in counted(counts)}
     size = sum(len(texts[state]) * count for state, count in counts.items())
     check_bytes(size, lambda: "The text of the word was not written")
-    return notation.joined(map(texts.__getitem__, numbers))
+    return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
 
 
 def abridged(word: Word, characters: int) -> str:

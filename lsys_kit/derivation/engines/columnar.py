@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from lsys_kit.budget import counted
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
@@ -89,9 +89,10 @@ class ColumnWord(Word):
     def codes(self) -> Array:  # type: ignore[override]
         """The numbers of the states, which are numbered now."""
         if self._row is None:
-            numbers = [self.states.number(self.names[kind][0], row[:self.names[kind][1]])
-                       for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))]
-            self._row = np.array(numbers, dtype=code_type(len(self.states)))
+            with Task("The modules of the word were not numbered"):
+                numbers = [self.states.number(self.names[kind][0], row[:self.names[kind][1]])
+                           for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))]
+                self._row = np.array(numbers, dtype=code_type(len(self.states)))
         return self._row
 
 
@@ -159,7 +160,7 @@ class ColumnarSteps:
             check(size, size * (word.values.bytes * self.width + 2))
             kinds, columns = np.empty(size, dtype=word.kinds.dtype), self._collected((size, self.width))
             for rule, rows in chosen:
-                for block, at in _blocks(rule, len(word), rows, starts):
+                for block, at in counted(_blocks(rule, len(word), rows, starts), 1):
                     self._write(rule, self._named(rule, word, block), kinds, columns, at)
             return ColumnWord(self.states, kinds, columns.values(), self.kinds)
 

@@ -27,6 +27,8 @@ ColumnFunction: TypeAlias = Callable[..., Any]
 something to compute."""
 SHORT_BITS = 62
 """Integers of so many bits are added and compared in 64."""
+ROWS_AT_A_TIME = 2**12
+"""So many rows of an array become numbers of Python at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +164,12 @@ def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
     return lambda columns, out=None: operation(*[operand(columns) for operand in operands], out=out)
 
 
+def _listed(array: Array) -> Iterator[list[Any]]:
+    """The rows of an array as lists."""
+    for first in range(0, len(array), ROWS_AT_A_TIME):
+        yield from array[first:first + ROWS_AT_A_TIME].tolist()
+
+
 class FloatValues:
     """The values of a word in doubles, a row for each module."""
 
@@ -177,7 +185,7 @@ class FloatValues:
 
     def rows(self) -> Iterable[tuple[Value, ...]]:
         """The values of each module, as numbers."""
-        return map(tuple, self.array.tolist())
+        return map(tuple, _listed(self.array))
 
 
 class FloatColumns:
@@ -216,7 +224,7 @@ class ExactValues:
 
     def rows(self) -> Iterable[tuple[Value, ...]]:
         """The values of each module, as numbers."""
-        return (tuple(normalised(Fraction(number, self.denominator)) for number in row) for row in self.numerators.tolist())
+        return (tuple(normalised(Fraction(number, self.denominator)) for number in row) for row in _listed(self.numerators))
 
 
 class ExactColumns:

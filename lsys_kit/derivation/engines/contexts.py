@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from lsys_kit.budget import counted
 from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
@@ -27,10 +28,8 @@ IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
-LARGEST_TABLE = 2**22
-"""The largest table of cases that is indexed directly."""
-FEW_REPLACEMENTS = 12
-"""Up to so many different replacements are counted one after another."""
+LARGEST_TABLE, FEW_REPLACEMENTS = 2**22, 12
+"""The largest table of cases that is indexed directly; up to so many different replacements are counted one after another."""
 
 
 class Replacements:
@@ -177,13 +176,13 @@ class ContextEngine:
         """
         if bound > LARGEST_TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
-            return np.array([self._number(case(key)) for key in distinct.tolist()])[which]
+            return np.array([self._number(case(key)) for key in counted(distinct.tolist(), 1)])[which]
         if len(self._table) != bound:
             self._table = np.zeros(bound, dtype=np.int32)  # 0 for a case that has not been met
         if not (found := self._table.take(keys)).all():
             there = np.zeros(bound, dtype=bool)
             there[keys] = True
-            for key in np.flatnonzero(there & (self._table == 0)).tolist():
+            for key in counted(np.flatnonzero(there & (self._table == 0)).tolist(), 1):
                 self._table[key] = self._number(case(key))
             found = self._table.take(keys)
         return found

@@ -12,13 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from lsys_kit.budget import counted
+from lsys_kit.budget import check_budget, counted
 from lsys_kit.derivation.core.states import States
 
 BYTES = 256
 """How many different bytes there are."""
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
+MODULES_BETWEEN_CHECKS = 2**16
+"""The budget is checked after so many modules that are written one by one or copied."""
 STEPS_BETWEEN_CHECKS = 10
 """The budget is checked after so many steps of a few thousand states at most."""
 PIECE = 64
@@ -108,9 +110,12 @@ def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any
     word = np.empty(sum(sizes[0][state] for state in states.axiom), dtype=code_type(len(states)))
     written: dict[tuple[int, int], int] = {}
     todo = [(state, 0) for state in reversed(states.axiom)]
-    at = 0
+    at = look = 0
     while todo:
         state, step = todo.pop()
+        if at >= look:
+            check_budget()
+            look = at + MODULES_BETWEEN_CHECKS
         size = sizes[step][state]
         if size <= PIECE:
             word[at:at + size] = pieces[step][state]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from itertools import count, islice
 
 from lsys_kit.budget import check_budget, check_bytes
@@ -55,11 +56,18 @@ def orbit(table: States) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
     ([2, 1], ((1, 1), [(1, 0), (1, 1)]))
     """
     rows = list(held(row_of(table, counts) for counts in islice(counts_of_steps(table), 2 * len(table) + 2)))
-    for trial in count():
-        weights = [splitmix64(splitmix64(trial) ^ state) % 2**20 for state in range(len(table))]
-        rule = tuple(map(int, shortest_rule([sum(map(int.__mul__, weights, row)) for row in rows])))
-        size = len(rule)
-        if all(column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c)
-               for column in zip(*rows, strict=True)):
-            return rule, rows[:size]
-    raise AssertionError("every trial failed")
+    rule = next(rule for rule in map(partial(_rule_of_weighted_sum, rows), count()) if _continued(rule, rows))
+    return rule, rows[:len(rule)]
+
+
+def _rule_of_weighted_sum(rows: Sequence[Sequence[int]], trial: int) -> tuple[int, ...]:
+    """The shortest rule of a sum of the counts, with other weights at each trial."""
+    weights = [splitmix64(splitmix64(trial) ^ state) % 2**20 for state in range(len(rows[0]))]
+    return tuple(map(int, shortest_rule([sum(map(int.__mul__, weights, row)) for row in rows])))
+
+
+def _continued(rule: Sequence[int], rows: Sequence[Sequence[int]]) -> bool:
+    """Whether a rule gives each count of the row behind the first ones."""
+    size = len(rule)
+    return all(column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c)
+               for column in zip(*rows, strict=True))

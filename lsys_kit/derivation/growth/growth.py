@@ -30,7 +30,7 @@ from lsys_kit.derivation.growth.recurrences import (
     shortest_rule,
 )
 from lsys_kit.derivation.growth.slicing import slice_system
-from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 
@@ -106,18 +106,19 @@ class Growth:
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).counts_of("b", 6)
         [0, 1, 1, 2, 3, 5, 8]
         """
+        require(symbol, str, "A symbol")
         return self._summed(steps, [state for state, module in enumerate(self.states) if module.symbol == symbol])
 
     def _summed(self, steps: int, states: Sequence[int]) -> list[int]:
-        _check_step(steps)
+        last = whole_number(steps, "The step")
         with Task("The lengths were not found"):
-            followed = islice(counts_of_steps(self.table), steps + 1)
+            followed = islice(counts_of_steps(self.table), last + 1)
             rows = ((sum(counts.get(state, 0) for state in states),) for counts in followed)
             return [length for length, in held(rows)]
 
     def _check(self, step: int) -> None:
         """Refuse a step that is no whole number, or so late that its counts would be too long to use."""
-        _check_step(step)
+        step = whole_number(step, "The step")
         digits = step * math.log10(max(greatest_root(self.recurrence, exact=False), 1)) if step > DIGITS else 0
         if digits > DIGITS:
             raise ModelLimitError(f"The numbers of step {step:,} would have about {digits:,.0f} digits; "
@@ -249,11 +250,6 @@ class Growth:
         rule = rule.replace("+ -1 ", "- ").replace("+ -", "- ")
         return (f"{len(self.table)} states; lengths {', '.join(map(str, self.lengths(9)))}, ...; "
                 f"N(t) = {rule or 0}; growth per step {self.rate:.4f}")
-
-
-def _check_step(step: object) -> None:
-    if isinstance(step, bool) or not isinstance(step, int) or step < 0:
-        raise ModelValueError(f"The step must be a whole number from 0 on, not {shown(step)}")
 
 
 def growth(system: LSystem, **constants: object) -> Growth:

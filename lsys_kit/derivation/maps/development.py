@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import overload
 
-from lsys_kit.budget import Task, check_budget
+from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.maps.divisions import map_step
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
-from lsys_kit.errors import ModelLimitError, ModelValueError, shown
+from lsys_kit.errors import ModelLimitError, whole_number
 from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
 
 MOST_MAPS_SHOWN = 400
@@ -48,8 +48,9 @@ class Development(Sequence[Map]):
         return self._maps[index]
 
     def __repr__(self) -> str:
-        lines = (f"{step} {found}" for step, found in enumerate(self._maps))
-        return "\n".join(line if len(line) <= MOST_MAPS_SHOWN else f"{line[:MOST_MAPS_SHOWN]}..." for line in lines)
+        with Task("The text of the maps was not written"):
+            lines = (f"{step} {found}" for step, found in enumerate(counted(self._maps, 1)))
+            return "\n".join(line if len(line) <= MOST_MAPS_SHOWN else f"{line[:MOST_MAPS_SHOWN]}..." for line in lines)
 
 
 def develop(system: MapSystem, steps: int) -> Development:
@@ -75,8 +76,7 @@ def develop(system: MapSystem, steps: int) -> Development:
     1 D>A>B>C> | B>B>B>A<
     2 C>D>A>B> | B>B>B>A< | B>B>B>B<D<
     """
-    if isinstance(steps, bool) or not isinstance(steps, int) or steps < 0:
-        raise ModelValueError(f"The number of steps must be a whole number from 0 on, not {shown(steps)}")
+    steps = whole_number(steps, "The number of steps")
     maps = [first_map(system)]
     productions = {production.predecessor: production for production in system.productions}
     with Task():

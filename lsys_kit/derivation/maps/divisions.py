@@ -39,7 +39,7 @@ class Mark(NamedTuple):
 
 def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) -> Map:
     """The map of the next step."""
-    check_walls(sum(len(_successor(wall, productions)) for wall in found.walls), step)
+    check_walls(sum(len(_successor(wall, productions)) for wall in counted(found.walls)), step)
     vertices, walls = [*found.vertices], list[Wall]()
     partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in counted(found.walls)]
     cells, mothers = [], []
@@ -89,7 +89,7 @@ def _replaced(sides: Sequence[Side], partings: Sequence[DividedWall]) -> tuple[l
     """The sides of a cell after the replacement of its walls, and the markers that point into it."""
     made: list[Side] = []
     marks: list[Mark] = []
-    for wall, forward in sides:
+    for wall, forward in counted(sides):
         parting = partings[wall]
         way, inside = (1, RIGHT) if forward else (-1, LEFT)
         before = len(made)
@@ -122,7 +122,7 @@ def matching(marks: Sequence[Mark]) -> tuple[Mark, Mark] | None:
     nowhere.
     """
     passed: dict[Edge, Mark] = {}  # keep only the first marker of each kind: the markers of one wall stand side by side
-    for mark in marks:
+    for mark in counted(marks):
         other = passed.get(mark.edge.turned)
         if other and other.wall != mark.wall:
             return other, mark

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple
 
+from lsys_kit.budget import Task, counted
 from lsys_kit.notation.model.maps import Edge
 
 
@@ -81,7 +82,7 @@ class Map:
 
     def word(self, sides: Sequence[Side]) -> tuple[Edge, ...]:
         """The letters of some sides, as one walks along them."""
-        return tuple(self._edge(side) for side in sides)
+        return tuple(self._edge(side) for side in counted(sides))
 
     def _edge(self, side: Side) -> Edge:
         wall = self.walls[side.wall]
@@ -92,7 +93,8 @@ class Map:
         return [self.walls[wall].start if forward else self.walls[wall].end for wall, forward in sides]
 
     def __str__(self) -> str:
-        return " | ".join("".join(map(str, self.word(cell))) for cell in self.cells)
+        with Task("The text of the map was not written"):
+            return " | ".join("".join(map(str, self.word(cell))) for cell in counted(self.cells))
 
 
 def cell_words(found: Map) -> Iterator[tuple[Edge, ...]]:

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.words import Word, state_counts
-from lsys_kit.errors import ModelValueError, require
+from lsys_kit.errors import ModelValueError, require, whole_number
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
@@ -131,11 +132,19 @@ class Stages:
         """
         require(word, Iterable, "A word")
         found: Counter[int | None] = Counter()
-        counts = Counter({word.states.modules[s]: n for s, n in state_counts(word).items()} if isinstance(word, Word) else word)
-        for module, count in counts.items():
+        counts = ((word.states.modules[state], count) for state, count in state_counts(word).items()) \
+            if isinstance(word, Word) else ((module, 1) for module in word)
+        for module, count in counts:
             require(module, Module, "A word of modules")
             found[self.place_of(module)] += count
         return tuple(found[place] for place in range(len(self.places)))
+
+    def in_places(self, tokens: Sequence[Value]) -> Sequence[Value]:
+        """Numbers of tokens, one for each place."""
+        require(tokens, Sequence, "A row of numbers of tokens")
+        if len(tokens) != len(self.places):
+            raise ModelValueError(f"The net has {len(self.places)} places; {len(tokens)} numbers of tokens do not fit it")
+        return tokens
 
     def fired(self, tokens: Sequence[int], chance: Chance | None = None) -> tuple[int, ...]:
         """The tokens after one step, in which every token moves.
@@ -163,7 +172,8 @@ class Stages:
         [94, 104, 92, 104]
         """
         self._check_moving()
-        return tuple(map(int, self._moved(tokens, self._firings(tokens, chance))))
+        given = [whole_number(each, "A number of tokens") for each in self.in_places(tokens)]
+        return tuple(map(int, self._moved(given, self._firings(given, chance))))
 
     def expected(self, steps: int, tokens: Sequence[Value] | None = None) -> tuple[Value, ...]:
         """How many tokens are expected in each place after some steps: the mean over all that chance may do, exactly.
@@ -187,10 +197,13 @@ class Stages:
         >>> stages(read("axiom: F\\nF -> F F F : 2\\nF -> F : 1")).expected(2)
         (Fraction(49, 9),)
         """
+        last = whole_number(steps, "The number of steps")
         self._check_moving()
-        found = tuple(self.start if tokens is None else tokens)
+        found = tuple(self.start if tokens is None else self.in_places(tokens))
+        for each in found:
+            require(each, Real, "A number of tokens")
         with Task("The tokens that are expected were not found"):
-            for _ in counted(range(steps), 1):
+            for _ in counted(range(last), 1):
                 found = self._moved(found, [found[way.place] * (1 if way.chance is None else way.chance)
                                             for way in self.transitions])
         return found

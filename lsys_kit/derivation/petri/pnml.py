@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from lsys_kit.derivation.petri.net import Arc, Stages, Transition, likelihood
-from lsys_kit.errors import ModelValueError, require
+from lsys_kit.errors import require, whole_number
 from lsys_kit.notation.model.arithmetic import number_text
 
 GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
@@ -76,10 +76,8 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
     </pnml>
     """
     require(net, Stages, "A stage diagram")
-    require(tokens, (Sequence, type(None)), "A row of numbers of tokens")
-    marking = net.start if tokens is None else tokens
-    if len(marking) != len(net.places):
-        raise ModelValueError(f"The net has {len(net.places)} places; {len(marking)} numbers of tokens do not fit it")
+    given = net.start if tokens is None else net.in_places(tokens)
+    marking = [whole_number(each, "A number of tokens") for each in given]
     root = Element("pnml", xmlns=f"{GRAMMAR}pnml")
     whole = SubElement(root, "net", id="net", type=f"{GRAMMAR}ptnet")
     _labelled(whole, "name", "stages")

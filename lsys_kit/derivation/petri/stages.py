@@ -30,7 +30,7 @@ from lsys_kit.derivation.petri.net import Transition as Transition
 from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
 from lsys_kit.derivation.timed.ages import AgeModel, age_model
 from lsys_kit.derivation.timed.timed import Timed
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelValueError, require
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.notation.model.system import LSystem
@@ -95,6 +95,8 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
 
 
 def _stages(system: LSystem | Timed, polarity: bool, durations: bool, constants: dict[str, object]) -> Stages:
+    require(polarity, bool, 'True or False for "polarity"')
+    require(durations, bool, 'True or False for "durations"')
     if isinstance(system, Timed):
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from lsys_kit.budget import INTERVAL, counted
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.turtle.commands import COMMANDS, Command
 from lsys_kit.notation.model.arithmetic import Value
@@ -56,11 +57,16 @@ def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str, angle: Val
     >>> {state: [(each.action, each.factor, each.addend) for each in found] for state, found in compiled.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
     """
-    table, symbols = COMMANDS[dialect], {module.symbol for image in drawn.values() for module in image}
+    table, symbols = COMMANDS[dialect], {module.symbol for image in counted(drawn.values()) for module in image}
     called = _EXPECTED_SURFACE if "~" in symbols & table.keys() else ()
     commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
-    return {state: [_instruction(command, module, angle) for module in image for command in commands[module.symbol]]
-            for state, image in drawn.items()}
+    return {state: [_instruction(command, module, angle) for module in _counted(image) for command in commands[module.symbol]]
+            for state, image in counted(drawn.items())}
+
+
+def _counted(image: Sequence[Module]) -> Iterable[Module]:
+    """The modules that a state is drawn as, with looks at the budget where they are many."""
+    return counted(image) if len(image) > INTERVAL else image
 
 
 def _instruction(command: Command, module: Module, angle: Value) -> Instruction:
@@ -133,7 +139,7 @@ def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> 
     """
     known = {module.symbol for rule in (*system.productions, *system.decomposition) for module in rule.predecessors}
     known |= COMMANDS[system.turtle].keys()
-    met = dict.fromkeys(module.symbol for image in drawn.values() for module in image)
+    met = dict.fromkeys(module.symbol for image in counted(drawn.values()) for module in image)
     return tuple(symbol for symbol in met
                  if symbol not in known and _looks_like_a_command(symbol, TURTLE_DIALECTS[system.turtle]))
 

@@ -10,7 +10,7 @@ from operator import attrgetter
 from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.budget import counted, current
-from lsys_kit.derivation.core.interpretation import interpretations
+from lsys_kit.derivation.core.interpretation import interpretations, modules_between_checks
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
@@ -238,7 +238,7 @@ def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
     with _without_garbage_collection():
         compiled = compile_word(word, handlers, prepare)
         turtle.unknown = dict.fromkeys(compiled.unknown)
-        for state in counted(word.numbers()):
+        for state in counted(word.numbers(), modules_between_checks(compiled.calls.values())):
             turtle.state = state
             for handler, operand in compiled.calls[state]:
                 handler(turtle, operand)
@@ -278,5 +278,5 @@ def compile_word(word: Word, handlers: Mapping[str, Handler], prepare: Callable[
     system, drawn = word.states.system, interpretations(word.states, word.numbers())
     calls = {state: [(handlers[instruction.action], prepare(instruction)) for instruction in found
                      if instruction.action in handlers]
-             for state, found in instructions(drawn, system.turtle, system.angle).items()}
+             for state, found in counted(instructions(drawn, system.turtle, system.angle).items())}
     return CompiledWord(calls, unknown_commands(drawn, system))

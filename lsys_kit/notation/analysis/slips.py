@@ -36,6 +36,8 @@ def slips(system: LSystem) -> Iterator[Problem]:
 def _comments(system: LSystem) -> Iterator[Problem]:
     """The ends of successors that read like a comment: a sign that begins one elsewhere, and words that occur nowhere else."""
     comments = [(rule, _comment(rule.successor, system.source)) for rule in system.rules]
+    if not any(comment for _, comment in comments):
+        return
     said = (module.symbol for rule, comment in comments for module in islice(flat(rule.successor), _before(rule, comment)))
     known = {*said, *(module.symbol for rule in system.rules for module in rule.predecessors),
              *(module.symbol for module in system.axiom)}
@@ -70,10 +72,13 @@ def _in_sentence(item: Item) -> bool:
 
 def _decimal_commas(system: LSystem) -> Iterator[Problem]:
     """Two whole numbers as values of what has one value elsewhere: probably one number, with a point."""
+    whole = [module for module in system.modules if len(module.arguments) == 2 and all(map(_is_whole, module.arguments))]
+    if not whole:
+        return
     single = {module.symbol for module in system.modules if len(module.arguments) == 1} | _ONE_VALUE
     pairs = {module.symbol for rule in system.rules for module in rule.parameters if len(module.arguments) == 2}
-    for module in dict.fromkeys(system.modules):
-        if module.symbol in single - pairs and len(module.arguments) == 2 and all(map(_is_whole, module.arguments)):
+    for module in dict.fromkeys(whole):
+        if module.symbol in single - pairs:
             start, end = module.at or (0, 0)
             typed = _DECIMAL_COMMA.search(system.source[start:end + 1]) or _DECIMAL_COMMA.search(str(module))
             meant = f"{module.symbol}({typed[1]}.{typed[2]})" if typed else None

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
+from lsys_kit.budget import Task
 from lsys_kit.errors import ModelFileError, quotable
 from lsys_kit.files import save_file
 
@@ -33,7 +34,9 @@ def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
     if path.suffix.lower() not in formats:
         raise ModelFileError(f'This picture cannot be written to "{quotable(path.name)}"',
                              hint=f"Let the name end in {_listed(formats)}. {hint}".rstrip())
-    save_file(path, formats[path.suffix.lower()]())
+    with Task("The file was not written"):
+        content = formats[path.suffix.lower()]()
+    save_file(path, content)
 
 
 def _listed(endings: Iterable[str]) -> str:

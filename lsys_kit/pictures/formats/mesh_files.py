@@ -16,14 +16,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lsys_kit.geometry.meshes import Mesh, Numbers, Singles
+from lsys_kit.budget import check_budget, check_bytes, counted
+from lsys_kit.geometry.meshes import Mesh
+from lsys_kit.geometry.solids import Numbers, Singles
 from lsys_kit.pictures.display_list import numbered_colours
 
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963
 """How glTF calls kinds of numbers, and what a part of its bytes is for."""
-ROWS_AT_A_TIME = 65_536
-"""The number of lines of text that are formatted at a time."""
+ROWS_AT_A_TIME, LINE_BYTES = 65_536, 42
+"""The number of lines of text that are formatted at a time, and about how long one is."""
 
 
 class ColouredMesh(NamedTuple):
@@ -47,10 +49,23 @@ def by_colour(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[ColouredMesh
     """
     names, colours = numbered_colours(mesh.states, mesh.colours, colour_of)
     first = colours[mesh.triangles[:, 0]]
-    for number in np.unique(first).tolist():
-        ours, triangles = np.flatnonzero(colours == number), mesh.triangles[first == number]
-        renumbered = np.searchsorted(ours, triangles).astype(np.uint32)
-        yield ColouredMesh(names[number], _upright(mesh.vertices[ours]), _upright(mesh.normals[ours]), renumbered)
+    renumbered = np.empty(len(colours), np.uint32)
+    for number in np.flatnonzero(np.bincount(first)).tolist():
+        check_budget()
+        ours = np.flatnonzero(colours == number)
+        renumbered[ours] = np.arange(len(ours), dtype=np.uint32)
+        yield ColouredMesh(names[number], _upright(mesh.vertices[ours]), _upright(mesh.normals[ours]),
+                           renumbered[mesh.triangles[first == number]])
+
+
+def _bytes_of(mesh: Mesh) -> int:
+    """How many bytes the numbers of a mesh take that are written."""
+    return mesh.vertices.nbytes + mesh.normals.nbytes + mesh.triangles.nbytes
+
+
+def _check_copies(mesh: Mesh, copies: int) -> None:
+    """Refuse a file that takes too much memory while it is written, besides its mesh."""
+    check_bytes(_bytes_of(mesh) + mesh.states.nbytes + mesh.colours.nbytes + copies, lambda: "The file was not written")
 
 
 def _upright(points: Singles) -> Singles:
@@ -63,6 +78,7 @@ def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     """A mesh as one file of glTF 2.0."""
     tree: dict[str, Any] = {"asset": {"version": "2.0", "generator": "lsys-kit"}}
     lists: dict[str, list[Any]] = {"materials": [], "accessors": [], "bufferViews": []}
+    _check_copies(mesh, 3 * _bytes_of(mesh))
     primitives, data = [], bytearray()
     for number, part in enumerate(by_colour(mesh, colour_of)):
         attributes = {"POSITION": _accessor(lists, data, part.vertices), "NORMAL": _accessor(lists, data, part.normals)}
@@ -71,13 +87,14 @@ def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     if primitives:  # in glTF no list is empty
         tree |= {"scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": primitives}],
                  **lists, "buffers": [{"byteLength": len(data)}]}
-    return _packed(json.dumps(tree, separators=(",", ":")).encode(), bytes(data))
+    return _packed(json.dumps(tree, separators=(",", ":")).encode(), data)
 
 
 def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | Numbers) -> int:
     """Append numbers to the buffer; return the index of their accessor."""
     vectors = rows.dtype == np.float32
-    added = rows.astype(rows.dtype.newbyteorder("<")).tobytes()
+    check_budget()
+    added = rows.astype(rows.dtype.newbyteorder("<"), copy=False).tobytes()
     lists["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(added),
                                  "target": _VERTICES if vectors else _INDICES})
     accessor = {"bufferView": len(lists["bufferViews"]) - 1, "componentType": _FLOAT if vectors else _UNSIGNED,
@@ -111,11 +128,14 @@ def _linear(channel: float) -> float:
     return channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4
 
 
-def _packed(tree: bytes, data: bytes) -> bytes:
+def _packed(tree: bytes, data: bytearray) -> bytes:
     """The header of a .glb file, its JSON and its binary chunk, each padded to four bytes."""
-    chunks = [(b"JSON", tree + b" " * (-len(tree) % 4)), *([(b"BIN\0", data + bytes(-len(data) % 4))] if data else [])]
-    body = b"".join(struct.pack("<I", len(chunk)) + kind + chunk for kind, chunk in chunks)
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+    tree += b" " * (-len(tree) % 4)
+    data += bytes(-len(data) % 4)
+    chunks: list[bytes | bytearray] = [struct.pack("<I4s", len(tree), b"JSON"), tree]
+    if data:
+        chunks += [struct.pack("<I4s", len(data), b"BIN\0"), data]
+    return b"".join([struct.pack("<4sII", b"glTF", 2, 12 + sum(map(len, chunks))), *chunks])
 
 
 def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
@@ -128,19 +148,21 @@ def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
     library
         The name of the accompanying .mtl file.
     """
-    found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n"], 1
+    _check_copies(mesh, 2 * LINE_BYTES * (len(mesh.triangles) + 2 * len(mesh.vertices)) + _bytes_of(mesh))
+    found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n".encode()], 1
     for part in by_colour(mesh, colour_of):
-        corners = np.repeat(part.triangles.astype(np.int64) + first, 2, axis=1)
         found += [*_formatted_rows("v %.7g %.7g %.7g\n", part.vertices), *_formatted_rows("vn %.7g %.7g %.7g\n", part.normals),
-                  f"usemtl {_material_name(part.colour)}\n", *_formatted_rows("f %d//%d %d//%d %d//%d\n", corners)]
+                  f"usemtl {_material_name(part.colour)}\n".encode(),
+                  *_formatted_rows("f %d//%d %d//%d %d//%d\n", part.triangles, repeated=2, added=first)]
         first += len(part.vertices)
-    return "".join(found).encode()
+    return b"".join(found)
 
 
-def _formatted_rows(pattern: str, rows: np.ndarray[Any, Any]) -> Iterator[str]:
-    for first in range(0, len(rows), ROWS_AT_A_TIME):
-        some = rows[first:first + ROWS_AT_A_TIME]
-        yield pattern * len(some) % tuple(some.ravel().tolist())
+def _formatted_rows(pattern: str, rows: Singles | Numbers, repeated: int = 1, added: int = 0) -> Iterator[bytes]:
+    """The lines for some rows, block by block; each number has something added, and stands there several times."""
+    for first in counted(range(0, len(rows), ROWS_AT_A_TIME), 1):
+        some = np.repeat(rows[first:first + ROWS_AT_A_TIME] + rows.dtype.type(added), repeated, axis=1)
+        yield (pattern * len(some) % tuple(some.ravel().tolist())).encode()
 
 
 def mtl(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:

@@ -14,17 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget, counted
-from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene
+from lsys_kit.geometry.scene import CIRCLE, Discs, Polygons, Scene
 from lsys_kit.pictures.display_list import (
+    FACE,
     MARGIN,
+    ROUND,
     WIDTH,
-    Faces,
-    Rounds,
-    Strokes,
+    DisplayList,
     ViewFrame,
+    colours_and_widths,
     display_list,
     frame_around,
-    shape_colours,
+    numbered_colours,
 )
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 
 Coordinates: TypeAlias = NDArray[np.floating[Any]]
 Grid: TypeAlias = NDArray[np.int32]
-RunsByWidth: TypeAlias = dict[int, list[tuple[int, Integers]]]
-ShapePainter: TypeAlias = Callable[[int, int], tuple[str, str]]
+Colours: TypeAlias = NDArray[np.uint8]
+ShapePainter: TypeAlias = Callable[[int, int], None]
 FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
 CELLS_A_PIXEL = 16
@@ -58,59 +59,73 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -
     """A scene of a turtle as an image, in a frame that contains it.
 
     Each point of a fine grid gets the number of what is seen there. Numbers grow along the display list: of two shapes the one
-    with the greater number covers the other.
+    with the greater number covers the other. The shape at place p has the number 2p + 1, and its edge 2p + 2; of a run of
+    strokes all have the number of the first.
     """
     from PIL import Image
 
-    seen, strokes, colours = _painted_shapes(scene, colour_of, frame)
-    across, down = _pixels(scene, frame)
-    for width, runs in strokes.items():
-        _paint_strokes(seen, width * FINE / 20, runs, across, down)
-    shades = np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
-    return Image.fromarray(shades[seen]).resize((frame.width, frame.height), Image.Resampling.BOX)
+    shapes = display_list(scene, frame.scale, colour_of)
+    seen = _painted_surfaces(shapes, scene, frame)
+    _paint_strokes(seen, shapes, *_pixels(scene, frame))
+    colours = _colours(shapes, scene, colour_of)
+    return Image.fromarray(colours[seen]).resize((frame.width, frame.height), Image.Resampling.BOX)
 
 
-def _painted_shapes(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> tuple[Grid, RunsByWidth, list[str]]:
-    """The grid with polygons and discs, for each width the strokes with their numbers, and the colour of each number."""
+def _painted_surfaces(shapes: DisplayList, scene: Scene, frame: ViewFrame) -> Grid:
+    """The grid with the numbers of polygons and discs."""
     from PIL import Image, ImageDraw
 
     sheet = Image.new("I", (frame.width * FINE, frame.height * FINE), 0)
     pen = ImageDraw.Draw(sheet)
-    painters = {Faces: _face_painter(scene.polygons, colour_of, frame, pen),
-                Rounds: _round_painter(scene.discs, colour_of, frame, pen)}
-    strokes: RunsByWidth = {}
-    colours = [PAPER]
-    for run in counted(display_list(scene, frame.scale, colour_of)):
-        if isinstance(run, Strokes):
-            strokes.setdefault(run.width, []).append((len(colours), run.numbers))
-            colours.append(run.colour)
-        else:
-            for number in counted(run.numbers.tolist()):
-                colours += painters[type(run)](number, len(colours))
-    return np.array(sheet), strokes, colours
+    painters = {FACE: _face_painter(scene.polygons, frame, pen), ROUND: _round_painter(scene.discs, frame, pen)}
+    kinds = np.repeat(np.minimum(shapes.keys, 0).astype(np.int8), np.diff(shapes.starts))
+    places = np.flatnonzero(kinds)
+    surfaces = kinds[places].tolist(), shapes.numbers[places].tolist(), places.tolist()
+    for kind, which, place in counted(zip(*surfaces, strict=True)):
+        painters[kind](which, 2 * place + 1)
+    return np.array(sheet)
 
 
-def _face_painter(polygons: Polygons, colour_of: Mapping[int, str], frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
-    """A function that paints a polygon, inside with a number and its edge with the next one, and returns their colours."""
-    corners, colours = list(polygons), shape_colours(polygons, colour_of)
+def _face_painter(polygons: Polygons, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+    """A function that paints a polygon, inside with a number and its edge with the next one."""
+    corners, ends = (frame.points(polygons.points) * (FINE / 10)).ravel().tolist(), (2 * polygons.starts).tolist()
 
-    def paint(which: int, number: int) -> tuple[str, str]:
-        points = (frame.points(corners[which]) * (FINE / 10)).ravel().tolist()
+    def paint(which: int, number: int) -> None:
+        points = corners[ends[which]:ends[which + 1]]
         pen.polygon(points, fill=number)
         pen.line(points + points[:2], fill=number + 1, width=2)
-        return tinted(colours[which], 0.7), colours[which]
     return paint
 
 
-def _round_painter(discs: Discs, colour_of: Mapping[int, str], frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+def _round_painter(discs: Discs, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
     """The same for circles, discs and spheres."""
-    middles, colours = (frame.points(discs.centres) * (FINE / 10)).tolist(), shape_colours(discs, colour_of)
+    middles, radii = (frame.points(discs.centres) * (FINE / 10)).tolist(), discs.radii.tolist()
 
-    def paint(which: int, number: int) -> tuple[str, str]:
-        (x, y), reach = middles[which], max(2.0, float(discs.radii[which]) * frame.scale * FINE)
+    def paint(which: int, number: int) -> None:
+        (x, y), reach = middles[which], max(2.0, radii[which] * frame.scale * FINE)
         pen.ellipse((x - reach, y - reach, x + reach, y + reach), fill=number, outline=number + 1, width=FINE)
-        return PAPER if discs.kinds[which] == CIRCLE else tinted(colours[which], 0.7), colours[which]
     return paint
+
+
+def _colours(shapes: DisplayList, scene: Scene, colour_of: Mapping[int, str]) -> Colours:
+    """Red, green and blue of each number."""
+    found = np.zeros((2 * len(shapes.numbers) + 2, 3), np.uint8)
+    found[0], strokes = _channels([PAPER]), shapes.keys >= 0
+    found[2 * shapes.starts[:-1][strokes] + 1] = _channels(shapes.looks.names)[colours_and_widths(shapes.keys[strokes])[0]]
+    for key, kind in ((FACE, scene.polygons), (ROUND, scene.discs)):
+        places = np.flatnonzero(np.repeat(shapes.keys == key, np.diff(shapes.starts)))
+        names, numbers = numbered_colours(kind.states, kind.colours, colour_of)
+        which = shapes.numbers[places]
+        found[2 * places + 1] = _channels([tinted(name, 0.7) for name in names])[numbers[which]]
+        found[2 * places + 2] = _channels(names)[numbers[which]]
+        if key == ROUND:
+            found[2 * places[scene.discs.kinds[which] == CIRCLE] + 1] = _channels([PAPER])
+    return found
+
+
+def _channels(colours: Sequence[str]) -> Colours:
+    """Red, green and blue of colours."""
+    return np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
 
 
 def _pixels(scene: Scene, frame: ViewFrame) -> tuple[Coordinates, Coordinates]:
@@ -121,18 +136,23 @@ def _pixels(scene: Scene, frame: ViewFrame) -> tuple[Coordinates, Coordinates]:
     return (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
 
 
-def _paint_strokes(seen: Grid, radius: float, runs: Sequence[tuple[int, Integers]], across: Coordinates,
-                   down: Coordinates) -> None:
-    """Paint strokes of one width over what has smaller numbers.
+def _paint_strokes(seen: Grid, shapes: DisplayList, across: Coordinates, down: Coordinates) -> None:
+    """Paint strokes over what has smaller numbers.
 
-    They are rasterised and then dilated all at once, so that the time depends on the number of their points.
+    Those of one width are rasterised and then dilated all at once, so that the time depends on the number of their points.
     """
-    chosen = np.concatenate([numbers for _, numbers in runs])
-    if len(runs) == 1:  # then it is enough to know where they are
-        np.maximum(seen, runs[0][0], out=seen, where=spread(touched(across[chosen], down[chosen], seen.shape), radius))
-        return
-    covering = np.repeat(np.array([number for number, _ in runs], np.int32), [len(numbers) for _, numbers in runs])
-    np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
+    starts, sizes, widths = shapes.starts, np.diff(shapes.starts), colours_and_widths(shapes.keys)[1] * (shapes.keys >= 0)
+    for width in np.unique(widths[widths > 0]).tolist():
+        runs, radius = np.flatnonzero(widths == width), width * FINE / 20
+        if len(runs) == 1:  # then it is enough to know where they are
+            first, end = starts[runs[0]:runs[0] + 2].tolist()
+            chosen = shapes.numbers[first:end]
+            found = spread(touched(across[chosen], down[chosen], seen.shape), radius)
+            np.maximum(seen, 2 * first + 1, out=seen, where=found)
+        else:
+            chosen = shapes.numbers[np.repeat(widths == width, sizes)]
+            covering = np.repeat((2 * starts[runs] + 1).astype(np.int32), sizes[runs])
+            np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
 
 
 def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
@@ -181,9 +201,11 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
     [[0, 1, 0], [1, 1, 1], [0, 1, 0]]
     >>> spread(np.array([[0, 0, 5, 7]]), 1).tolist()
     [[0, 5, 7, 7]]
+    >>> spread(np.array([[1], [0], [0], [0]]), 5).ravel().tolist()  # a disc larger than the grid
+    [1, 1, 1, 1]
     """
     row, side, whole, height = found.copy(), 0, np.zeros_like(found), len(found)  # the row is dilated to both sides
-    for up in counted(range(int(radius), -1, -1), 1):
+    for up in counted(range(min(int(radius), height - 1), -1, -1), 1):
         while side < int((radius * radius - up * up) ** 0.5):
             side += 1
             np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])

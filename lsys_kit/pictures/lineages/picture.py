@@ -16,7 +16,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from lsys_kit.budget import current
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
@@ -57,7 +57,8 @@ class LineagePicture:
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        return drawn_lineage(self.lineage, self.intervals)
+        with Task("The picture was not drawn"):
+            return drawn_lineage(self.lineage, self.intervals)
 
     def save(self, path: str | Path) -> None:
         """Write the picture to an .svg file.

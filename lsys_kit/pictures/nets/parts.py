@@ -11,6 +11,7 @@ from string import punctuation
 from lsys_kit.derivation.petri.net import Place, Stages
 from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import COMMANDS, symbols_with
+from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, terms_of, width_of
 from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, layout_of
@@ -164,7 +165,8 @@ def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, float]]:
 
 
 def _rank(place: Place) -> tuple[float, ...]:
-    return tuple(float(value) for value in place.modules[0].arguments) if place.modules else ()
+    """By what a place comes before others of its symbol: its values; unknown ones say nothing."""
+    return tuple(0.0 if is_symbolic(value) else float(value) for value in place.modules[0].arguments) if place.modules else ()
 
 
 def _bar(bar: BarPosition, terms: str, full: str) -> BarPart:

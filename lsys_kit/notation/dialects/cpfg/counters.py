@@ -71,8 +71,8 @@ def with_counters(axiom: Sequence[Pattern], productions: Sequence[Production], o
     >>> print(*axiom, *rules, said, sep="; ")
     A(0); A(n) : n < 5 -> F A(n + 1); A(n) -> A(n + 1); To follow the steps A carries n as a parameter.
     """
-    names = _needed(productions, counters.following)
-    kinds = _carriers(productions, names)
+    names = _needed(productions, counters.following) if counters.following else ()
+    kinds = _carriers(productions, names) if names else set()
     if not kinds or not _possible(axiom, productions, others, counters, names, kinds):
         return None
     carrying = _Carrying(names, kinds, counters)

@@ -69,7 +69,7 @@ def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
     loop = re.search(r"[{;}]\s*(while|do)\b", failure.statement)
     if loop:
         return failure.error("The kit has no loops", _OWN_BLOCK, failure.start + loop.start(1), len(loop[1]))
-    name, what = re.search(r"\w+$", failure.before), _BEHIND_A_NAME.get(failure.found[:1])
+    name, what = re.search(r"\b\w++$", failure.before), _BEHIND_A_NAME.get(failure.found[:1])
     behind = failure.accepted == {"EQUAL", "LPAR"} or (what == "arrays" and "TIMES" in failure.accepted)
     if name is None or what is None or not behind:
         return None
@@ -115,7 +115,7 @@ def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
     """A keyword that is misspelt, or without its colon or its value."""
     statement = failure.statement
     word = re.match(r"([A-Za-z]{3,}(?:[ \t]+[A-Za-z]{3,})?)[ \t]*(:?)[ \t]*", statement)
-    if not word or ARROW.search(statement) or re.match(r"(start|end)[ \t]*(each)?[ \t]*:\s*\{", statement, re.IGNORECASE):
+    if not word or ARROW.search(statement) or re.match(r"(start|end)[ \t]*+(each)?[ \t]*+:\s*+\{", statement, re.IGNORECASE):
         return None
     name, rest = " ".join(word[1].lower().split()), excerpt(statement[word.end():].strip())
     keyword = _SYNONYMS.get(name) or _similar_keyword(name)

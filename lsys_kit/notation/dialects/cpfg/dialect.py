@@ -91,8 +91,8 @@ def _variables(draft: Draft) -> Variables:
     check_constants(draft.constants)
     if found.seed is not None and all(record[0] != "seed" for kind, record, _ in draft.deferred if kind == "count"):
         draft.deferred.append(("count", ("seed", found.seed), found.seed.at or (0, 0)))
-    silent = sorted({name for name in SILENT if re.search(rf"\b{name}[ \t]*\(", draft.source)} | {"End:"} & {
-        "End:" for phase in phases if phase == "end"})
+    called = {name for name in SILENT if name in draft.source and re.search(rf"\b{name}[ \t]*\(", draft.source)}
+    silent = sorted(called | {"End:" for phase in phases if phase == "end"})
     if silent:
         draft.notes.append(f"Left out, because it changes nothing in the model: {', '.join(silent)}.")
     return found

@@ -20,12 +20,13 @@ Parse = Callable[[str, str], Any]
 """Parses a text as an "expression" or as a "word"."""
 _NAME = re.compile(r"(?<!\w)[A-Za-z_]\w*")
 _OBJECT = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)(?!\()", re.MULTILINE)
-_LIKE_A_NUMBER = re.compile(r"-?[\d.(=]|[A-Za-z_]\w*[ \t]*[(*/+%^-]")
+_LIKE_A_NUMBER = re.compile(r"-?[\d.(=]|[A-Za-z_]\w*+[ \t]*+[(*/+%^-]")
 _RANDOM = re.compile(r"\b(?:n|b|bi)?ran\s*\(")
 _OPENED, _INDEXED, _SIGNS = re.compile(r"\s*\("), re.compile(r"\s*\["), re.compile(r"[()\[\]{},]")
-_ARRAY = re.compile(r"([A-Za-z_]\w*)\s*\[[^\[\]{}]*\]\s*=\s*\{([^{}]*)\}")
-_CHANGED = re.compile(r"([A-Za-z_]\w*)\s*\[[^\[\]=]*\]\s*=(?![={]|\s*\{)")
+_ARRAY = re.compile(r"\b([A-Za-z_]\w*+)\s*+\[[^\[\]{}]*+\]\s*+=\s*+\{([^{}]*+)\}")
+_CHANGED = re.compile(r"\b([A-Za-z_]\w*+)\s*+\[[^\[\]=]*+\]\s*+=(?![={]|\s*\{)")
 _DIGITS = re.compile(r"[\d.,\s]+")
+_PARAMETERS = re.compile(r"\(\s*+((?:[A-Za-z_]\w*+\s*+(?:,\s*+)?)*+)\)")
 
 
 @dataclass(frozen=True)
@@ -199,7 +200,7 @@ def macro_of(name: str, rest: str, known: Collection[str]) -> Macro | None:
     >>> macro_of("twice", "(t) (2*t)", ()), macro_of("DEBUG", "", ["DEBUG"]), macro_of("dt", " 0.5", ())
     (Macro(body='(2*t)', parameters=('t',), elements=()), Macro(body='', parameters=None, elements=()), None)
     """
-    parameters = re.match(r"\(\s*((?:[A-Za-z_]\w*\s*(?:,\s*)?)*)\)", rest)
+    parameters = _PARAMETERS.match(rest)
     if parameters:
         return Macro(rest[parameters.end():].strip(), tuple(_NAME.findall(parameters[1])))
     return Macro("") if not rest.strip() and name in known else None

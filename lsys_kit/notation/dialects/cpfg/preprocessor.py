@@ -22,6 +22,8 @@ _ANY_DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(?:define|undef|if|ifdef|ifndef|elif
 _PROSE = re.compile(r"(?<=[ \t])//[ \t]*(?:[A-Za-z]{1,2}[ \t]+)?[A-Za-z]?[a-z]{2,}(?![\w(\[\]+&^])[^\n]*")
 """A comment as C++ has it: behind a blank, and with a word after it that is no row of symbols."""
 _ARRAYS = re.compile(r"^[ \t]*define[ \t]*:\s*\{((?:[^{}]|\{[^{}]*\})*)\}", re.MULTILINE | re.IGNORECASE)
+_FOR_THE_PREPROCESSOR = (("#", _ANY_DIRECTIVE), ("//", _PROSE), ("{", _ARRAYS))
+"""What only it understands, each with a sign that is quickly found."""
 _WORD_BEFORE = re.compile(rf"{ARROW.pattern}|axiom[ \t]*:", re.IGNORECASE)
 _LINE = re.compile(r"(?:[^\n\\]++|\\(?!\n)|\\\n)+")
 _ASKED = re.compile(r"\b(?:ifdef|ifndef|defined)\W+(\w+)")
@@ -38,7 +40,7 @@ def preprocessed(source: str, parse: Parse) -> Transcript:
     parse
         What reads an "expression" or a "word".
     """
-    if not any(sign.search(source) for sign in (_ANY_DIRECTIVE, _PROSE, _ARRAYS)):
+    if not any(mark in source and sign.search(source) for mark, sign in _FOR_THE_PREPROCESSOR):
         return as_typed(source)
     return _Preprocessor(without_comments(source), parse).transcript(source)
 

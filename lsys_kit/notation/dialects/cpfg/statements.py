@@ -19,7 +19,7 @@ _KEYWORD = re.compile(
     r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider"
     r"|angle|heading|length)[ \t]*:|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
     re.IGNORECASE)
-_PHASE = re.compile(r"(start|end)[ \t]*(each)?[ \t]*:", re.IGNORECASE)
+_PHASE = re.compile(r"(start|end)[ \t]*+(each)?[ \t]*+:", re.IGNORECASE)
 _AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
 _END = re.compile(r"endlsystem\b", re.IGNORECASE)

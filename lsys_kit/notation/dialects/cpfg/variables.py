@@ -85,7 +85,7 @@ def _joined(blocks: Iterable[Block]) -> Block:
 
 def check_changing(productions: Iterable[Production], changing: frozenset[str], source: str) -> None:
     """No production uses what changes while the model runs, unless its own block computes it."""
-    for production in productions:
+    for production in productions if changing else ():
         used = names_used(production) & changing
         for expression in used_expressions(production):
             found = sorted(names_in(expression) & used)

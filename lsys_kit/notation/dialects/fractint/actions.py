@@ -17,7 +17,7 @@ from lsys_kit.notation.syntax.actions import ActionError
 
 RESERVED = frozenset("+-/\\@|!C<>[]")
 """The commands that no rule may rewrite; `F`, `G`, `D` and `M` may be rewritten."""
-_COMMAND = re.compile(r"(.)([QI]*)(.*)", re.IGNORECASE)
+_COMMAND = re.compile(r"(.)([QI]*+)(.*)", re.IGNORECASE)
 LONGEST = 100
 """So many digits a number may have."""
 LEAST, MOST = 1, 360
@@ -71,7 +71,7 @@ def _at(token: Token) -> tuple[int, int]:
 
 
 def _number(token: Token, digits: str) -> Number:
-    if not re.fullmatch(r"\d+\.?\d*|\.\d+", digits) or len(digits) > LONGEST:
+    if not re.fullmatch(r"\d++\.?\d*+|\.\d++", digits) or len(digits) > LONGEST:
         raise ActionError(ModelSyntaxError, "A command cannot take this number", _at(token),
                       'A command takes digits with at most one point, as in "@.5" or "\\30".')
     return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))

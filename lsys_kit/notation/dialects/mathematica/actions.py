@@ -224,7 +224,7 @@ class _MathematicaStatements(MathematicaExpressions):
         return "deferred", ("printed_axiom", word)
 
     def other(self, *parts: Token) -> tuple[str, Any]:
-        named = re.search(r"\w+(?=\s*\[)", parts[0]) or re.search(r"\w+", parts[0])
+        named = re.search(r"\b\w++(?=\s*+\[)", parts[0]) or re.search(r"\w+", parts[0])
         return "deferred", ("other", named.group() if named else str(parts[0]).strip())
 
 

@@ -43,8 +43,8 @@ def _innermost_bracket(failure: ParseFailure) -> tuple[str, int | None]:
     opened = _opened(failure.before)
     if opened is None:
         return "", None
-    word = re.search(r"(\w*)\s*$", failure.before[:opened])
-    return (word[1].upper() if word else ""), failure.start + opened
+    word = re.search(r"(?<!\w)\w*+$", failure.before[:opened].rstrip())
+    return (word[0].upper() if word else ""), failure.start + opened
 
 
 def _unclosed(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -106,7 +106,7 @@ def _arrow_in_brackets(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _round_brackets(failure: ParseFailure) -> ModelSyntaxError | None:
     """Round brackets where square ones belong."""
-    name = re.search(r"([A-Za-z]\w*)$", failure.before)
+    name = re.search(r"\b\d*+([A-Za-z]\w*+)$", failure.before)
     if failure.found != "(" or not name:
         return None
     return failure.error("These brackets are round", f'In Mathematica they are square: "{name[1]}[...]".')
@@ -199,7 +199,7 @@ def _lists(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 def _angles(failure: ParseFailure) -> ModelSyntaxError | None:
-    inverse = re.search(r"(Arc\w+)\s*\[[^\[\]]*\]$", failure.before)
+    inverse = re.search(r"\b(Arc\w++)\s*+\[[^\[\]]*+\]$", failure.before)
     if inverse and failure.accepted == {"TIMES"}:
         return failure.error(f"{inverse[1]}[...] is an angle in radians",
                              f'Angles are in degrees here: type "{inverse[1]}[x]/Degree".',

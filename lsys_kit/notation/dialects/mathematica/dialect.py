@@ -21,7 +21,7 @@ from lsys_kit.notation.syntax.formatting import first_missing
 from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
 from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed, edited
 
-_MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^\s*Rules\s*:",
+_MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^[^\S\n]*+Rules\s*+:",
                     re.IGNORECASE | re.MULTILINE)
 """What is found in texts of this notation, and in no others."""
 _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))

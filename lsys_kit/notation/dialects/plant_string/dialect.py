@@ -32,7 +32,7 @@ _LINE = re.compile(rf"""\s*+(?:
 _FOREIGN_KEYWORD = re.compile(
     r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)[ \t]*:", re.IGNORECASE)
 _HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
-_MARKS = tuple((re.compile(rf"\s*{pattern}", re.IGNORECASE), weight) for pattern, weight in (
+_MARKS = tuple((re.compile(pattern, re.IGNORECASE), weight) for pattern, weight in (
     (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
 """How lines begin that other notations hardly have, and how much each says."""
 
@@ -76,7 +76,7 @@ def _lacking(system: LSystem) -> str | None:
 def _likely(text: str) -> int:
     """How likely a text is a plant string: 0 where a line is not possible in one."""
     try:
-        lines = [line for line in without_comments(text).splitlines() if line.strip()]
+        lines = [line.strip() for line in without_comments(text).splitlines() if line.strip()]
     except ModelSyntaxError:
         return 0
     matches = [match for match in map(_LINE.fullmatch, lines) if match]

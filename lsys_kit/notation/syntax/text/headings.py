@@ -10,13 +10,12 @@ from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
 HEADING = (r"(?:example|beispiel|figure|fig\.?|abbildung|abb\.?|l-system|listing|exercise|aufgabe|table|tabelle)[ \t]*+"
            r"\d[\d.]*+[ \t]*+[a-z]?[ \t]*+[:.)]?[ \t]*+")
-_HEADING = re.compile(rf"[ \t]*+{HEADING}", re.IGNORECASE)
 SENTENCE = r"[A-ZÄÖÜ][a-zäöüß]*+(?:,?[ \t]++(?:[A-Za-zÄÖÜäöüß'’-]{2,}|a|I))+[.:!][ \t]*+"
 """Several words, of which none but "a" and "I" has one letter, with a full stop or a colon behind them."""
-_SENTENCE = re.compile(rf"[ \t]*+{SENTENCE}")
 RULES = r"(?:(?:rewriting |production )?rules|(?:produktions)?regeln|produktionen)\b(?![ \t]*+(?:=(?!=)|[(<>]))"
-_RULES = re.compile(rf"[ \t]*+({RULES}[ \t]*+(:?))", re.IGNORECASE)
-_AND = re.compile(r"(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
+_PRINTED = re.compile(rf"^[ \t]*+(?:(?P<rules>(?i:{RULES})[ \t]*+(?::|(?!{ARROW.pattern})))|(?:(?i:{HEADING})|{SENTENCE})$)",
+                      re.MULTILINE)
+_AND = re.compile(r"(?<![ \t])(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
 
 
 def headings(plain: str, notes: list[str]) -> Iterator[Edit]:
@@ -26,24 +25,28 @@ def headings(plain: str, notes: list[str]) -> Iterator[Edit]:
     >>> [*headings("Example 2\\naxiom: I", notes)], notes
     ([Edit(start=0, end=9, text='')], ['"Example 2" is passed over.'])
     """
-    for match in re.finditer(r"[^\n]+", plain):
-        line, start = match.group(), match.start()
-        rules = _RULES.match(line)
-        if rules and (rules[2] or rules.end() == len(line.rstrip()) or not ARROW.match(line, rules.end())):
-            yield Edit(start + rules.start(1), start + rules.end(1), "")
-            yield from _joined(line, start, rules.end())
-        elif _HEADING.fullmatch(line) or _SENTENCE.fullmatch(line):
-            notes.append(f'"{line.strip()}" is passed over.')
-            yield Edit(start, start + len(line.rstrip()), "")
-        if ARROW.search(line):
-            break
+    arrow = ARROW.search(plain)
+    until = _line_end(plain, arrow.start()) if arrow else len(plain)
+    for match in _PRINTED.finditer(plain, 0, until):
+        if match["rules"]:
+            yield Edit(*match.span("rules"), "")
+            yield from _joined(plain, match.end(), _line_end(plain, match.end()))
+        else:
+            notes.append(f'"{match.group().strip()}" is passed over.')
+            yield Edit(match.start(), match.start() + len(match.group().rstrip()), "")
 
 
-def _joined(line: str, start: int, first: int) -> Iterator[Edit]:
+def _line_end(plain: str, at: int) -> int:
+    """Where a line ends that holds an offset."""
+    end = plain.find("\n", at)
+    return end if end >= 0 else len(plain)
+
+
+def _joined(plain: str, first: int, end: int) -> Iterator[Edit]:
     """Productions joined by "and"."""
-    for word in _AND.finditer(line, first):
-        if ARROW.search(line, first, word.start()) and ARROW.search(line, word.end()):
-            yield Edit(start + word.start(), start + word.end(), "\n")
+    for word in _AND.finditer(plain, first, end):
+        if ARROW.search(plain, first, word.start()) and ARROW.search(plain, word.end(), end):
+            yield Edit(*word.span(), "\n")
 
 
 def without_headings(source: str) -> Transcript:

@@ -12,6 +12,9 @@ from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
 _STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
 _CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
+_AT_THE_MARGIN, _INDENT = re.compile(r"^\S", re.MULTILINE), re.compile(r"^[^\S\n]*+(?=\S)", re.MULTILINE)
+_FILLED_LINE = re.compile(r"^[^\S\n]*+\S.*", re.MULTILINE)
+"""A line that is not blank."""
 LABEL, OMEGA = r"[pP]_?(?:\d+|\{\d+\})", r"(?:ω|\\omega)"
 """What a printed production is labelled with, and what the axiom is called there."""
 PER_RULE = 64
@@ -28,12 +31,12 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     >>> [text[start:end] for start, end in statements(text)]
     ['A(t) : t < 5\\n  -> B', 'C -> D']
     """
-    lines = [(match.start(), match.group()) for match in re.finditer(r"[^\n]+", without_comments(text))
-             if match.group().strip()]
-    base = min((len(line) - len(line.lstrip()) for _, line in lines), default=0)
+    plain = without_comments(text)
+    base = 0 if _AT_THE_MARGIN.search(plain) else min((len(indent) for indent in _INDENT.findall(plain)), default=0)
     start: int | None = None
     end, last = 0, ""
-    for offset, line in lines:
+    for match in _FILLED_LINE.finditer(plain):
+        offset, line = match.start(), match.group()
         indented = len(line) - len(line.lstrip()) > base
         goes_on = ARROW.match(line.lstrip()) or (indented and (_CONTINUES.search(last) or not _STARTS.search(line)))
         if start is not None and not goes_on:

@@ -35,6 +35,8 @@ def subscripts(plain: str, joint: str, values: str = "()") -> Iterator[Edit]:
     >>> [*subscripts("a -> b\\n r    l", "_")]
     [Edit(start=1, end=1, text='_r '), Edit(start=6, end=6, text='_l '), Edit(start=7, end=14, text='')]
     """
+    if not LINE_OF_SUBSCRIPTS.search(f"\n{plain}"):
+        return
     lines = [match for match in re.finditer(r"[^\n]+", plain) if not match.group().isspace()]
     for above, below in pairwise(lines):
         names = above.group()

@@ -14,7 +14,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from lsys_kit.budget import current
-from lsys_kit.notation.syntax.text.greek import angle_as_constant, name_of, named_letters
+from lsys_kit.notation.syntax.text.greek import GREEK, angle_as_constant, name_of, named_letters
 from lsys_kit.notation.syntax.text.headings import HEADING, RULES, SENTENCE, headings
 from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA, blank_parentheses, without_comments
 from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
@@ -29,7 +29,6 @@ _WEDGES = str.maketrans("∧⋀", "^^")
 _LABEL = re.compile(rf"[ \t]*+{LABEL}[ \t]*+:")
 _OMEGA = re.compile(rf"[ \t]*+{OMEGA}[ \t]*+[:=]")
 _LABELLED = re.compile(rf"^(?:{_LABEL.pattern}|{_OMEGA.pattern})", re.MULTILINE)
-_AXIOM = re.compile(r"[ \t]*+axiom\b", re.IGNORECASE)
 _DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
 _ASSIGNED = r"(?:[A-Za-z]\w*|δ|\\delta)[ \t]*+=[ \t]*+[\d.]+[ \t]*+(?:°|\^?\{?\\circ\}?)?"
 _ASSIGNMENTS = re.compile(rf"[ \t]*+{_ASSIGNED}(?:[ \t]*+[,;][ \t]*+{_ASSIGNED})*[ \t]*+[,;.]?[ \t]*+$")
@@ -39,7 +38,8 @@ _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
 _INCLUDED = re.compile(r"[ \t]*+#[ \t]*+include\b.*")
 _NEIGHBOURS = re.compile(r"[ \t]*+(#[ \t]*+)(?:ignore|consider)\b", re.IGNORECASE)
-_START = re.compile(r"[ \t]*+((?:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)", re.IGNORECASE)
+_START = re.compile(r"[ \t]*+((?i:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)")
+_NAMED_AXIOM = re.compile(rf"[ \t]*+(?i:axiom)\b|{_START.pattern}|{_OMEGA.pattern}")
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
 _ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:{_ARROW}|:))")
@@ -52,6 +52,7 @@ _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 _WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
 """A line that may be an axiom without its name, and is no name of an axiom without its colon."""
 
+_BLANK_LINES = re.compile(r"\n\n\n+")
 _TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}Α-Ωα-δζ-ωϑϕϱµ°•]")
 _SIGNS_OF_PRINT = (
     re.compile(r"\\[a-z]{4}"),
@@ -78,7 +79,7 @@ def transcribe(source: str) -> Transcript:
     p1 : F→ F[+F] : .5
     p2 : F→ F : .5
     """
-    lines = f"\n{source}"
+    lines = _BLANK_LINES.sub("\n\n", f"\n{source}")  # a pattern may look again at each of them
     typographic = not source.isascii() and _TYPOGRAPHIC.search(source)
     printed = typographic or any(sign.search(lines) for sign in _SIGNS_OF_PRINT)
     return _transcript(source) if printed else as_typed(source)
@@ -131,7 +132,6 @@ class _Listing:
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
         self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
-        self.one_n = sum(1 for _ in islice(_N.finditer(plain), 2)) == 1
         self.notes: list[str] = []
 
     def settings(self) -> Iterator[Edit]:
@@ -139,32 +139,37 @@ class _Listing:
         for line in self.lines:
             if _ASSIGNMENTS.match(line.text):
                 yield from self._assignments(line)
-            elif self.labelled and (defined := _DEFINED.match(line.text)):
-                yield Edit(line.start + defined.start(1), line.start + defined.end(1), "")
-                yield Edit(line.start + defined.start(3), line.start + defined.end(3), " = ")
-            elif self.labelled and (neighbours := _NEIGHBOURS.match(line.text)):
-                yield Edit(line.start + neighbours.start(1), line.start + neighbours.end(1), "")
-            elif self.labelled and _INCLUDED.match(line.text):
-                self.notes.append(f'"{line.text.strip()}" is passed over.')
-                yield Edit(line.start, line.end, "")
+            elif self.labelled and line.text.lstrip().startswith("#"):
+                yield from self._directive(line)
             elif start := _START.match(line.text):
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
-            if _named_axiom(line.text) and line.text[:line.end - line.start].endswith(","):
+            if _NAMED_AXIOM.match(line.text) and line.text[:line.end - line.start].endswith(","):
                 yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
+
+    def _directive(self, line: _Line) -> Iterator[Edit]:
+        """A constant, a list of symbols or an inclusion as cpfg has them."""
+        if defined := _DEFINED.match(line.text):
+            yield Edit(line.start + defined.start(1), line.start + defined.end(1), "")
+            yield Edit(line.start + defined.start(3), line.start + defined.end(3), " = ")
+        elif neighbours := _NEIGHBOURS.match(line.text):
+            yield Edit(line.start + neighbours.start(1), line.start + neighbours.end(1), "")
+        elif _INCLUDED.match(line.text):
+            self.notes.append(f'"{line.text.strip()}" is passed over.')
+            yield Edit(line.start, line.end, "")
 
     def _assignments(self, line: _Line) -> Iterator[Edit]:
         for match in re.finditer(r"[,;]|\.(?=[ \t]*$)", line.text):
             yield Edit(line.start + match.start(), line.start + match.end(), "\n" if line.text[match.end():].strip() else "")
         steps = _STEPS.search(line.text)
-        if steps and self.printed and self.one_n:
+        if steps and self.printed and sum(1 for _ in islice(_N.finditer(self.plain), 2)) == 1:
             self.notes.append('"n" is read as the number of steps.')
             yield Edit(line.start + steps.start(), line.start + steps.end(), "steps:")
 
     def _axiom(self) -> Iterator[Edit]:
         """Under a line with the angle a word stands alone, before the first production."""
-        named = any(_named_axiom(line.text) for line in self.lines)
-        before = [line for line in self.lines if not _ASSIGNMENTS.match(line.text) and not _NAMED.match(line.text)]
+        before = [*islice((line for line in self.lines if not (_ASSIGNMENTS.match(line.text) or _NAMED.match(line.text))), 2)]
+        named = any(_NAMED_AXIOM.match(line.text) for line in self.lines)
         if not named and len(before) > 1 and not before[0].arrow and before[1].arrow and self._is_word(before[0]):
             first = before[0]
             self.notes.append(f'"{first.text.strip()}" is read as the axiom.')
@@ -176,6 +181,8 @@ class _Listing:
 
     def letters(self) -> Iterator[Edit]:
         """Greek letters as names; δ is a constant, too, where it is used and not only set."""
+        if not GREEK.search(self.plain):
+            return
         latex = bool(MACRO.search(self.plain))
         found = [pair for line in self.lines for pair in named_letters(line.text, line.start, latex)]
         yield from (edit for _, edit in found)
@@ -196,8 +203,8 @@ class _Listing:
                 if number and following and following.arrow:
                     above = number[1]
                     yield Edit(line.start, line.end, "")
-                elif self._goes_on(index):
-                    yield Edit(line.start, line.start, "  ")
+                elif self._goes_on(index):  # on one line, since "C : .5" alone on its line would begin a production
+                    yield Edit(self.lines[index - 1].end, line.start, " ")
                 continue
             yield from self._head(line, line.text[:arrow.start()])
             condition = ":" in self._bare(line)[:arrow.start()]  # which may end with a number, too
@@ -253,12 +260,9 @@ class _Listing:
 
     def _bare(self, line: _Line) -> str:
         """A line without its label, its values and what stands over its arrow, every other character in its place."""
-        text = _LABEL.sub(lambda match: " " * len(match.group()), line.text, count=1) if _LABEL.match(line.text) else line.text
+        label = _LABEL.match(line.text)
+        text = " " * label.end() + line.text[label.end():] if label else line.text
         return _PROBABILITY.sub(lambda match: " " * len(match.group()), blank_parentheses(text))
-
-
-def _named_axiom(line: str) -> bool:
-    return any(name.match(line) for name in (_AXIOM, _START, _OMEGA))
 
 
 def likely(text: str) -> int:

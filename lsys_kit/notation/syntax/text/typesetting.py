@@ -36,7 +36,7 @@ _STRONG = re.compile(r"(\*\*)(?=\S)[^*\n]*+(?<=\S)(\*\*)")
 _FENCE = re.compile(r"^[ \t]*+```\w*[ \t]*+$", re.MULTILINE)
 _LINE = re.compile(r"[^\n]+")
 _LINE_END = re.compile(r"\\\\[ \t]*+$", re.MULTILINE)
-_ITEM = re.compile(r"[ \t]*+((?:[-–*](?![^\n:]*<)|•|\d+[.)]|\(\d+\))[ \t]++)[A-Za-zωδ\\]")
+_ITEM = re.compile(r"^[ \t]*+((?:[-–*](?![^\n:]*<)|•|\d+[.)]|\(\d+\))[ \t]++)[A-Za-zωδ\\]", re.MULTILINE)
 """An item of a list, with its dash or its number; before a "<" a dash would be a neighbour."""
 _BEGINS = re.compile(rf"[\s,]*+(?:{LABEL}[ \t]*+:|{OMEGA}[ \t]*+[:=])")
 """What begins a statement: a label, or the name of the axiom."""
@@ -61,12 +61,12 @@ def typesetting(plain: str) -> Iterator[Edit]:
 
 def _items(plain: str) -> Iterator[Edit]:
     """The dashes or numbers of a list, if every production is an item of it."""
-    lines = [*_LINE.finditer(plain)]
-    items = [_ITEM.match(line.group()) for line in lines]
-    rules = [item for line, item in zip(lines, items, strict=True) if ARROW.search(line.group())]
-    if rules and all(rules):
-        yield from (Edit(line.start() + item.start(1), line.start() + item.end(1), "")
-                    for line, item in zip(lines, items, strict=True) if item)
+    items = [*_ITEM.finditer(plain)]
+    if not items:
+        return
+    rules = {line.start() for line in _LINE.finditer(plain) if ARROW.search(plain, *line.span())}
+    if rules and rules.issubset(item.start() for item in items):
+        yield from (Edit(*item.span(1), "") for item in items)
 
 
 def _latex(plain: str) -> Iterator[Edit]:

@@ -1,0 +1,105 @@
+"""No regular expression of the readers takes long: what it repeats is repeated for a whole text, and nothing fits behind it.
+
+A run that a pattern can divide in two ways, as in `(a+)+` or `a*b?a*`, is divided in all ways before the pattern gives up;
+one that a search tries from each of its characters takes the square of their number. The texts are made from the patterns
+themselves.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import time
+from collections.abc import Iterator
+from functools import reduce
+from importlib import import_module
+from itertools import product
+from operator import or_
+from pathlib import Path
+from pkgutil import walk_packages
+
+import pytest
+
+import lsys_kit.notation
+from lsys_kit.notation.registry import DIALECTS
+from lsys_kit.notation.syntax.parser import _parser
+from tests.notation.pattern_texts import repetitions
+
+Used = tuple[str, str, int, str]
+"""Where a pattern is, its text and its flags, and how it is used: "match", "search" or "fullmatch"."""
+WAYS = {"match": "match", "fullmatch": "fullmatch", "search": "search", "finditer": "search", "findall": "search",
+        "sub": "search", "subn": "search", "split": "search"}
+SIZES = (*range(8, 60, 2), 24_000)
+"""The short ones show what doubles with each character, before it takes a day."""
+SECONDS = 0.1
+"""What the longest may take: four microseconds a character, which are hundreds of comparisons, and no thousands."""
+SOURCES = {module.name: Path(import_module(module.name).__file__ or "").read_text(encoding="utf-8")
+           for module in walk_packages(lsys_kit.notation.__path__, "lsys_kit.notation.")}
+
+
+def named_patterns() -> Iterator[Used]:
+    """The patterns that have a name, with each way in which their module uses it, or are in a table that has one."""
+    for module, (name, value) in ((each, item) for each in SOURCES for item in vars(import_module(each)).items()):
+        for pattern in _patterns_in(value):
+            calls = {*re.findall(rf"\b{name}\.(\w+)", SOURCES[module])} & WAYS.keys()
+            ways = {WAYS[call] for call in calls} if isinstance(value, re.Pattern) else {"match", "search"}
+            yield from ((f"{module}.{name}", pattern.pattern, pattern.flags, way) for way in ways)
+
+
+def _patterns_in(value: object) -> Iterator[re.Pattern[str]]:
+    if isinstance(value, re.Pattern):
+        yield value
+    elif isinstance(value, tuple | list):
+        for each in value:
+            yield from _patterns_in(each)
+
+
+def patterns_in_calls() -> Iterator[Used]:
+    """The patterns that are written where they are used, as in `re.match("a*", text, re.IGNORECASE)`."""
+    for module, source in SOURCES.items():
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.Call) and ast.unparse(node.func).removeprefix("re.") in WAYS and node.args:
+                pattern, way = node.args[0], WAYS[ast.unparse(node.func).removeprefix("re.")]
+                flags = [re.RegexFlag[each] for each in re.findall(r"\bre\.([A-Z]+)", ast.unparse(node))]
+                if isinstance(pattern, ast.Constant):
+                    yield f"{module}:{node.lineno}", pattern.value, reduce(or_, flags, re.RegexFlag(0)), way
+
+
+def tokens() -> Iterator[Used]:
+    """The tokens of the grammars."""
+    for name, dialect in DIALECTS.items():
+        yield from ((f"{name}: {token.name}", token.pattern.to_regexp(), 0, "match") for token in _parser(dialect).terminals)
+
+
+def slowest(pattern: re.Pattern[str], way: str) -> tuple[float, str]:
+    """The processor's seconds for a text that a pattern repeats, up to the first that takes too long."""
+    found = 0.0, ""
+    for (before, piece), size, after in product(repetitions(pattern), SIZES, ("", "!", "\n\x00")):
+        for text in {before + piece * (size // len(piece)) + after, (before + piece) * (size // len(before + piece)) + after}:
+            started = time.process_time()
+            getattr(pattern, way)(text)
+            found = max(found, (time.process_time() - started, f"{before!a} {piece!a} * {size} {after!a}"))
+            if found[0] > SECONDS:
+                return found
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("patterns", [named_patterns, patterns_in_calls, tokens])
+def test_what_a_pattern_repeats_takes_linear_time(patterns: object) -> None:
+    assert callable(patterns)
+    used = {each[1:]: each[0] for each in patterns()}
+    assert len(used) > 50
+    times = {(where, text): slowest(re.compile(text, flags), way) for (text, flags, way), where in used.items()}
+    assert {where: each for where, each in times.items() if each[0] > SECONDS} == {}
+
+
+@pytest.mark.parametrize("pattern", [r"(?:a+)+b", r"\(\s*(?:\w+\s*,?\s*)*\)", r"x[ \t]*y?[ \t]*:", r"(?:a|b|ab)*c"])
+def test_a_run_that_can_be_divided_in_two_ways_is_seen(pattern: str) -> None:
+    assert slowest(re.compile(pattern), "match")[0] > SECONDS
+
+
+@pytest.mark.parametrize("pattern", [r"\w+:", r"\w+$", r"\s*axiom", r"(?:ab)+c"])
+def test_a_search_that_tries_each_character_of_a_run_is_seen(pattern: str) -> None:
+    assert slowest(re.compile(pattern), "search")[0] > SECONDS
+    assert slowest(re.compile(pattern), "match")[0] < SECONDS

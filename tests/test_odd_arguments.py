@@ -1,0 +1,122 @@
+"""Whatever is given for an argument of a public function, it is used or refused in words: what cannot be compared, too."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from matplotlib.figure import Figure
+
+import lsys_kit
+from lsys_kit import LSystemError, ModelValueError, derive, growth, lineage, map_system, read, stages, timed
+from lsys_kit.derivation.derive import Derivation
+
+
+class Incomparable:
+    """What raises an error when it is compared or asked whether it is true."""
+
+    def _refuse(self, *_: object) -> Any:
+        raise ZeroDivisionError
+
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = __bool__ = _refuse
+
+
+ODD: Mapping[str, object] = {
+    "array": np.array([1, 2]), "array of texts": np.array(["exact", "float"]), "empty array": np.array([]),
+    "table": np.array([[1.0, 2.0], [3.0, 4.0]]), "symbol": sympy.Symbol("x"), "relation": sympy.Symbol("x") < 1,
+    "matrix": sympy.Matrix([sympy.Symbol("x")]), "matrix symbol": sympy.MatrixSymbol("x", 2, 2), "undefined": sympy.nan,
+    "complex infinity": sympy.zoo, "nan": float("nan"), "infinity": float("inf"), "object": object(),
+    "incomparable": Incomparable(), "set": {1}, "function": len, "class": int, "bytes": b"1", "surrogate": "\ud800",
+}
+"""Values that hardly anything can be done with."""
+GROWING = read("c = 1\naxiom: a\na -> a b(c)\nb(x) -> b(x)")
+AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
+FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
+    "animate": lambda: (GROWING, 1), "check": lambda: ("1.1", "al"), "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
+    "derive": lambda: (GROWING, 1), "draw": lambda: (GROWING, 1), "explain": lambda: (derive(GROWING, 1), 1),
+    "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
+    "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,
+    "pnml": lambda: (stages(GROWING), None), "read": lambda: ("axiom: a", "abop", "x"), "read_map": lambda: ("map: A>A>",),
+    "stages": lambda: (GROWING,), "system": lambda: ("J1",), "systems": tuple, "timed": lambda: (AGEING,),
+    "write": lambda: (GROWING, "abop"), "draw a stage diagram": lambda: (stages(GROWING),),
+    "draw a lineage": lambda: (lineage(GROWING, 1),), "draw a map": lambda: (map_system("K30"), 1),
+    "draw in space": lambda: (read("axiom: F&F"), 1), "lineage in time": lambda: (timed(AGEING), 1),
+    "stages in time": lambda: (timed(AGEING),), "derive a map": lambda: (map_system("K30"), 1),
+}
+"""For each public function arguments that it takes."""
+CHOICES: Mapping[str, tuple[str, ...]] = {
+    "derive": ("seed", "arithmetic", "c"), "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c"),
+    "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"), "limits": ("modules", "bytes", "seconds"),
+    "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",), "draw in space": ("angle", "marked"),
+    "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
+}
+"""The arguments that a function takes beside those of its signature; `c` is a constant."""
+METHODS: Mapping[str, Callable[[Any], object]] = {
+    "lengths": lambda odd: growth(GROWING).lengths(odd),
+    "fired": lambda odd: stages(GROWING).fired(odd), "expected of": lambda odd: stages(GROWING).expected(1, odd),
+    "coded": lambda odd: derive(GROWING, 1)[1].coded(odd), "length": lambda odd: growth(GROWING).length(odd),
+    "centred": lambda odd: derive(GROWING, 1).column(odd), "coding": lambda odd: derive(GROWING, 1).column(True, odd),
+    "before": lambda odd: derive(GROWING, 1).ancestors(1, odd), "sight": lambda odd: derive(GROWING, 1).sight(odd),
+    "ancestors": lambda odd: derive(GROWING, 1).ancestors(odd),
+    "origins": lambda odd: derive(GROWING, 1).origins(odd), "expected": lambda odd: stages(GROWING).expected(odd),
+    "tokens": lambda odd: stages(GROWING).tokens(odd), "word at a time": lambda odd: timed(AGEING).word(odd),
+    "counts": lambda odd: growth(GROWING).counts(odd), "later steps": lambda odd: derive(GROWING, 1).to(odd),
+    "recurrence": lambda odd: growth(GROWING).recurrence_of(odd), "counts of": lambda odd: growth(GROWING).counts_of(odd, 3),
+}
+"""What results are asked for."""
+
+
+def called(name: str, argument: str, odd: object) -> object:
+    """What comes of a call with an odd value for one argument."""
+    function, fitting = getattr(lsys_kit, name.split()[0]), FITTING[name]()
+    given = dict(zip(inspect.signature(function).parameters, fitting, strict=False))
+    positional = [odd if key == argument else value for key, value in given.items()]
+    return looked_at(function(*positional, **({} if argument in given else {argument: odd})))
+
+
+def looked_at(result: Any) -> object:
+    """A result, as a notebook shows it."""
+    return [repr(result), getattr(result, "svg", ""), getattr(result, "text", "")]
+
+
+def arguments(name: str) -> list[str]:
+    """The arguments of a public function."""
+    parameters = inspect.signature(getattr(lsys_kit, name.split()[0])).parameters.values()
+    named = [each.name for each in parameters if each.kind is not inspect.Parameter.VAR_KEYWORD]
+    constants = ["c"] if any(each.name == "constants" for each in parameters) and name != "continuity" else []
+    return [*dict.fromkeys([*named, *CHOICES.get(name, ()), *constants])]
+
+
+def test_every_public_function_is_tried() -> None:
+    errors = {name for name in lsys_kit.__all__ if isinstance(getattr(lsys_kit, name), type)}
+    assert {*lsys_kit.__all__} - errors <= FITTING.keys()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
+@pytest.mark.parametrize(("name", "argument"), [(name, argument) for name in FITTING for argument in arguments(name)])
+@pytest.mark.filterwarnings("ignore")
+def test_an_odd_argument_is_used_or_refused(name: str, argument: str, odd: object) -> None:
+    with suppress(LSystemError):
+        called(name, argument, odd)
+
+
+@pytest.mark.parametrize("step", [-1, 4, 10**30, 10**5000, -10**5000], ids=["before", "beyond", "far", "very far", "far back"])
+@pytest.mark.parametrize("ask", [Derivation.counts, Derivation.origins, Derivation.ancestors, Derivation.sight])
+def test_a_step_that_a_derivation_lacks_is_refused(ask: Callable[..., object], step: int) -> None:
+    with pytest.raises(ModelValueError, match=r"step"):
+        ask(derive(GROWING, 3), step)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
+@pytest.mark.parametrize("ask", METHODS.values(), ids=METHODS)
+@pytest.mark.filterwarnings("ignore")
+def test_an_odd_question_is_answered_or_refused(ask: Callable[[Any], object], odd: object) -> None:
+    with suppress(LSystemError):
+        looked_at(ask(odd))
