@@ -6,7 +6,6 @@ appears.
 
 from __future__ import annotations
 
-import base64
 import io
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -25,6 +24,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.display_list import MARGIN, frame_around
 from lsys_kit.pictures.draw import derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.notebook import film_bundle
 from lsys_kit.pictures.formats.raster import turtle_image
 from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.style.palette import PAPER
@@ -87,7 +87,13 @@ class Film:
         return buffer.getvalue()
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/gif": base64.b64encode(self.gif).decode(), "text/plain": self.text}
+        return film_bundle(self.gif, self._last, self.text)
+
+    def _last(self) -> bytes:
+        """The last picture, as PNG."""
+        buffer = io.BytesIO()
+        self.images[-1].save(buffer, "PNG")
+        return buffer.getvalue()
 
     def __repr__(self) -> str:
         return self.text

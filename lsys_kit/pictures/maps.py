@@ -26,6 +26,7 @@ from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.display_list import MARGIN, ViewFrame
 from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.notebook import svg_bundle
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import background, described, document
@@ -108,7 +109,7 @@ class MapPicture:
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": self.text}
+        return svg_bundle(self.svg, self.text)
 
     def __repr__(self) -> str:
         return self.text

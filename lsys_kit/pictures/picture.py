@@ -26,6 +26,7 @@ from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
+from lsys_kit.pictures.formats.notebook import svg_bundle
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
 
@@ -132,7 +133,7 @@ class Picture:
                 "Films end in .gif or .apng, and are made by animate(...).")
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))
@@ -174,7 +175,7 @@ class NetPicture:
                              ".pnml": lambda: marked_xml(pnml(self.net, self.tokens))})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return unescape(self.svg.split('aria-label="')[1].split('"')[0])

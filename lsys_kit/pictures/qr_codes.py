@@ -12,6 +12,7 @@ from typing import Any
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.notebook import svg_bundle
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.svg import background, document
 
@@ -87,7 +88,7 @@ class QRCode:
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png)})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return f"QR code of {len(self.text):,} characters, {len(self.rows)} by {len(self.rows)}"

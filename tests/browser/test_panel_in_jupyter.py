@@ -32,6 +32,7 @@ def shown(open_notebook: Callable[..., OpenNotebook], write_notebook: Callable[.
 
     def run(source: str, **context: object) -> OpenNotebook:
         notebook = open_notebook(write_notebook("panel.ipynb", show(source)), **context)
+        notebook._ask("app.shell.collapseLeft();")
         notebook.run_all()
         expect(panel_of(notebook.page).locator("canvas[data-drawn]").first).to_be_visible()
         return notebook
@@ -132,7 +133,6 @@ def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
 def test_at_every_width(shown, width, zoom):
     """At 200 % a window has half as many pixels of the style, each twice as large."""
     notebook = shown("explore('J4', 9)", viewport={"width": width // zoom, "height": 900 // zoom}, device_scale_factor=zoom)
-    notebook._ask("app.shell.collapseLeft();")
     panel = panel_of(notebook.page)
     panel.scroll_into_view_if_needed()
     box = panel.evaluate("panel => [panel.scrollWidth, panel.clientWidth]")
@@ -165,7 +165,7 @@ def test_in_notebook_7_arrow_keys_move_the_sliders(browser: Browser, lab: Lab, w
     page = browser.new_page(viewport={"width": 1200, "height": 900})
     page.goto(f"{lab.url}/notebooks/{name}")
     page.get_by_role("menuitem", name="Run").click()
-    page.get_by_role("menuitem", name=re.compile("Run All Cells")).click()
+    page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
     panel = panel_of(page)
     expect(panel.locator("canvas[data-drawn]").first).to_be_visible(timeout=90_000)
     slider(panel, "step").press("ArrowRight")

@@ -97,5 +97,12 @@ class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
         data["image/png"] = base64.b64encode(self.left.sight.picture.png).decode()
         return data
 
+    def close(self) -> None:
+        """Close both panels, and what the browser keeps of them."""
+        for each in (self.left, self.right):
+            each.close()
+        self.layout.close()
+        super().close()
+
     def __repr__(self) -> str:
         return self.text

@@ -299,6 +299,11 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         data["image/png"] = base64.b64encode(composite_png(sight)).decode()
         return data
 
+    def close(self) -> None:
+        """Close the panel, and what the browser keeps of it."""
+        self.layout.close()
+        super().close()
+
     def __repr__(self) -> str:
         return self.text
 

@@ -25,6 +25,7 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.display_list import MARGIN, WIDTH
 from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.notebook import svg_bundle
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.style.labels import svg_label, values_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
@@ -71,7 +72,7 @@ class LineagePicture:
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return f"lineage of {self.lineage}"

@@ -1,0 +1,33 @@
+"""Pictures as a notebook shows them: with a text alternative, which JupyterLab gives to no picture that comes without one."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from html import escape
+from typing import Any
+
+
+def svg_bundle(svg: str, text: str) -> dict[str, Any]:
+    """A picture in SVG with its text alternative, by media types.
+
+    >>> svg_bundle("<svg/>", "a <plant>")["text/html"]
+    '<img alt="a &lt;plant&gt;" src="data:image/svg+xml;base64,PHN2Zy8+">'
+    """
+    return {"text/html": _image("svg+xml", svg.encode(), text), "image/svg+xml": svg, "text/plain": text}
+
+
+def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[str, Any]:
+    """A film as a GIF that can be stopped, with its text alternative, by media types; stopped it shows its last picture."""
+    html = (f"{_STYLE}<div class='lsys-film'><label><input type='checkbox' checked> play</label><br>"
+            f"{_image('gif', moving, text, 'lsys-moving')}{_image('png', still(), text, 'lsys-still')}</div>")
+    return {"text/html": html, "image/gif": base64.b64encode(moving).decode(), "text/plain": text}
+
+
+_STYLE = ("<style>.lsys-film:has(input:checked) .lsys-still, .lsys-film:has(input:not(:checked)) .lsys-moving {display: none}"
+          "</style>")
+
+
+def _image(form: str, data: bytes, text: str, kind: str = "") -> str:
+    named = f'class="{kind}" ' if kind else ""
+    return f'<img {named}alt="{escape(text)}" src="data:image/{form};base64,{base64.b64encode(data).decode()}">'
