@@ -31,6 +31,7 @@ CONFIGURATION = {
     "ServerApp": {"ip": "127.0.0.1", "port_retries": 0, "open_browser": False, "log_level": "WARN"},
     "IdentityProvider": {"token": ""},
     "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
+    "JupyterNotebookApp": {"expose_app_in_browser": True},
 }
 SETTINGS = {"apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False, "doNotDisturbMode": True},
             "docmanager-extension/plugin": {"autosave": False}}
