@@ -280,6 +280,17 @@ def test_python_and_the_page_write_links_that_the_other_reads(browser: Browser) 
     shown.close()
 
 
+def test_the_page_reads_no_broken_link_and_no_bomb(browser: Browser) -> None:
+    whole, shown = link(system("J4"), {"step": 4}), browser.new_page()
+    changed = [whole[:at] + ("A" if whole[at] != "A" else "B") + whole[at + 1:] for at in (10, 60, len(whole) - 1)]
+    broken = [*changed, whole[:-1], whole + "A", whole + "=", whole.replace("=a", "=b"), "#lsys=a",
+              forged(b"abop\naxiom: " + b"A" * 5_000_000), forged(b"abop\n\xff")]
+    code = f"given => {{ {joined('link')}\nreturn Promise.all(given.map(unpackedLink)); }}"
+    assert shown.evaluate(code, broken) == [None] * len(broken)
+    assert shown.evaluate(code, [whole]) == [unpacked(whole)._asdict() | {"settings": {"step": "4"}}]
+    shown.close()
+
+
 def test_a_phone_needs_no_sideways_scrolling_and_the_page_is_dark_in_the_dark(opened, j4: str) -> None:
     shown = opened(j4, viewport={"width": 390, "height": 800}, color_scheme="dark")
     status(shown).to_contain_text("step 9")

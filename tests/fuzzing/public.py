@@ -105,7 +105,7 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 
 FUNCTIONS = (
     "animate", "check", "continuity", "derive", "draw", "explain", "explore", "figure", "growth", "lineage", "link", "linked",
-    "map_system", "pnml", "read", "read_map", "stages", "system", "systems", "map_systems", "timed", "write",
+    "map_system", "pnml", "qr_code", "read", "read_map", "stages", "system", "systems", "map_systems", "timed", "write",
 )
 """The public functions; `limits` is about each of them."""
 
