@@ -162,6 +162,7 @@ def test_rules_may_be_typed_in_another_notation(monkeypatch):
     ({"lifeTimeA": 100}, "lifeTimeA = 100 lies outside its slider's range. It goes from 1 to 6"),
     ({"angle": 200}, "angle = 200 lies outside"),
     ({"step": -1}, "whole number from 0 on"),
+    ({"seed": "pdf"}, "The seed must be a whole number, not 'pdf'"),
     ({"lifetimeA": 3}, 'Did you mean "lifeTimeA"')])
 def test_first_settings_that_make_no_sense_are_errors(choices, message):
     with pytest.raises(LSystemError) as error:

@@ -30,7 +30,7 @@ from lsys_kit.classroom.panel.page import page, page_data, save_page
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.errors import LSystemError, ModelValueError, whole_number
+from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
@@ -137,6 +137,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         turn = real_from(angle, "angle") if angle is not None else float(system.angle)
         if not 0 <= turn <= 180:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
+        if isinstance(seed, bool) or not isinstance(seed, int):
+            raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready = False
         self._opened = _opened(system, title, changes)
         self._view_model = ViewModel(system, seed)
