@@ -234,6 +234,18 @@ def test_steps_and_constants_are_moved_without_a_kernel(opened, j4: str) -> None
         expect(shown.locator(".lsys-word")).to_have_text(word.replace(" ", ""))
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("id", systems())
+def test_a_page_of_every_system_opens(monkeypatch, opened, id: str) -> None:
+    monkeypatch.setattr(panel_page, "MOST_BOOKS", 1)
+    data = page_data(system(id), title=id)
+    shown = opened(page(id, data, ""))
+    status(shown).to_contain_text(f"step {data['model']['step']}: ")
+    expect(shown.locator("canvas[data-drawn]").first).to_be_visible()
+    press(shown, "step", "ArrowLeft")
+    status(shown).to_contain_text(f"step {data['model']['step'] - 1}: ")
+
+
 def test_the_address_keeps_what_is_seen_and_gives_it_back(opened, j4: str) -> None:
     shown = opened(j4)
     press(shown, "lifeTimeA", "ArrowRight")
