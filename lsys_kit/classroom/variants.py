@@ -58,9 +58,9 @@ def variants(system: LSystem, number: int = 9, *, seed: int = 0) -> tuple[LSyste
     >>> plant = read("angle: 25\\nsteps: 3\\naxiom: F\\nF -> F[+F]F[-F]F")
     >>> for variant in variants(plant, 3, seed=1):
     ...     print(variant.productions[0])
-    F -> F[+F]F[-F]F
-    F -> F F[+F]F[-F]F
-    F -> F[+F]F[-F]F
+    F -> [+F]F[-F]F
+    F -> F F[-F]F
+    F -> F[+F]F F[-F]F
     """
     require(system, LSystem, "A system")
     if isinstance(seed, bool) or not isinstance(seed, int):
@@ -119,16 +119,17 @@ Successor: TypeAlias = tuple[Item, ...]
 
 
 def _parts(items: Successor) -> list[tuple[int, int]]:
-    """Where its modules and whole branches stand: from and to."""
+    """Where its letters outside of branches and its whole branches stand: from and to."""
     parts, opened = list[tuple[int, int]](), list[int]()
     for place, item in enumerate(items):
         symbol = item.symbol if isinstance(item, Pattern) else ""
         if symbol in OPENING:
             opened.append(place)
         elif symbol in CLOSING:
-            if opened:
-                parts.append((opened.pop(), place + 1))
-        else:
+            if opened and not opened[1:]:
+                parts.append((opened[0], place + 1))
+            del opened[-1:]
+        elif not opened and symbol[:1].isalpha():
             parts.append((place, place + 1))
     return parts
 

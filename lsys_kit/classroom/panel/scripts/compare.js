@@ -1,6 +1,7 @@
 // Two panels side by side with one step slider: two systems, or two settings of one; where their words differ is marked.
 
 import { made } from "./controls.js";
+import { ownKeys } from "./keys.js";
 import { openPanel } from "./panel.js";
 
 const SHARED = ["step", "angle", "around", "above"];
@@ -11,6 +12,7 @@ export function openComparison(element, hosts) {
   const said = made("div", { class: "lsys-sentence", role: "status" }), sides = made("div", { class: "lsys-comparison" });
   const seen = [null, null], panels = [], offs = [];
   element.append(root);
+  offs.push(ownKeys(root));
   root.append(sides, said);
   hosts.forEach((host, side) => {
     const column = made("div", { class: "lsys-side" });

@@ -1,5 +1,7 @@
 // Native controls with names: sliders with number boxes, buttons, lists.
 
+import { onKey } from "./keys.js";
+
 export function made(tag, attributes = {}, ...inside) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -65,9 +67,7 @@ export function slider(name, hint, texts, index, chosen) {
   }
 
   range.addEventListener("input", () => choose(Number(range.value)));
-  range.addEventListener("keydown", (event) => event.stopPropagation()); // arrow keys are the slider's, not the notebook's
-  box.addEventListener("keydown", (event) => {
-    event.stopPropagation();
+  onKey(box, (event) => {
     const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     if (way) {
       event.preventDefault();
@@ -118,7 +118,6 @@ export function list(name, hint, options, value, chosen) {
   const select = made("select", { id, class: "lsys-list" });
   const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, name), select);
   select.addEventListener("change", () => chosen(select.value));
-  select.addEventListener("keydown", (event) => event.stopPropagation());
 
   function offer(others, chosenValue) {
     select.replaceChildren(...others.map(([each, text]) => made("option", { value: each }, text)));

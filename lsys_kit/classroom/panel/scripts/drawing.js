@@ -1,6 +1,7 @@
 // The drawing of a step on a canvas: a filament's rows, or what the turtle draws, turned, moved and brought nearer by the browser alone.
 
 import { made } from "./controls.js";
+import { onKey } from "./keys.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
 import { placed, traced } from "./turtle.js";
@@ -162,7 +163,6 @@ export function drawingView(parent, told) {
     const arrow = ARROWS[event.key], nearer = NEARER[event.key], next = { n: 1, N: 1, p: -1, P: -1 }[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey || !(arrow || nearer || next || event.key === "Home" || event.key === "Escape")) return;
     event.preventDefault();
-    event.stopPropagation();
     if (next) told.traced(null, next);
     else if (event.key === "Escape") told.traced(now.step, -1);
     else if (nearer) come(nearer);
@@ -185,7 +185,7 @@ export function drawingView(parent, told) {
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
 
-  canvas.addEventListener("keydown", press);
+  onKey(canvas, press);
   canvas.addEventListener("pointerdown", (event) => {
     canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);

@@ -35,6 +35,5 @@ export function keeping(host, { canvas, title, code, state }) {
     if (host.keeps.includes(kind)) element.append(button(text, `take along: ${text}`, () => keep(kind)));
   }
   element.append(button("code", "the line of Python that makes this panel as it stands", () => show(code())), field, said);
-  field.addEventListener("keydown", (event) => event.stopPropagation());
   return element;
 }

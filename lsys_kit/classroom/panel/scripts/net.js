@@ -2,6 +2,7 @@
 
 import { drawn } from "./controls.js";
 import { fillColour, lineColour } from "./colours.js";
+import { onKey } from "./keys.js";
 
 const LEGIBLE = 0.82; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
@@ -44,10 +45,9 @@ export function netView(parent, chosen) {
       drawn("title", {}, place.name), ring, circle, label, tokens);
     const toggle = () => chosen(place.place);
     group.addEventListener("click", toggle);
-    group.addEventListener("keydown", (event) => {
+    onKey(group, (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
       event.preventDefault();
-      event.stopPropagation();
       toggle();
     });
     places.set(place.place, { group, tokens, place, shown: -1 });

@@ -10,6 +10,7 @@ import { countsView } from "./counts.js";
 import { drawingView } from "./drawing.js";
 import { galleryView } from "./gallery.js";
 import { keeping } from "./keeping.js";
+import { ownKeys } from "./keys.js";
 import { library } from "./library.js";
 import { netView } from "./net.js";
 import { player } from "./player.js";
@@ -306,6 +307,7 @@ export function openPanel(element, host, compared = null) {
   placed.observe(root);
   const scheme = matchMedia("(prefers-color-scheme: dark)");
   scheme.addEventListener("change", recoloured);
+  offs.push(ownKeys(root));
   openModel();
 
   return { differ: word.differ, close };

@@ -40,7 +40,6 @@ export function rulesView(parent, asked) {
 
   area.addEventListener("input", typed);
   area.addEventListener("scroll", paint);
-  area.addEventListener("keydown", (event) => event.stopPropagation());
 
   return {
     put,

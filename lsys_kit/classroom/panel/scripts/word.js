@@ -1,6 +1,7 @@
 // The word of a step: each module on the tint of its symbol; a long word without its middle.
 
 import { made } from "./controls.js";
+import { onKey } from "./keys.js";
 
 const MOST = 240; // modules that are shown
 
@@ -52,11 +53,10 @@ export function wordView(parent, told) {
     const found = event.target.closest("[data-position]");
     if (found) told(Number(found.dataset.position));
   });
-  box.addEventListener("keydown", (event) => {
+  onKey(box, (event) => {
     const way = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 10, ArrowUp: -10 }[event.key];
     if (!way && !["Home", "End", "Escape"].includes(event.key)) return;
     event.preventDefault();
-    event.stopPropagation();
     if (event.key === "Escape") told(-1);
     else if (event.key === "Home") told(0);
     else if (event.key === "End") told(word.length - 1);
