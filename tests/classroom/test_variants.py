@@ -34,7 +34,8 @@ def test_a_small_system_has_fewer_variants():
 
 
 @pytest.mark.parametrize(("choices", "told"), [
-    ({"number": 0}, "from 1 to 100, not 0"), ({"number": 101}, "from 1 to 100, not 101"), ({"seed": "x"}, "must be a whole number")])
+    ({"number": 0}, "from 1 to 100, not 0"), ({"number": 101}, "from 1 to 100, not 101"),
+    ({"seed": "x"}, "must be a whole number")])
 def test_what_is_no_number_of_variants(choices, told):
     with pytest.raises(ModelValueError, match=told):
         variants(read(PLANT), **choices)
