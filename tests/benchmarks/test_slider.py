@@ -1,7 +1,8 @@
-"""How fast a slider answers: engine and pictures in the kernel, and from key press to new picture in the browser.
+"""How fast a slider answers: pictures and books in the kernel, and in the browser from key press to after paint.
 
-Goals: under 2 ms in the kernel; in the browser under 30 ms in the median and 50 ms at the 95th percentile, for the angle,
-which the browser turns by itself, under 5 ms. A plant in space is turned by the browser too, at its next frame.
+Goals, in JupyterLab: a step, and the angle of 15,000 strokes, under 20 ms in the median and 34 ms at the 95th percentile; a
+constant whose book is not known yet under 60 ms in the median. A bare slider of ipywidgets with a bare text is measured beside
+them.
 """
 
 from __future__ import annotations
@@ -12,15 +13,27 @@ import statistics
 import pytest
 
 from lsys_kit import draw, explore, read, system
+from lsys_kit.classroom.panel.book import book
 from lsys_kit.classroom.panel.view_model import ViewModel
 
-WATCH = """async ([panel, canvas]) => {
+WATCH = """async ([panel, changing]) => {
     window.latencies = [];
     let pressed = null;
-    const note = () => { if (pressed !== null) { window.latencies.push(performance.now() - pressed); pressed = null; } };
-    panel.addEventListener('keydown', () => { pressed = performance.now(); }, true);
-    new MutationObserver(note).observe(canvas, {attributes: true, childList: true, subtree: true});
+    const painted = new MessageChannel();
+    painted.port1.onmessage = () => { window.latencies.push(performance.now() - pressed); pressed = null; };
+    window.addEventListener("keydown", (event) => { if (panel.contains(event.target)) pressed = event.timeStamp; }, true);
+    new MutationObserver(() => {
+        if (pressed !== null) requestAnimationFrame(() => painted.port2.postMessage(0));
+    }).observe(changing, { attributes: true, childList: true, subtree: true, characterData: true });
 }"""
+BARE = """import ipywidgets
+slider, text = ipywidgets.IntSlider(5, 0, 60), ipywidgets.HTML("5")
+slider.observe(lambda change: setattr(text, "value", str(change["new"])), "value")
+box = ipywidgets.VBox([slider, text])
+box.add_class("lsys-panel")
+text.add_class("bare")
+box"""
+KEYS = 40
 
 
 @pytest.mark.parametrize(("id", "step"), [("J4", 15), ("K5", 4)])
@@ -29,22 +42,16 @@ def test_a_first_picture(benchmark, id, step):
     assert benchmark(lambda: draw(system(id), step).svg)
 
 
-@pytest.mark.parametrize(("id", "steps"), [("J4", (14, 15)), ("K5", (3, 4))])
-def test_a_slider_moves_to_and_fro(benchmark, id, steps):
-    """The whole panel in the kernel: word, diagram and drawing of a step that was shown before."""
-    panel, turn = explore(id, steps[0]), itertools.cycle(steps[::-1])
-    benchmark(lambda: setattr(panel.step, "value", next(turn)))
+@pytest.mark.parametrize("id", ["J4", "K5", "K19", "P5"])
+def test_a_book(benchmark, id):
+    """All steps of a system for one setting of its constants, as the browser gets them."""
+    assert benchmark(lambda: book(system(id)))["steps"] > 5
 
 
 @pytest.mark.parametrize("id", ["J4", "K5"])
-def test_a_slider_moves_on(benchmark, id):
-    """The whole panel in the kernel, at a step that was never shown before."""
-    last = {"J4": 15, "K5": 4}[id]
-
-    def fresh():
-        return (explore(id, last - 1),), {}
-
-    benchmark.pedantic(lambda panel: setattr(panel.step, "value", last), setup=fresh, rounds=20)
+def test_a_panel(benchmark, id):
+    """From the call to the panel."""
+    assert benchmark(lambda: explore(id)).step
 
 
 @pytest.mark.parametrize("step", [5, 7])
@@ -54,27 +61,32 @@ def test_a_plant_is_turned_in_the_kernel(benchmark, step):
     assert benchmark(lambda: study.sight(step, {}, around=next(sides), above=10).picture.svg)
 
 
-@pytest.mark.parametrize(("id", "slider", "keys"), [("J4", 0, 12), ("K5", 0, 4), ("K5", 1, 40), ("K19", 2, 40)],
-                         ids=["step of J4", "step of K5", "angle of K5", "side of K19"])
-def test_from_key_press_to_new_picture(benchmark, open_notebook, write_notebook, id, slider, keys):
-    """In a real browser: the time from the key to the new picture in the page, at a pace of ten keys a second."""
-    notebook = open_notebook(write_notebook("latency.ipynb", f'from lsys_kit import explore\nexplore("{id}", 1)'))
+@pytest.mark.parametrize(("source", "name", "changing"), [
+    ("explore('J4', 1)", "step", "canvas.lsys-canvas"), ("explore('K5', 1)", "step", "canvas.lsys-canvas"),
+    ("explore('K5', 6)", "angle", "canvas.lsys-canvas"), ("explore('K19', 12)", "around", "canvas.lsys-canvas"),
+    ("explore(read('c = 10 in 1 .. 60\\naxiom: A(1)\\nA(t) : t < c -> A(t+1) B\\nA(t) -> A(1)A(1)'), 9)", "c", "canvas.lsys-canvas"),
+    (BARE, None, ".bare")], ids=["step of J4", "step of K5", "angle of 15,625 strokes", "side of K19", "a new constant", "bare"])
+def test_from_key_press_to_after_paint(benchmark, open_notebook, write_notebook, source, name, changing):
+    """In a real JupyterLab, at a pace of ten keys a second."""
+    notebook = open_notebook(write_notebook("latency.ipynb", f"from lsys_kit import explore, read\n{source}"))
     notebook.run_all()
-    panel = notebook.output(1).locator(".lsys-explorer")
-    handle = panel.locator(".noUi-handle").nth(slider)
-    picture = panel.locator("canvas") if id in ("K5", "K19") else panel.locator("[role=img]").nth(1).locator("xpath=..")
+    panel = notebook.output(1).locator(".lsys-panel").first
+    handle = panel.get_by_role("slider", name=f"{name}, slider", exact=True) if name else panel.locator(".noUi-handle")
     handle.focus()
-    notebook.page.evaluate(WATCH, [panel.element_handle(), picture.element_handle()])
+    notebook.page.wait_for_timeout(800)
+    notebook.page.evaluate(WATCH, [panel.element_handle(), panel.locator(changing).element_handle()])
 
     def press_all():
-        for key in ["ArrowRight"] * keys + ["ArrowLeft"] * keys:
+        half = 4 if name == "step" and "K5" in source else KEYS // 2
+        keys = ["ArrowRight"] * half + (["ArrowLeft"] * half if name != "c" else [])
+        for key in keys * (KEYS // len(keys)):
             notebook.page.wait_for_timeout(100)
             before = notebook.page.evaluate("latencies.length")
             handle.press(key)
             notebook.page.wait_for_function(f"latencies.length > {before}")
 
-    benchmark.pedantic(press_all, rounds=2, warmup_rounds=1)
+    benchmark.pedantic(press_all, rounds=1)
     found = sorted(notebook.page.evaluate("latencies"))
     median, slow = statistics.median(found), found[int(0.95 * len(found))]
     benchmark.extra_info |= {"median ms": round(median, 2), "95th percentile ms": round(slow, 2)}
-    print(f"\n{id}: median {median:.1f} ms, 95th percentile {slow:.1f} ms of {len(found)}")
+    print(f"\n{name or 'bare'}: median {median:.1f} ms, 95th percentile {slow:.1f} ms of {len(found)}")

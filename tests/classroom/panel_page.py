@@ -34,7 +34,8 @@ const host = {
 };
 window.asked = [];
 const ask = (content) => { window.asked.push(content.kind); return window.kernel(content); };
-Object.assign(window, { host, data, openPanel, openOne: () => openPanel(document.getElementById("here"), host) });
+const openOne = () => openPanel(document.getElementById("here"), host);
+Object.assign(window, { host, data, openOne, handlersOf: () => handlers });
 window.panel = window.openOne();
 """
 PAPER = '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Panel</title></head>'

@@ -12,16 +12,16 @@ const rowsOfBooks = new WeakMap();
 
 // The sequence of the steps up to one of them, at most so many, on a sheet of some size; with the scale that fits the steps up to
 // `boxed` as well, if that is not null.
-export function sequence(book, step, { rows = 24, width = 600, height = SHEET.height, boxed = null } = {}) {
+export function sequence(book, step, { rows = 24, width = 600, height = SHEET.height, boxed = null, labelled = true } = {}) {
   const { time, times, look } = book.data, timed = time !== null && time !== 1;
-  const gutter = SHEET.margin + SHEET.steps + (timed ? SHEET.times : 0), head = SHEET.heading;
+  const gutter = SHEET.margin + (labelled ? SHEET.steps + (timed ? SHEET.times : 0) : 0), head = labelled ? SHEET.heading : 0;
   const room = height - 2 * SHEET.margin - head, most = Math.max(1, Math.min(rows, Math.floor(room / LOWEST_ROW)));
   const shown = rowsUpTo(book, step, most), framed = boxed === null || boxed <= step ? shown : rowsUpTo(book, boxed, most);
   const all = framed === shown ? shown : [...shown, ...framed], many = Math.max(shown.length, framed.length);
   const longest = Math.max(1e-9, ...all.map((row) => row.length)), tallest = Math.max(1e-9, ...all.map((row) => row.width));
   const far = Math.min(TALLEST_ROW * Math.max(1, height / SHEET.height), room / many);
   const above = far > LEGIBLE_ROW && all.some((row) => row.walls.n) ? SHEET.ages : 0;
-  const scale = Math.min((width - gutter - 2 * SHEET.margin) / longest, (FILLED_ROW * far - above) / tallest);
+  const scale = Math.min(Math.max(1, width - gutter - 2 * SHEET.margin) / longest, (FILLED_ROW * far - above) / tallest);
   const pitch = Math.max(LOWEST_ROW, Math.min(far, (tallest * scale + above) / FILLED_ROW));
   const top = SHEET.margin + head;
   const laid = shown.map((row, place) => ({
@@ -100,7 +100,7 @@ function joinedRows(tables, laid, scale) {
 export function paintSequence(pen, sheet, look) {
   pen.save();
   pen.lineJoin = pen.lineCap = "round";
-  paintHeading(pen, sheet, look.theme);
+  if (sheet.head) paintHeading(pen, sheet, look.theme);
   sheet.rows.forEach((row, number) => {
     const lit = look.litAt ? look.litAt(row.step) : row.current ? look.lit ?? new Map() : new Map();
     paintRowLabels(pen, sheet, row, look.theme);
@@ -124,7 +124,7 @@ function paintHeading(pen, { head, timed }, theme) {
 }
 
 // The step and the time of a row, on a band if it is the current one.
-function paintRowLabels(pen, { width, pitch }, row, theme) {
+function paintRowLabels(pen, { width, pitch, head }, row, theme) {
   const size = Math.min(14, 0.8 * pitch), x = SHEET.margin + SHEET.steps - 8, y = row.middle + 0.35 * size;
   if (row.current) {
     pen.fillStyle = theme.mark;
@@ -132,6 +132,7 @@ function paintRowLabels(pen, { width, pitch }, row, theme) {
     pen.roundRect(4, row.top, width - 8, pitch, 6);
     pen.fill();
   }
+  if (!head) return;
   pen.fillStyle = row.current ? theme.ink : theme.quiet;
   pen.textAlign = "right";
   pen.font = `${row.current ? "bold " : ""}${size}px sans-serif`;

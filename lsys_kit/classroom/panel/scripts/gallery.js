@@ -39,7 +39,7 @@ function paintTile(canvas, book, now, look) {
   pen.fillStyle = look.theme.paper;
   pen.fillRect(0, 0, width, height);
   const plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
-  if (book.data.mode === "filament") return paintSequence(pen, sequence(book, now.step, { rows: 12, width, height, boxed: null }), plain);
+  if (book.data.mode === "filament") return paintSequence(pen, sequence(book, now.step, { rows: 12, width, height, boxed: null, labelled: false }), plain);
   const shapes = placed(traced(book, now.step), now.angle);
   paint(pen, shapes, frameOf(shapes, width, height, { around: now.around, above: now.above, near: 1, shift: [0, 0], box: null }), plain);
 }
