@@ -33,6 +33,7 @@ box = ipywidgets.VBox([slider, text])
 box.add_class("lsys-panel")
 text.add_class("bare")
 box"""
+WAITING = "c = 10 in 1 .. 60\naxiom: A(1)\nA(t) : t < c -> A(t+1) B\nA(t) -> A(1)A(1)"
 KEYS = 40
 
 
