@@ -91,7 +91,7 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {
-            "title": visible(title), "text": system.source, "notation": system.notation,
+            "title": visible(title), "text": system.source, "notation": system.notation, "noun": "module",
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states), "symbols": symbols, "states": rows,
             "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}
@@ -122,11 +122,11 @@ def _derived(system: LSystem, given: dict[str, Any], seed: int | None, least: in
                 with limits(seconds=seconds * (TIME_FOR_LATER if step > max(asked, least) else TIME_FOR_ASKED)):
                     derivation = derivation.to(step)
         except LSystemError as error:
-            return derivation, _sentence(error)
+            return derivation, sentence(error)
     return derivation, ""
 
 
-def _sentence(error: LSystemError) -> str:
+def sentence(error: LSystemError) -> str:
     """Why there is no further step; how limits are set does not help whoever moves a slider."""
     return f"{error.message}." if isinstance(error, ModelLimitError) else f"{error.message}. {error.hint or ''}".rstrip()
 
@@ -142,7 +142,7 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
         except LSystemError as error:
             if not step:
                 raise
-            pages.end = _sentence(error)
+            pages.end = sentence(error)
             break
         size += _size(states, new, drawn) + (0 if states.traits.d0l else HISTORY_BYTES * length)
         if step and size > MOST_BYTES:

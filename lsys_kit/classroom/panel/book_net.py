@@ -7,6 +7,7 @@ from typing import Any
 
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS
 from lsys_kit.pictures.nets.parts import LINE, ArcPart, BarPart, NotePart, Parts, PlacePart, parts_of, steering_of
 from lsys_kit.pictures.style.labels import place_text, visible
@@ -15,8 +16,9 @@ NARROW, LOW = 320, 40
 """The size of a diagram that has nothing but a sentence, in pixels."""
 
 
-def net_entry(made: Callable[[], Stages]) -> tuple[Stages | None, dict[str, Any]]:
-    """A net and its diagram; where there is none to be drawn, a diagram that says why.
+def net_entry(made: Callable[[], Stages],
+              steering: Callable[[LSystem], frozenset[str]] = steering_of) -> tuple[Stages | None, dict[str, Any]]:
+    """A net and its diagram, without the symbols that only steer; where there is none to be drawn, a diagram that says why.
 
     >>> from lsys_kit.derivation.petri.stages import stages
     >>> from lsys_kit.notation.read import read
@@ -26,7 +28,7 @@ def net_entry(made: Callable[[], Stages]) -> tuple[Stages | None, dict[str, Any]
     """
     try:
         net = made()
-        parts = parts_of(net, False, steering_of(net.system))
+        parts = parts_of(net, False, steering(net.system))
         return net, _diagram(parts, [place_text(place, net.system) for place in net.places])
     except LSystemError as error:
         text = f"There is no stage diagram: {error.message}"

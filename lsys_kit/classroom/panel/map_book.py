@@ -1,0 +1,184 @@
+"""The book of a map system: the walls, points and cells of its steps, for one setting of the forces, as JSON.
+
+As in the book of an L-system, each step has a word: the walls of its map in order. The daughters of a wall stand side by side,
+those of the first wall first; behind them stand the walls that divide cells and have no mother. Points keep their numbers, and
+new ones say between which others they were made, so that the browser can show how a map grows out of the one before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+
+from lsys_kit.budget import Task, current, limits
+from lsys_kit.classroom.panel.book import FEWEST_STEPS, MOST_BYTES, TIME_FOR_ASKED, packed, sentence
+from lsys_kit.classroom.panel.book_net import net_entry
+from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.maps.map import Map, Wall, cell_words
+from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
+from lsys_kit.errors import LSystemError, ModelLimitError
+from lsys_kit.geometry.map_layout import place_maps, tissue
+from lsys_kit.geometry.relaxation import Forces
+from lsys_kit.geometry.scene import Floats
+from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
+from lsys_kit.pictures.maps import STEPS
+from lsys_kit.pictures.style.labels import label_parts
+from lsys_kit.pictures.style.palette import colours
+
+MOST_WALLS = 20_000
+"""A book holds no map of more walls."""
+MOST_UNASKED = 320
+"""Steps beyond the last one that the system asks for are held while all maps together have no more walls, since larger ones
+take long to come to rest."""
+WALL_BYTES = 80
+"""About what a wall takes in a book, with its share of points and cells."""
+DIGITS = 5
+"""The decimals of a coordinate; a wall is about 0.3 long."""
+
+
+@dataclass(frozen=True)
+class MapsAtRest:
+    """The maps of a system that a book holds, the positions of their points, and why there are no more; "" if nothing is in
+    the way."""
+
+    system: MapSystem
+    maps: Sequence[Map]
+    places: Sequence[Floats]
+    end: str
+
+    @property
+    def last(self) -> int:
+        """The last step."""
+        return len(self.places) - 1
+
+
+def maps_at_rest(system: MapSystem, forces: Forces, least: int = 0) -> MapsAtRest:
+    """The maps of a system at rest, up to twice the step that it asks for, or to a later one.
+
+    Raises
+    ------
+    LSystemError
+        Not even the first cell comes to rest.
+    """
+    asked = max(steps_of(system), least)
+    with limits(modules=min(MOST_WALLS, current().modules), seconds=TIME_FOR_ASKED * current().seconds):
+        maps, end = _developed(system, asked)
+        places, size = list[Floats](), 0
+        try:
+            for found, points in zip(maps, place_maps(maps, forces), strict=True):
+                size += WALL_BYTES * len(found.walls)
+                if size > MOST_BYTES:
+                    end = f"The panel ends at step {len(places) - 1}: step {len(places)} has too many more walls."
+                    break
+                places.append(points)
+        except LSystemError as error:
+            if not places:
+                raise
+            end = sentence(error)
+    return MapsAtRest(system, maps[:len(places)], places, end)
+
+
+def steps_of(system: MapSystem) -> int:
+    """The step that is shown first."""
+    return STEPS if system.steps is None else system.steps
+
+
+def _developed(system: MapSystem, asked: int) -> tuple[Sequence[Map], str]:
+    """The maps that shall come to rest, and why there are no more of them."""
+    end = ""
+    try:
+        found = develop(system, max(2 * asked, FEWEST_STEPS))
+    except ModelLimitError as error:
+        if not isinstance(error.partial, Development):
+            raise
+        found, end = error.partial, sentence(error)
+    walls = accumulate(len(each.walls) for each in found)
+    last = max((step for step, sum in enumerate(walls) if sum <= MOST_UNASKED), default=0)
+    if max(asked, last) < found.steps:
+        last = max(asked, last)
+        return found[:last + 1], (f"The panel ends at step {last}: later maps take long to come to rest. "
+                                  f"The rules may ask for more: steps: {last + 1}")
+    return found[:], end
+
+
+def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") -> dict[str, Any]:
+    """The book of the maps of a system, ready to be written as JSON.
+
+    Parameters
+    ----------
+    found
+        The maps at rest.
+    settings
+        The forces.
+    title
+        What the system is called.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> made = map_book(maps_at_rest(read_map("map: ABAB\\nsteps: 1\\nA -> B[-A][+A]B\\nB -> A"), Forces()), {})
+    >>> [text for *_, text in made["states"]], made["counts"][:2]
+    (['A', 'B'], [(4, 4, 1), (6, 7, 2)])
+    """
+    system = found.system
+    kinds = kinds_of_walls(system)
+    numbers = {edge: number for number, edge in enumerate(kinds)}
+    letters = letters_of_walls(system)
+    with Task("The book was not finished"):
+        net, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
+        return {
+            "title": title, "text": system.source, "notation": "map", "noun": "wall", "mode": "map",
+            "settings": {name: number_text(value) for name, value in settings.items()}, "chance": False,
+            "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
+            "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],
+            "productions": [{"text": str(rule), "at": _span(rule)} for rule in system.productions],
+            "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
+            **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
+            "maps": _pages(found), "unknown": [], "said": "", "growth": None}
+
+
+def _span(rule: EdgeProduction) -> list[int] | None:
+    """Between which offsets of its text a production stands."""
+    last = rule.successor[-1].at
+    return [rule.at[0], last[1]] if rule.at and last else None
+
+
+def _history(found: MapsAtRest, numbers: Mapping[Edge, int]) -> dict[str, Any]:
+    """The walls of all steps as numbers; for those of each step but the last how many walls they become, and by which
+    production."""
+    rules = {production.predecessor: rule for rule, production in enumerate(found.system.productions)}
+    many = [len(production.walls) for production in found.system.productions]
+    words = [[_kind(wall) for wall in each.walls] for each in found.maps]
+    made = [[rules.get(kind, -1) for kind in word] for word in words[:-1]]
+    return {"words": [packed(_whole(numbers[kind] for kind in word)) for word in words],
+            "made": [packed(_whole(row)) for row in made],
+            "daughters": [packed(_whole(1 if rule < 0 else many[rule] for rule in row)) for row in made]}
+
+
+def _kind(wall: Wall) -> Edge:
+    return Edge(wall.label, ">" if wall.directed else "")
+
+
+def _pages(found: MapsAtRest) -> list[dict[str, Any]]:
+    """What is drawn of each map: the points, x and y in turn; the points at the ends of walls; those around cells, and where
+    each cell starts; the kinds of cells; and where new points were made."""
+    pages, kinds = [], dict[tuple[Edge, ...], int]()
+    known = 0
+    for each, points in zip(found.maps, found.places, strict=True):
+        net = tissue(each)
+        new = [(*vertex.between, float(vertex.share)) for vertex in each.vertices[known:] if vertex.between]
+        pages.append({
+            "points": np.round(points, DIGITS).ravel().tolist(), "ends": packed(net.ends.ravel()),
+            "corners": packed(net.corners), "starts": packed(net.starts), "new": new,
+            "kinds": packed(_whole(kinds.setdefault(word, len(kinds)) for word in cell_words(each)))})
+        known = len(each.vertices)
+    return pages
+
+
+def _whole(numbers: Iterable[int]) -> np.ndarray[Any, Any]:
+    return np.array([*numbers], np.int64)
