@@ -16,6 +16,7 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
+from lsys_kit.pictures.maps import RANGES
 
 STEP, ANGLE, SEED = "step", "angle", "seed"
 """The settings that are no constants."""
@@ -46,7 +47,7 @@ def link(system: LSystem | MapSystem, settings: Mapping[str, object] | None = No
     system
         An L-system or a map system.
     settings
-        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants.
+        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants, or of the forces of a map.
     base
         The address of a page that shows models; without one, the link can be read by the kit alone.
 
@@ -109,7 +110,7 @@ Links are made by link(system).
 
 def _values(system: LSystem | MapSystem, settings: Mapping[str, object]) -> dict[str, Value]:
     """The exact values of settings, if the system has them."""
-    constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else []
+    constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else [*RANGES]
     for name in settings:
         if name not in (STEP, ANGLE, SEED, *constants):
             listed = f"Its constants are: {', '.join(constants)}." if constants else "It has none."

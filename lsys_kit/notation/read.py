@@ -100,6 +100,17 @@ def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
     return system_in(dialect_named(content.notation), content.text)
 
 
+def is_map(text: str) -> bool:
+    """Whether a text begins as a map system does, which `read_map` reads, or is the link of one.
+
+    >>> is_map("map: ABAB\\nA -> B"), is_map("axiom: A")
+    (True, False)
+    """
+    if is_link(text):
+        return unpacked(text).notation == MAP.name
+    return _MAP.match(text.removeprefix("\ufeff")) is not None
+
+
 def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
     """The other notations that a text may be in, if it is short enough to be read again."""
     if len(text) <= current().expression:

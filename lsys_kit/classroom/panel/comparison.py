@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,10 +12,11 @@ from ipywidgets import widget_serialization
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.explorer import Explorer, explore
 from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 
-def compare(what: LSystem | str, *others: LSystem | str | Mapping[str, object], step: int | None = None) -> Comparison:
+def compare(what: LSystem | MapSystem | str, *others: LSystem | MapSystem | str | Mapping[str, object], step: int | None = None) -> Comparison:
     """Show two systems, or one under two settings of its constants, side by side with one step slider.
 
     Where the words differ is marked, and said in words below.
@@ -50,7 +50,7 @@ def compare(what: LSystem | str, *others: LSystem | str | Mapping[str, object], 
             sides = (what, first), (what, second)
         case (Mapping() as second,):
             sides = (what, {}), (what, second)
-        case (LSystem() | str() as other,):
+        case (LSystem() | MapSystem() | str() as other,):
             sides = (what, {}), (other, {})
         case _:
             raise ModelValueError("Two systems are compared, or one system under two settings",
@@ -93,9 +93,7 @@ class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
         """The live panels, and for a page without a kernel their words and the picture of the left one."""
         bundle = super()._repr_mimebundle_(**options)
         data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
-        data["text/plain"] = self.text
-        data["image/png"] = base64.b64encode(self.left.sight.picture.png).decode()
-        return data
+        return {**data, "text/plain": self.text, **self.left.still}
 
     def close(self) -> None:
         """Close both panels, and what the browser keeps of them."""

@@ -7,11 +7,9 @@ sliders have come to rest, so that other widgets can be linked to the panel.
 
 from __future__ import annotations
 
-import base64
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -19,37 +17,35 @@ import anywidget
 import traitlets
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.catalogue import entry
+from lsys_kit.classroom.catalogue import entry, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
-from lsys_kit.classroom.link import ANGLE, SEED, STEP, link, linked
-from lsys_kit.classroom.panel.book import MOST_MODULES, book
+from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked
+from lsys_kit.classroom.panel.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
-from lsys_kit.classroom.panel.composite import composite_png
-from lsys_kit.classroom.panel.controls import SliderRange, slider_ranges, slider_values
-from lsys_kit.classroom.panel.page import page, page_data, save_page
-from lsys_kit.classroom.panel.view_model import StepView, ViewModel
-from lsys_kit.classroom.variants import variants
+from lsys_kit.classroom.panel.opened.maps import OpenedMap
+from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
+from lsys_kit.classroom.panel.opened.systems import OpenedSystem
+from lsys_kit.classroom.panel.page import save_page
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
+from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
-from lsys_kit.pictures.style.labels import place_text
+from lsys_kit.notation.read import is_map, read
 
-USUAL_STEPS = 5
-"""The step that is shown first of a system that names none."""
 _ID = re.compile(r"[\w-]+")
 
 
-def explore(what: LSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
+def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
             **constants: object) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
 
     Parameters
     ----------
     what
-        A system, the id or name of one in the catalogue, the text of a model, or a link.
+        An L-system or a map system, the id or name of one in the catalogue, the text of a model, or a link.
     step
         The step shown first; by default the system's own.
     angle
@@ -57,7 +53,7 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     seed
         The seed of the random numbers.
     **constants
-        First values of declared constants.
+        First values of declared constants; of a map system those of its forces: `stiffness`, `rest`, `pressure`, `damping`.
 
     Raises
     ------
@@ -77,31 +73,20 @@ def explore(what: LSystem | str, step: int | None = None, *, angle: object = Non
     title = ""
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
-        what = catalogued(title)
+        what = map_system(title) if is_map_system(title) else catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **_given(step, angle, seed), **constants}
         return explore(there.system, **given)  # type: ignore[arg-type]
-    system = read(what) if isinstance(what, str) else what
-    if not isinstance(system, LSystem):
+    system = (read_map(what) if is_map(what) else read(what)) if isinstance(what, str) else what
+    if not isinstance(system, (LSystem, MapSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
-    return Explorer(system, title, step, angle, seed, constants)
+    return Explorer(_opened(system, title, constants), step, angle, seed)
 
 
 def _given(step: int | None, angle: object, seed: int) -> dict[str, Any]:
     """The settings that are not left to the link."""
     return {name: value for name, value, usual in ((STEP, step, None), (ANGLE, angle, None), (SEED, seed, 0)) if value != usual}
-
-
-@dataclass(frozen=True)
-class _Opened:
-    """A system that the panel shows, with the sliders of its constants."""
-
-    system: LSystem
-    title: str
-    ranges: Mapping[str, SliderRange]
-    values: Mapping[str, tuple[Value, ...]]
-    fixed: Mapping[str, object]
 
 
 class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
@@ -117,7 +102,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     mark
         The label of the stage that is marked, as "A(2)"; empty for none.
     settings
-        The values of the constants, as texts; each is also an attribute of its own name, a number.
+        The values of the constants, or of the forces of a map, as texts; each is also an attribute of its own name, a number.
     """
 
     _esm = bundled("widget")
@@ -131,18 +116,14 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     seed = traitlets.Int().tag(sync=True)
     settings = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, system: LSystem, title: str, step: int | None, angle: object, seed: int,
-                 changes: Mapping[str, object]) -> None:
-        first = _first_step(system) if step is None else whole_number(step, "The step")
-        turn = real_from(angle, "angle") if angle is not None else float(system.angle)
-        if not 0 <= turn <= 180:
-            raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
+    def __init__(self, opened: Opened, step: int | None, angle: object, seed: int) -> None:
+        first = opened.steps if step is None else whole_number(step, "The step")
+        turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready = False
-        self._opened = _opened(system, title, changes)
-        self._view_model = ViewModel(system, seed)
-        settings = {name: number_text(span.value) for name, span in self._opened.ranges.items()}
+        self._opened = opened
+        settings = {name: number_text(value) for name, value in opened.first.items()}
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=settings)
         with self._limited(), Task("The step was not shown"):
             self.model = self._model_of(self._opened, first)
@@ -156,19 +137,20 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     # -- what Python sees -----------------------------------------------------------------------------------------------
 
     @property
-    def system(self) -> LSystem:
+    def system(self) -> LSystem | MapSystem:
         """The system that is shown: the one that was given, or the one that was typed."""
-        return self._opened.system
+        system: LSystem | MapSystem = self._opened.system
+        return system
 
     @property
-    def sight(self) -> StepView:
+    def sight(self) -> Sight:
         """What the panel shows: word, net, tokens, picture."""
         with self._limited(), Task("The step was not shown"):
-            constants = self._constants(self.settings)
-            net = self._view_model.known(constants)[1]
-            names = [place_text(place, net.system) for place in net.places]
-            place = names.index(self.mark) if self.mark in names else -1
-            return self._view_model.sight(self.step, constants, self.angle, place, self.around, self.above)
+            return self._opened.sight(self._chosen)
+
+    @property
+    def _chosen(self) -> Viewing:
+        return Viewing(self.step, self._values(self.settings), self.seed, self.angle, self.around, self.above, self.mark)
 
     @property
     def text(self) -> str:
@@ -176,16 +158,20 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         return str(self.sight)
 
     @property
+    def still(self) -> Mapping[str, str]:
+        """What the panel shows as a picture, by the type of the data, in base 64 or as text."""
+        with self._limited(), Task("The picture was not made"):
+            return self._opened.still(self._chosen)
+
+    @property
     def link(self) -> str:
         """An address with the model and its settings in it, which `explore` and `read` understand."""
-        turn = {} if self.angle == round(float(self.system.angle), 1) else {ANGLE: self.angle}
-        seed = {SEED: self.seed} if self.seed else {}
-        return link(self.system, {STEP: self.step, **turn, **seed, **self._constants(self.settings)})
+        return self._opened.link(self._chosen)
 
     def save(self, path: str | Path) -> None:
         """Write the panel as it stands to an .html file, a page that works without a kernel and without a network.
 
-        Its sliders move constants as far as the books of all their values have room in the page.
+        Its sliders move constants as far as the books of all their values have room in the page; forces stay as they are.
 
         Raises
         ------
@@ -196,9 +182,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     def _page(self) -> str:
         with self._limited():  # each book is a task of its own
-            data = page_data(self.system, self._constants(self.settings), self.seed, title=self._opened.title, step=self.step,
-                             angle=self.angle, around=self.around, above=self.above)
-            return page(self._opened.title or "An L-system", data, self.text)
+            return self._opened.page(self._chosen)
 
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:
@@ -219,22 +203,21 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
-    def _model_of(self, opened: _Opened, first: int) -> dict[str, Any]:
+    def _model_of(self, opened: Opened, first: int) -> dict[str, Any]:
         """What the browser needs of a system: its sliders and its first book."""
-        constants = {name: span.value for name, span in opened.ranges.items()}
-        sliders = [{"name": name, "texts": [*map(number_text, opened.values[name])], "hint": f"the constant {name}",
-                    "index": opened.values[name].index(opened.ranges[name].value)} for name in opened.ranges]
-        made = book(opened.system, {**opened.fixed, **constants}, self.seed, title=opened.title, least=first)
+        sliders = [{"name": name, "texts": [*map(number_text, opened.values[name])], "hint": f"{opened.hint} {name}",
+                    "index": opened.values[name].index(value)} for name, value in opened.first.items()]
+        made = opened.book(opened.first, self.seed, first)
         return {"book": made, "constants": sliders, "chance": made["chance"], "step": min(first, made["steps"]),
                 "angle": self.angle, "around": self.around, "above": self.above, "seed": self.seed}
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""
-        for name, span in self._opened.ranges.items():
+        for name, value in self._opened.first.items():
             if not hasattr(self, name):
                 whole = all(isinstance(part, int) for part in self._opened.values[name])
                 kind: Any = traitlets.Int if whole else traitlets.Float
-                self.add_traits(**{name: kind(_plain(span.value))})
+                self.add_traits(**{name: kind(_plain(value))})
                 self.observe(self._set_constant, name)
         self.observe(self._tell_constants, "settings")
 
@@ -246,10 +229,10 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
             if self.has_trait(name) and name not in type(self).class_trait_names(sync=True):
                 setattr(self, name, _plain(_nearest(self._opened.values[name], name, text)))
 
-    def _constants(self, settings: Mapping[str, object]) -> dict[str, Any]:
-        opened = self._opened
-        return {**opened.fixed, **{name: _nearest(values, name, settings.get(name, opened.ranges[name].value))
-                                   for name, values in opened.values.items()}}
+    def _values(self, settings: Mapping[str, object]) -> dict[str, Value]:
+        """The values of the sliders for some settings."""
+        return {name: _nearest(values, name, settings.get(name, self._opened.first[name]))
+                for name, values in self._opened.values.items()}
 
     def _limited(self) -> AbstractContextManager[object]:
         return limits(modules=min(MOST_MODULES, current().modules))
@@ -266,21 +249,21 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         self.send({"number": content["number"], **reply})
 
     def _book_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        opened = self._opened
-        return {"book": book(opened.system, self._constants(content["constants"]), int(content["seed"]), title=opened.title,
-                             least=self.model["step"])}
+        values = self._values(content["constants"])
+        return {"book": self._opened.book(values, int(content["seed"]), self.model["step"])}
 
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """The model of a text that was typed."""
-        system = _read_typed(content["text"], self.system.notation)
-        opened = _opened(system, "" if system != self.system else self._opened.title, {})
-        found = {**self._model_of(opened, _first_step(system)), "angle": _shown_angle(system)}
-        self._opened, self._view_model = opened, ViewModel(system, self.seed)
+        system = self._opened.read(content["text"])
+        opened = _opened(system, "" if system != self.system else self._opened.title)
+        found = {**self._model_of(opened, opened.steps), "angle": opened.angle}
+        self._opened = opened
         return {"model": found}
 
     def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
         """Nine variants of the system, each with its book."""
-        return {"variants": [{"text": str(each), "book": book(each, {}, self.seed)} for each in variants(self.system, 9)]}
+        return {"variants": [{"text": str(variant), "book": _opened(variant).book({}, self.seed, 0)}
+                             for variant in self._opened.variants(9)]}
 
     def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""
@@ -288,7 +271,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
             return {"text": self.link}
         if content["what"] == "page":
             return {"name": f"{self._opened.title or 'panel'}.html", "type": "text/html", "text": self._page()}
-        return {"name": f"{self._opened.title or 'drawing'}.svg", "type": "image/svg+xml", "text": self.sight.picture.svg}
+        return {"name": f"{self._opened.title or 'drawing'}.svg", "type": "image/svg+xml", "text": self.sight.svg}
 
     # -- what is kept ---------------------------------------------------------------------------------------------------
 
@@ -296,10 +279,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """The live panel, and for a page without a kernel its picture and its words."""
         bundle = super()._repr_mimebundle_(**options)
         data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
-        sight = self.sight
-        data["text/plain"] = f"{sight} Run this cell to play."
-        data["image/png"] = base64.b64encode(composite_png(sight)).decode()
-        return data
+        return {**data, "text/plain": f"{self.text} Run this cell to play.", **self.still}
 
     def close(self) -> None:
         """Close the panel, and what the browser keeps of it."""
@@ -320,33 +300,12 @@ def mistake(error: LSystemError) -> dict[str, Any]:
             "column": error.column}
 
 
-def _shown_angle(system: LSystem) -> float:
-    """The angle of a system as its slider has it."""
-    return min(180.0, max(0.0, round(float(system.angle), 1)))
+def _opened(system: LSystem | MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
+    """A system of either kind, opened."""
+    return OpenedMap(system, title, changes) if isinstance(system, MapSystem) else OpenedSystem(system, title, changes)
 
 
-def _first_step(system: LSystem) -> int:
-    return USUAL_STEPS if system.steps is None else system.steps
-
-
-def _opened(system: LSystem, title: str, changes: Mapping[str, object]) -> _Opened:
-    ranges = slider_ranges(system, changes)
-    fixed = {name: value for name, value in changes.items() if name not in ranges}
-    return _Opened(system, title, ranges, {name: slider_values(span) for name, span in ranges.items()}, fixed)
-
-
-def _read_typed(text: str, notation: str) -> LSystem:
-    """A text that was typed, in the notation of the system before it, or in the one that it shows."""
-    try:
-        return read(text, notation)
-    except LSystemError as error:
-        try:
-            return read(text)
-        except LSystemError:
-            raise error from None
-
-
-def _nearest(values: tuple[Value, ...], name: str, wanted: object) -> Value:
+def _nearest(values: Sequence[Value], name: str, wanted: object) -> Value:
     """The value of a slider that is nearest to a number, or to the text of one."""
     number = real_from(wanted, name)
     return min(values, key=lambda value: abs(float(value) - number))

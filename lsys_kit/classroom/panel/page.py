@@ -59,8 +59,8 @@ Promise.all(texts).then(([style, script]) => {
 });
 """
 """The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
-_CELLS, _STROKES = frozenset(("filament",)), frozenset(("turtle", "painter"))
-_NOT_NEEDED = {"filament": _STROKES, "plane": _CELLS, "space": _CELLS}
+_CELLS, _STROKES, _MAPS = frozenset(("filament",)), frozenset(("turtle", "painter")), frozenset(("map",))
+_NOT_NEEDED = {"filament": _STROKES | _MAPS, "plane": _CELLS | _MAPS, "space": _CELLS | _MAPS, "map": _CELLS | {"turtle"}}
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
@@ -162,7 +162,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     turn = real_from(angle, "angle") if angle is not None else float(system.angle)
     model = {"constants": [{"name": name, "texts": [*map(number_text, values[name])], "hint": f"the constant {name}",
                             "index": values[name].index(ranges[name].value)} for name in live],
-             "chance": False, "fixed": _said(fixed, seed if first["chance"] else None), "step": min(wanted, first["steps"]),
+             "chance": False, "fixed": kept_text(fixed, seed if first["chance"] else None), "step": min(wanted, first["steps"]),
              "angle": round(turn, 1), "around": around, "above": above, "seed": seed}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
     return {"model": model, "mode": first["mode"], "system": own, "fixed": fixed, "books": deflated(shared(books))}
@@ -239,7 +239,7 @@ def _first_step(system: LSystem) -> int:
     return USUAL_STEPS if system.steps is None else system.steps
 
 
-def _said(fixed: Mapping[str, str], seed: int | None) -> str:
+def kept_text(fixed: Mapping[str, str], seed: int | None) -> str:
     """What a page says of what cannot be moved on it."""
     kept = [*(f"{name} = {text}" for name, text in fixed.items()), *([] if seed is None else [f"seed = {seed}"])]
     return f"Fixed on this page: {', '.join(kept)}." if kept else ""

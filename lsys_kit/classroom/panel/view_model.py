@@ -66,6 +66,11 @@ class StepView:
         """How many modules the word has, in words."""
         return f"{len(self.word):,} module{'s' * (len(self.word) != 1)}"
 
+    @property
+    def svg(self) -> str:
+        """The drawing as SVG text."""
+        return self.picture.svg
+
     def __str__(self) -> str:
         """The view in words."""
         places = [f"{place_text(place, self.net.system)}: {count:,}"

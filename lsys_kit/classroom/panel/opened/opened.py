@@ -1,0 +1,102 @@
+"""What the panel can show: a system that was opened, with its sliders, its books, and what is to be seen of it at a step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
+
+
+@dataclass(frozen=True)
+class Viewing:
+    """What is chosen in a panel: a step; the values of the sliders and the seed; the angle, the side from which a plant is
+    seen, and the label of the stage that is marked, empty for none."""
+
+    step: int
+    values: Mapping[str, Value]
+    seed: int
+    angle: float
+    around: int
+    above: int
+    mark: str
+
+
+class Sight(Protocol):
+    """What there is to see at a step; `str` of it says so in words."""
+
+    @property
+    def svg(self) -> str:
+        """Its picture as SVG text."""
+        ...
+
+
+class Opened(Protocol):
+    """A system that the panel shows.
+
+    Attributes
+    ----------
+    system, title
+        The system, and what it is called in the catalogue; empty where it is not in it.
+    first, values
+        For each slider its first value, and all its values.
+    hint
+        What the sliders are, for a tip: "the constant".
+    """
+
+    system: Any
+    title: str
+    first: Mapping[str, Value]
+    values: Mapping[str, Sequence[Value]]
+    hint: str
+
+    @property
+    def steps(self) -> int:
+        """The step that is shown first, if none is asked for."""
+        ...
+
+    @property
+    def angle(self) -> float:
+        """The angle of the turtle's turns as its slider has it."""
+        ...
+
+    def turned(self, angle: object) -> float:
+        """The angle of the turtle's turns, or the system's own if none is given.
+
+        Raises
+        ------
+        LSystemError
+            It makes no sense.
+        """
+        ...
+
+    def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
+        """The book for some values of the sliders, which holds a step if it can be reached."""
+        ...
+
+    def sight(self, chosen: Viewing) -> Sight:
+        """What there is to see."""
+        ...
+
+    def still(self, chosen: Viewing) -> Mapping[str, str]:
+        """A picture of it for a page without a kernel, by the type of the data: in base 64, or SVG text."""
+        ...
+
+    def page(self, chosen: Viewing) -> str:
+        """A page that shows it without a kernel."""
+        ...
+
+    def link(self, chosen: Viewing) -> str:
+        """An address with the system and what is chosen in it."""
+        ...
+
+    def read(self, text: str) -> LSystem | MapSystem:
+        """Read a text that was typed in place of the system's own."""
+        ...
+
+    def variants(self, many: int) -> Sequence[LSystem]:
+        """So many systems that differ from this one a little; none, where it has no variants."""
+        ...

@@ -1,0 +1,97 @@
+"""An L-system in the panel."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
+from lsys_kit.classroom.panel.book import USUAL_STEPS, book
+from lsys_kit.classroom.panel.composite import composite_png
+from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
+from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.page import page, page_data
+from lsys_kit.classroom.panel.view_model import StepView, ViewModel
+from lsys_kit.classroom.variants import variants
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import is_map, read
+from lsys_kit.pictures.style.labels import place_text
+
+
+class OpenedSystem:
+    """An L-system that the panel shows, with the sliders of its constants.
+
+    Raises
+    ------
+    LSystemError
+        A constant is unknown, or its value lies outside of its slider's range.
+    """
+
+    hint = "the constant"
+
+    def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
+        self.system, self.title = system, title
+        ranges = slider_ranges(system, changes or {})
+        self.first: Mapping[str, Value] = {name: span.value for name, span in ranges.items()}
+        self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in ranges.items()}
+        self._fixed = {name: value for name, value in (changes or {}).items() if name not in ranges}
+        self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed))
+
+    @property
+    def steps(self) -> int:
+        return USUAL_STEPS if self.system.steps is None else self.system.steps
+
+    @property
+    def angle(self) -> float:
+        return min(180.0, max(0.0, round(float(self.system.angle), 1)))
+
+    def turned(self, angle: object) -> float:
+        turn = real_from(angle, "angle") if angle is not None else float(self.system.angle)
+        if not 0 <= turn <= 180:
+            raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
+        return turn
+
+    def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
+        return book(self.system, {**self._fixed, **values}, seed, title=self.title, least=least)
+
+    def sight(self, chosen: Viewing) -> StepView:
+        constants, view = {**self._fixed, **chosen.values}, self._views(chosen.seed)
+        net = view.known(constants)[1]
+        names = [place_text(place, net.system) for place in net.places]
+        place = names.index(chosen.mark) if chosen.mark in names else -1
+        return view.sight(chosen.step, constants, chosen.angle, place, chosen.around, chosen.above)
+
+    def still(self, chosen: Viewing) -> Mapping[str, str]:
+        return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
+
+    def page(self, chosen: Viewing) -> str:
+        data = page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
+                         angle=chosen.angle, around=chosen.around, above=chosen.above)
+        return page(self.title or "An L-system", data, str(self.sight(chosen)))
+
+    def link(self, chosen: Viewing) -> str:
+        turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
+        seed = {SEED: chosen.seed} if chosen.seed else {}
+        return link(self.system, {STEP: chosen.step, **turn, **seed, **self._fixed, **chosen.values})
+
+    def read(self, text: str) -> LSystem | MapSystem:
+        """The text in the notation of the system before it, or in the one that it shows."""
+        if is_map(text):
+            return read_map(text)
+        try:
+            return read(text, self.system.notation)
+        except LSystemError as error:
+            try:
+                return read(text)
+            except LSystemError:
+                raise error from None
+
+    def variants(self, many: int) -> Sequence[LSystem]:
+        return variants(self.system, many)
