@@ -16,7 +16,8 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 
-def compare(what: LSystem | MapSystem | str, *others: LSystem | MapSystem | str | Mapping[str, object], step: int | None = None) -> Comparison:
+def compare(what: LSystem | MapSystem | str, *others: LSystem | MapSystem | str | Mapping[str, object],
+            step: int | None = None) -> Comparison:
     """Show two systems, or one under two settings of its constants, side by side with one step slider.
 
     Where the words differ is marked, and said in words below.

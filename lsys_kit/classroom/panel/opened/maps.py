@@ -117,8 +117,8 @@ class OpenedMap:
         """A page on which the forces stay as they are: cells come to rest in the kernel."""
         made = self.book(chosen.values, 0, chosen.step)
         fixed = made["settings"]
-        model = {"constants": [], "chance": False, "fixed": kept_text(fixed), "step": min(chosen.step, made["steps"]), "angle": 0,
-                 "around": 0, "above": 0, "seed": 0}
+        model = {"constants": [], "chance": False, "fixed": kept_text(fixed, None), "step": min(chosen.step, made["steps"]),
+                 "angle": 0, "around": 0, "above": 0, "seed": 0}
         own = {"notation": MAP.name, "text": str(self.system), "angle": 0}
         data = {"model": model, "mode": "map", "system": own, "fixed": fixed, "books": deflated(shared([made]))}
         return page(self.title or "A map L-system", data, str(self.sight(chosen)))

@@ -51,9 +51,12 @@ export function openBook(data) {
     return found;
   }
 
-  // The position, in the word before, of the module from which a module comes; -1 for those of the axiom.
+  // The position, in the word before, of the module from which a module comes; -1 for those of the axiom, and for what comes
+  // from no single one.
   function mother(step, position) {
-    return step ? lastUpTo(starts(step - 1), position) : -1;
+    if (!step) return -1;
+    const ends = starts(step - 1);
+    return position < ends[ends.length - 1] ? lastUpTo(ends, position) : -1;
   }
 
   // The positions, from the first up to but without the last, of what a module becomes; null beyond the book.
@@ -69,6 +72,7 @@ export function openBook(data) {
   function production(step, position) {
     if (!step) return -1;
     const from = mother(step, position);
+    if (from < 0) return -1;
     return settled ? data.applied[words(step - 1)[from]] : made(step - 1)[from];
   }
 
@@ -154,7 +158,7 @@ function lastUpTo(starts, position) {
 }
 
 // Whole numbers from the text of their bytes, the lowest first.
-function whole({ type, data }) {
+export function whole({ type, data }) {
   const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
   return Int32Array.from(new KINDS[type](bytes.buffer));
 }

@@ -7,10 +7,11 @@ const WIDTH = 380, HEIGHT = 150, LEFT = 52, RIGHT = 12, TOP = 14, BOTTOM = 24;
 const STEEP = 50; // from this ratio of the greatest to the least on, the scale is logarithmic
 
 export function countsView(parent, chosen) {
-  let lengths = [], points = [], dot, said;
+  let lengths = [], points = [], noun = "module", dot, said;
 
   function open(book) {
     lengths = book.lengths();
+    noun = book.data.noun;
     const least = Math.max(1, Math.min(...lengths)), most = Math.max(1, ...lengths), steep = most / least > STEEP;
     const scaled = steep ? (n) => Math.log(Math.max(n, 1)) : (n) => n, low = steep ? scaled(least) : 0, high = scaled(most) || 1;
     const x = (step) => LEFT + ((WIDTH - LEFT - RIGHT) * step) / Math.max(1, lengths.length - 1);
@@ -26,7 +27,7 @@ export function countsView(parent, chosen) {
       drawn("path", { class: "lsys-curve", d: "M" + points.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join("L") }),
       ...points.map(([cx, cy]) => drawn("circle", { cx, cy, r: 2.2, class: "lsys-count" })), dot, said);
     const rate = book.data.growth?.rate;
-    const told = `Modules a step${steep ? ", on a logarithmic scale" : ""}${rate ? `; growth rate ${rate}` : ""}`;
+    const told = `${noun[0].toUpperCase()}${noun.slice(1)}s a step${steep ? ", on a logarithmic scale" : ""}${rate ? `; growth rate ${rate}` : ""}`;
     sheet.setAttribute("aria-label", `${told}: ${lengths.slice(0, 12).map((n, step) => `step ${step}, ${n}`).join("; ")}`);
     sheet.addEventListener("click", (event) => {
       const box = sheet.getBoundingClientRect(), at = ((event.clientX - box.left) / box.width) * WIDTH;
@@ -43,7 +44,7 @@ export function countsView(parent, chosen) {
     dot.setAttribute("cy", y);
     said.setAttribute("x", Math.max(LEFT + 40, Math.min(WIDTH - 60, x)));
     said.setAttribute("y", Math.max(12, y - 9));
-    said.textContent = counted(lengths[step], "module");
+    said.textContent = counted(lengths[step], noun);
   }
 
   return { open, show };

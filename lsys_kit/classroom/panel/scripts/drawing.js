@@ -3,6 +3,7 @@
 import { made } from "./controls.js";
 import { onKey } from "./keys.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
+import { grownShapes, mapShapes, paintCells, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
 import { placed, traced } from "./turtle.js";
 
@@ -21,17 +22,19 @@ export function drawingView(parent, told) {
   parent.append(canvas, hint);
   const pen = canvas.getContext("2d"), pointers = new Map();
   let book, now, look, fault = "", shapes, frame, sheet, waiting = 0, glide = null;
-  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0;
+  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0, signs = null; // the signs of walls, where there was a map
 
-  const inSpace = () => book.data.mode === "space", isFilament = () => book.data.mode === "filament";
+  const inSpace = () => book.data.mode === "space", isFilament = () => book.data.mode === "filament", isMap = () => book.data.mode === "map";
 
   function open(next) {
     book = next;
     [near, shift, glide] = [1, [0, 0], null];
     const turning = inSpace() ? "Drag or arrow keys turn it. " : "";
     hint.textContent = `${turning}Plus, minus or the wheel bring it nearer, ${inSpace() ? "Shift and arrows" : "arrows"} move it, Home puts it back. `
-      + `Click a ${isFilament() ? "cell" : "part"} to trace it; N and P go to the next and the one before.`;
+      + `Click a ${{ filament: "cell", map: "wall" }[book.data.mode] ?? "part"} to trace it; N and P go to the next and the one before.`;
     canvas.classList.toggle("lsys-turned", inSpace());
+    if (isMap() && !signs) hint.before((signs = wallSigns(() => draw())).element);
+    signs?.offer(book);
   }
 
   // Show what is asked for: { step, angle, around, above, boxed: the step whose frame is kept, or null, glides }.
@@ -48,7 +51,7 @@ export function drawingView(parent, told) {
   // The shapes of a step; null where the turtle cannot draw them, and why.
   function shapesOf(step) {
     try {
-      return placed(traced(book, step), now.angle);
+      return isMap() ? mapShapes(book, step) : placed(traced(book, step), now.angle);
     } catch (error) {
       fault = error.message;
       return null;
@@ -87,7 +90,9 @@ export function drawingView(parent, told) {
       const visible = gliding(), last = now.boxed === null ? null : shapesOf(Math.max(now.boxed, now.step));
       const box = last && boundsOf(last);
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
+      if (isMap()) paintCells(pen, visible, frame, look.theme);
       paint(pen, visible, frame, look);
+      if (isMap()) paintWallSigns(pen, book, visible, frame, look, signs.chosen());
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
@@ -111,7 +116,7 @@ export function drawingView(parent, told) {
       glide = null;
       return shapes;
     }
-    return between(glide.from, shapes, glide.mothers, eased);
+    return isMap() ? grownShapes(book, now.step, eased) : between(glide.from, shapes, glide.mothers, eased);
   }
 
   const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n);

@@ -23,7 +23,7 @@ export function galleryView(parent, chosen) {
     tiles.forEach(({ book, canvas, tile, label }, number) => {
       const step = Math.min(now.step, book.steps);
       tile.setAttribute("aria-pressed", String(number === current));
-      tile.setAttribute("aria-label", `${label}: ${book.length(step).toLocaleString("en")} modules at step ${step}`);
+      tile.setAttribute("aria-label", `${label}: ${book.length(step).toLocaleString("en")} ${book.data.noun}s at step ${step}`);
       paintTile(canvas, book, { ...now, step, angle: now.angle ?? book.data.turtle?.angle }, look);
     });
   }

@@ -3,6 +3,7 @@
 import { openBook } from "./book.js";
 
 const MOST_BYTES = 2e6; // of books that were fetched before anybody asked for them
+const LONGEST = 400; // milliseconds of fetching such books, after which no other is begun
 
 export function library(host) {
   const books = new Map();
@@ -27,9 +28,9 @@ export function library(host) {
 
   // Fetch the books of some settings while nothing else happens; what is fetched later ends it.
   async function fetchAhead(many) {
-    const number = ++fetching;
+    const number = ++fetching, begun = performance.now();
     for (const settings of many) {
-      if (number !== fetching || fetched > MOST_BYTES) return;
+      if (number !== fetching || fetched > MOST_BYTES || performance.now() - begun > LONGEST) return;
       if (!books.has(keyOf(settings))) await book(settings);
     }
   }

@@ -14,7 +14,7 @@ export function netView(parent, chosen) {
     net = next;
     places = new Map();
     const sheet = drawn("svg", {
-      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group", style: `min-width:${Math.round(LEGIBLE * net.width)}px`,
+      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group", style: `min-width:${Math.round(LEGIBLE * net.width)}px;min-height:${Math.round(LEGIBLE * net.height)}px`,
       "aria-label": net.description,
     });
     for (const place of net.places) sheet.append(stage(place, theme));

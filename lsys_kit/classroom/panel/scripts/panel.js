@@ -16,7 +16,7 @@ import { netView } from "./net.js";
 import { player } from "./player.js";
 import { rulesView } from "./rules.js";
 import { litAt, placesOf, told } from "./tracing.js";
-import { counted, wordView } from "./word.js";
+import { counted, sizeOf, wordView } from "./word.js";
 import { folding } from "./views.js";
 
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
@@ -28,7 +28,7 @@ export function openPanel(element, host, compared = null) {
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
   const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, shownTheme = "", boxed = null;
+  let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, shownTheme = "", boxed = null, underway = null;
   let constants = [], nine = { key: "", first: 0 }, bred = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
@@ -84,7 +84,10 @@ export function openPanel(element, host, compared = null) {
     const asked = request(), number = ++asking;
     clearTimeout(resting);
     resting = setTimeout(() => host.save(), REST);
-    const known = books.known(asked), answer = known ? { book: known } : await books.book(asked);
+    if (!books.known(asked)) await underway; // a slider that moves on asks only for where it is when the kernel is free
+    if (number !== asking) return;
+    underway = books.book(asked);
+    const answer = await underway;
     if (number !== asking) return;
     if (answer.mistake) return say(answer.mistake);
     turnTo(answer.book);
@@ -124,7 +127,7 @@ export function openPanel(element, host, compared = null) {
     bottom.replaceChildren(...constants.map((each) => each.control.element), ...(model.book.turtle?.["uses angle"] ? [angle.element] : []),
       ...(model.book.mode === "space" ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
     view.seeds.offer(model.chance);
-    view.variants.offer(host.editable);
+    view.variants.offer(host.editable && model.book.mode !== "map");
     [bred, nine] = [[], { key: "", first: 0 }];
     const first = books.keep({ constants: settings, seed: model.seed }, model.book);
     boxed = Math.min(model.step, first.steps);
@@ -246,7 +249,7 @@ export function openPanel(element, host, compared = null) {
 
   function caption(now, tokens) {
     const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
-    const parts = [`step ${now}: ${counted(book.length(now), "module")}`, `${occupied} of ${counted(stages, "stage")} occupied`];
+    const parts = [`step ${now}: ${sizeOf(book, now)}`, `${occupied} of ${counted(stages, "stage")} occupied`];
     if (book.data.said) parts.push(book.data.said);
     if (now === book.steps && book.data.end) parts.push(book.data.end);
     return parts.join("; ");
@@ -275,7 +278,8 @@ export function openPanel(element, host, compared = null) {
   // The line of code that makes this panel as it stands.
   function code() {
     const changed = model.constants.filter((each) => host.get("settings")[each.name] !== each.texts[each.index]);
-    const first = book.data.title ? JSON.stringify(book.data.title) : `read(${JSON.stringify(book.data.text)}, ${JSON.stringify(book.data.notation)})`;
+    const reader = book.data.mode === "map" ? "read_map" : "read", notation = book.data.mode === "map" ? "" : `, ${JSON.stringify(book.data.notation)}`;
+    const first = book.data.title ? JSON.stringify(book.data.title) : `${reader}(${JSON.stringify(book.data.text)}${notation})`;
     const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
       ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
       ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];

@@ -30,11 +30,13 @@ function productionBefore(book, { step, position }) {
 // What a module is, where it came from and what it becomes, as a sentence.
 export function told(book, { step, position }) {
   const text = (at, where) => book.label(book.word(at)[where]).text;
-  const parts = [`Module ${(position + 1).toLocaleString("en")} of step ${step}, ${text(step, position)}`];
+  const { noun } = book.data;
+  const parts = [`${noun[0].toUpperCase()}${noun.slice(1)} ${(position + 1).toLocaleString("en")} of step ${step}, ${text(step, position)}`];
   if (step === 0) parts.push("stands in the axiom");
   else {
     const mother = book.mother(step, position), number = book.production(step, position);
-    parts.push(`comes from ${text(step - 1, mother)}, module ${(mother + 1).toLocaleString("en")} of step ${step - 1}, ${by(book, number)}`);
+    if (mother < 0) parts.push("is new: two markers that match have made it, and it divides a cell");
+    else parts.push(`comes from ${text(step - 1, mother)}, ${noun} ${(mother + 1).toLocaleString("en")} of step ${step - 1}, ${by(book, number)}`);
   }
   const range = book.daughters(step, position);
   if (range) {

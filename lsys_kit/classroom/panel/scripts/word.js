@@ -31,7 +31,7 @@ export function wordView(parent, told) {
     }
     if (!n) parts.push(made("span", { class: "lsys-gap" }, "The word is empty."));
     box.replaceChildren(...parts);
-    box.setAttribute("aria-label", `Word of step ${step}, ${counted(n, "module")}. ${help}`);
+    box.setAttribute("aria-label", `Word of step ${step}, ${counted(n, book.data.noun)}. ${help}`);
   }
 
   // Mark the modules of some states, and light those that are traced: a map from positions to what they are.
@@ -77,4 +77,10 @@ export function labelled({ letter, subscript, values }) {
 // A number with its noun: "1 module", "2 modules".
 export function counted(number, noun) {
   return `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
+}
+
+// The size of a step in words: of a map its points, walls and cells, of a word its modules.
+export function sizeOf(book, step) {
+  if (book.data.mode !== "map") return counted(book.length(step), book.data.noun);
+  return ["point", "wall", "cell"].map((noun, i) => counted(book.data.counts[step][i], noun)).join(", ");
 }

@@ -1,0 +1,137 @@
+// The map of a step: cells lightly filled, walls as strokes with their directions and labels. A map grows out of the one before:
+// new points start where they were made, on their walls, and all points move to rest.
+
+import { whole } from "./book.js";
+import { lineColour, mixed } from "./colours.js";
+import { made } from "./controls.js";
+
+const UNIT = 8; // a wall is about 0.3 long; in a frame it shall be no smaller than a cell of other drawings
+const FILL = 0.07; // how strong the ink is in a cell
+const LABEL = 14, LEAST_LABELLED = 22, LEAST_POINTED = 15; // the size of a label, and lengths of walls in pixels
+const HALO = 4.5; // pixels of paper around a label
+const REACH = 10, SLENDER = 0.42, TIP = 0.76; // of an arrowhead: its length, its breadth, and where it stands on the wall
+const known = new WeakMap();
+
+// The shapes of a map, as a painter takes them: walls are strokes; cells are kept beside them.
+export function mapShapes(book, step) {
+  if (!known.has(book)) known.set(book, new Map());
+  const maps = known.get(book);
+  if (!maps.has(step)) maps.set(step, shapesOf(book, step));
+  return maps.get(step);
+}
+
+function shapesOf(book, step) {
+  const page = book.data.maps[step], word = book.word(step), n = page.points.length / 2, walls = word.length;
+  const x = new Float64Array(n), y = new Float64Array(n), ends = whole(page.ends), from = new Int32Array(walls), to = new Int32Array(walls);
+  for (let i = 0; i < n; i++) [x[i], y[i]] = [UNIT * page.points[2 * i], UNIT * page.points[2 * i + 1]];
+  for (let i = 0; i < walls; i++) [from[i], to[i]] = [ends[2 * i], ends[2 * i + 1]];
+  const lengths = Float64Array.from(from, (a, i) => Math.hypot(x[to[i]] - x[a], y[to[i]] - y[a])).sort();
+  const none = new Int32Array(0);
+  return {
+    dimension: 2, n, x, y, pixel: 1, typical: lengths[walls >> 1] ?? 1,
+    strokes: {
+      n: walls, from, to, colours: Int32Array.from(word, (state) => book.data.states[state][0]), orders: new Int32Array(walls),
+      widths: new Float32Array(walls).fill(-1), positions: Int32Array.from({ length: walls }, (_, i) => i), states: word,
+    },
+    faces: { n: 0, starts: none, corners: none, colours: none, positions: none, states: none },
+    rounds: { n: 0, centres: none, radii: none, kinds: none, colours: none, positions: none, states: none },
+    palette: book.data.symbols.map(([, , colour]) => colour),
+    cells: { corners: whole(page.corners), starts: whole(page.starts), kinds: whole(page.kinds) },
+  };
+}
+
+// The shapes of a map on their way out of the map before: at 0 new points lie on their walls and new walls are points.
+export function grownShapes(book, step, share) {
+  const before = mapShapes(book, step - 1), to = mapShapes(book, step), known = before.n, x = new Float64Array(to.n), y = new Float64Array(to.n);
+  x.set(before.x);
+  y.set(before.y);
+  book.data.maps[step].new.forEach(([a, b, part], i) => {
+    [x[known + i], y[known + i]] = [x[a] + part * (x[b] - x[a]), y[a] + part * (y[b] - y[a])];
+  });
+  for (let i = 0; i < to.n; i++) [x[i], y[i]] = [x[i] + share * (to.x[i] - x[i]), y[i] + share * (to.y[i] - y[i])];
+  return { ...to, ...growing(to, x, y, to.strokes.positions.findIndex((wall) => book.mother(step, wall) < 0), share) };
+}
+
+// Walls from one on grow from their first point to their second.
+function growing({ n, strokes }, x, y, first, share) {
+  if (first < 0) return { x, y };
+  const many = strokes.n - first, to = strokes.to.slice(), xs = new Float64Array(n + many), ys = new Float64Array(n + many);
+  xs.set(x);
+  ys.set(y);
+  for (let i = 0; i < many; i++) {
+    const a = strokes.from[first + i], b = strokes.to[first + i];
+    [xs[n + i], ys[n + i], to[first + i]] = [x[a] + share * (x[b] - x[a]), y[a] + share * (y[b] - y[a]), n + i];
+  }
+  return { n: n + many, x: xs, y: ys, strokes: { ...strokes, to } };
+}
+
+const seenAt = ({ scale, x0, y0, middle: [cx, cy] }, { x, y }, point) => [x0 + (x[point] - cx) * scale, y0 - (y[point] - cy) * scale];
+
+// The cells, below the walls.
+export function paintCells(pen, shapes, frame, theme) {
+  const { corners, starts } = shapes.cells;
+  pen.fillStyle = mixed(theme.ink, theme.paper, FILL);
+  for (let cell = 0; cell + 1 < starts.length; cell++) {
+    pen.beginPath();
+    for (const corner of corners.subarray(starts[cell], starts[cell + 1])) pen.lineTo(...seenAt(frame, shapes, corner));
+    pen.closePath();
+    pen.fill();
+  }
+}
+
+// The directions and labels of walls, above them, where they are long enough.
+export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { directions, labels }) {
+  const { strokes, palette } = shapes, named = [];
+  for (let i = 0; i < strokes.n; i++) {
+    const [x, y] = seenAt(frame, shapes, strokes.from[i]), [toX, toY] = seenAt(frame, shapes, strokes.to[i]);
+    const length = Math.hypot(toX - x, toY - y), isDirected = book.data.states[strokes.states[i]][1] !== "";
+    if (directions && isDirected && length > LEAST_POINTED) {
+      pen.fillStyle = lineColour(palette[strokes.colours[i]], theme);
+      pen.fill(arrowhead(x, y, (toX - x) / length, (toY - y) / length, length));
+    }
+    if (labels && length > LEAST_LABELLED) named.push([(x + toX) / 2, (y + toY) / 2, strokes.states[i]]);
+  }
+  for (const [x, y, state] of named) paintLabel(pen, book.label(state), x, y, theme, marked.has(state));
+}
+
+function arrowhead(x, y, along, across, length) {
+  const reach = Math.min(REACH, 0.3 * length), tip = TIP * length + reach / 2, path = new Path2D();
+  for (const [ahead, aside] of [[tip, 0], [tip - reach, reach * SLENDER], [tip - reach, -reach * SLENDER]])
+    path.lineTo(x + ahead * along - aside * across, y + ahead * across + aside * along);
+  path.closePath();
+  return path;
+}
+
+function paintLabel(pen, { letter, subscript }, x, y, theme, isMarked) {
+  const parts = [[letter, `${isMarked ? "bold " : ""}italic ${LABEL}px Georgia, serif`, 0], [subscript, `${Math.round(0.7 * LABEL)}px Georgia, serif`, 3]];
+  const widths = parts.map(([text, font]) => {
+    pen.font = font;
+    return pen.measureText(text).width;
+  });
+  pen.textAlign = "left";
+  for (const way of ["strokeText", "fillText"]) {
+    let left = x - (widths[0] + widths[1]) / 2;
+    [pen.strokeStyle, pen.fillStyle, pen.lineWidth] = [theme.paper, theme.ink, HALO];
+    parts.forEach(([text, font, lower], i) => {
+      pen.font = font;
+      if (text) pen[way](text, left, y + 0.34 * LABEL + lower);
+      left += widths[i];
+    });
+  }
+}
+
+// Two boxes to be ticked: whether directions and labels are shown.
+export function wallSigns(changed) {
+  const box = (name) => made("input", { type: "checkbox", checked: true, "data-control": name, onchange: changed });
+  const directions = box("directions"), labels = box("labels");
+  const element = made("div", { class: "lsys-controls" }, made("label", { class: "lsys-check" }, directions, "directions"),
+    made("label", { class: "lsys-check" }, labels, "labels"));
+  return {
+    element,
+    offer(book) {
+      element.hidden = book.data.mode !== "map";
+      directions.parentNode.hidden = !book.data.states.some(([, values]) => values);
+    },
+    chosen: () => ({ directions: directions.checked, labels: labels.checked }),
+  };
+}
