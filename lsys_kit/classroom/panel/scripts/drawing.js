@@ -3,7 +3,7 @@
 import { made } from "./controls.js";
 import { onKey } from "./keys.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
-import { grownShapes, mapShapes, paintCells, paintWallSigns, wallSigns } from "./map.js";
+import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
 import { placed, traced } from "./turtle.js";
 
@@ -92,7 +92,10 @@ export function drawingView(parent, told) {
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
       if (isMap()) paintCells(pen, visible, frame, look.theme);
       paint(pen, visible, frame, look);
-      if (isMap()) paintWallSigns(pen, book, visible, frame, look, signs.chosen());
+      if (isMap()) {
+        paintWallSigns(pen, book, visible, frame, look, signs.chosen());
+        paintMapScale(pen, frame, look, height);
+      }
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;

@@ -7,9 +7,10 @@ import { made } from "./controls.js";
 
 const UNIT = 8; // a wall is about 0.3 long; in a frame it shall be no smaller than a cell of other drawings
 const FILL = 0.07; // how strong the ink is in a cell
-const LABEL = 14, LEAST_LABELLED = 22, LEAST_POINTED = 15; // the size of a label, and lengths of walls in pixels
-const HALO = 4.5; // pixels of paper around a label
-const REACH = 10, SLENDER = 0.42, TIP = 0.76; // of an arrowhead: its length, its breadth, and where it stands on the wall
+const LEAST_LABELLED = 1.6, LEAST_POINTED = 1.1; // the lengths of walls with a label and with an arrow, in sizes of a label
+const HALO = 0.32; // of paper around a label, in its size
+const REACH = 0.75, SLENDER = 0.42, TIP = 0.76; // of an arrowhead: its length in sizes of a label, its breadth, and where it stands
+const LONGEST_SCALE = 72, CORNER = 12, ROUND = [1, 2, 5]; // of the scale: its greatest length, its distance from the corner
 const known = new WeakMap();
 
 // The shapes of a map, as a painter takes them: walls are strokes; cells are kept beside them.
@@ -81,29 +82,29 @@ export function paintCells(pen, shapes, frame, theme) {
 
 // The directions and labels of walls, above them, where they are long enough.
 export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { directions, labels }) {
-  const { strokes, palette } = shapes, named = [];
+  const { strokes, palette } = shapes, named = [], size = parseFloat(getComputedStyle(pen.canvas).fontSize);
   for (let i = 0; i < strokes.n; i++) {
     const [x, y] = seenAt(frame, shapes, strokes.from[i]), [toX, toY] = seenAt(frame, shapes, strokes.to[i]);
     const length = Math.hypot(toX - x, toY - y), isDirected = book.data.states[strokes.states[i]][1] !== "";
-    if (directions && isDirected && length > LEAST_POINTED) {
+    if (directions && isDirected && length > LEAST_POINTED * size) {
       pen.fillStyle = lineColour(palette[strokes.colours[i]], theme);
-      pen.fill(arrowhead(x, y, (toX - x) / length, (toY - y) / length, length));
+      pen.fill(arrowhead(x, y, (toX - x) / length, (toY - y) / length, length, size));
     }
-    if (labels && length > LEAST_LABELLED) named.push([(x + toX) / 2, (y + toY) / 2, strokes.states[i]]);
+    if (labels && length > LEAST_LABELLED * size) named.push([(x + toX) / 2, (y + toY) / 2, strokes.states[i]]);
   }
-  for (const [x, y, state] of named) paintLabel(pen, book.label(state), x, y, theme, marked.has(state));
+  for (const [x, y, state] of named) paintLabel(pen, book.label(state), x, y, size, theme, marked.has(state));
 }
 
-function arrowhead(x, y, along, across, length) {
-  const reach = Math.min(REACH, 0.3 * length), tip = TIP * length + reach / 2, path = new Path2D();
+function arrowhead(x, y, along, across, length, size) {
+  const reach = Math.min(REACH * size, 0.3 * length), tip = TIP * length + reach / 2, path = new Path2D();
   for (const [ahead, aside] of [[tip, 0], [tip - reach, reach * SLENDER], [tip - reach, -reach * SLENDER]])
     path.lineTo(x + ahead * along - aside * across, y + ahead * across + aside * along);
   path.closePath();
   return path;
 }
 
-function paintLabel(pen, { letter, subscript }, x, y, theme, isMarked) {
-  const parts = [[letter, `${isMarked ? "bold " : ""}italic ${LABEL}px Georgia, serif`, 0], [subscript, `${Math.round(0.7 * LABEL)}px Georgia, serif`, 3]];
+function paintLabel(pen, { letter, subscript }, x, y, size, theme, isMarked) {
+  const parts = [[letter, `${isMarked ? "bold " : ""}italic ${size}px Georgia, serif`, 0], [subscript, `${Math.round(0.7 * size)}px Georgia, serif`, 0.2 * size]];
   const widths = parts.map(([text, font]) => {
     pen.font = font;
     return pen.measureText(text).width;
@@ -111,13 +112,24 @@ function paintLabel(pen, { letter, subscript }, x, y, theme, isMarked) {
   pen.textAlign = "left";
   for (const way of ["strokeText", "fillText"]) {
     let left = x - (widths[0] + widths[1]) / 2;
-    [pen.strokeStyle, pen.fillStyle, pen.lineWidth] = [theme.paper, theme.ink, HALO];
+    [pen.strokeStyle, pen.fillStyle, pen.lineWidth] = [theme.paper, theme.ink, HALO * size];
     parts.forEach(([text, font, lower], i) => {
       pen.font = font;
-      if (text) pen[way](text, left, y + 0.34 * LABEL + lower);
+      if (text) pen[way](text, left, y + 0.34 * size + lower);
       left += widths[i];
     });
   }
+}
+
+// A length in the units of the forces, such as the rest length of a wall, so that maps under other forces can be compared.
+export function paintMapScale(pen, { scale }, { theme }, height) {
+  const most = LONGEST_SCALE / (scale * UNIT), power = 10 ** Math.floor(Math.log10(most));
+  const length = ROUND.findLast((number) => number * power <= most) * power, pixels = length * scale * UNIT, y = height - CORNER;
+  [pen.strokeStyle, pen.fillStyle, pen.lineWidth] = [theme.quiet, theme.quiet, 1.2];
+  pen.stroke(new Path2D(`M${CORNER} ${y - 4}v8m0 -4h${pixels}m0 -4v8`));
+  pen.font = "12px sans-serif";
+  pen.textAlign = "left";
+  pen.fillText(String(Number(length.toPrecision(1))), CORNER + pixels + 6, y + 4);
 }
 
 // Two boxes to be ticked: whether directions and labels are shown.

@@ -1,0 +1,231 @@
+"""Maps in the panel, in a browser: it has the maps that are derived, shows them, and answers to whoever points at them."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+from lsys_kit import derive, explore, map_system, map_systems, read_map
+from lsys_kit.classroom.panel.bundle import bundled
+from lsys_kit.geometry.map_layout import initial_vertices, place_maps
+from tests.classroom.panel_page import open_panel
+
+MAPS = """
+const opened = openBook(book), plain = (numbers) => Array.from(numbers);
+return opened.lengths().map((_, step) => {
+  const { n, x, y, strokes, cells } = mapShapes(opened, step), word = plain(opened.word(step));
+  const first = step && grownShapes(opened, step, 0), last = step && grownShapes(opened, step, 1);
+  return {
+    walls: word.map((state) => opened.label(state).text),
+    letters: word.map((state) => opened.label(state).letter + opened.label(state).subscript),
+    ends: plain(strokes.from).map((from, i) => [from, strokes.to[i]]), points: plain(x).map((place, i) => [place, y[i]]),
+    counts: [n, opened.length(step), cells.starts.length - 1], tokens: opened.tokens(step), size: sizeOf(opened, step),
+    mothers: word.map((_, i) => opened.mother(step, i)),
+    first: step && plain(first.x).slice(0, n).map((place, i) => [place, first.y[i]]),
+    moved: step && plain(last.x).slice(0, n).map((place, i) => [place, last.y[i]]),
+    short: step && plain(first.strokes.from).map((one, i) => ["x", "y"].map((axis) =>
+      first[axis][one] - first[axis][first.strokes.to[i]])),
+  };
+});
+"""
+HITS = """
+const opened = openBook(book), shapes = mapShapes(opened, step), { from, to } = shapes.strokes;
+const frame = frameOf(shapes, 400, 300), { x0, y0, scale, middle } = frame;
+const seen = (point) => [x0 + (shapes.x[point] - middle[0]) * scale, y0 - (shapes.y[point] - middle[1]) * scale];
+return Array.from(from, (one, wall) => {
+  const [[a, b], [c, d]] = [seen(one), seen(to[wall])];
+  return shapeAt(shapes, frame, (a + c) / 2, (b + d) / 2, 6);
+});
+"""
+PIXELS = "document.querySelector('canvas.lsys-canvas').toDataURL()"
+UNIT = 8
+
+
+@pytest.fixture(scope="module")
+def page(browser):
+    return browser.new_page()
+
+
+@pytest.fixture
+def opened(browser):
+    pages = []
+
+    def open_one(*what, **more):
+        pages.append(open_panel(browser, explore(*what), **more))
+        return pages[-1]
+
+    yield open_one
+    for each in pages:
+        assert not each.errors
+        each.page.context.close()
+
+
+def asked(page, code, **given):
+    """What some code makes of what is given, with the scripts of the panel before it."""
+    return page.evaluate(f"({{ {', '.join(given)} }}) => {{ {bundled('panel')}\n{code} }}", given)
+
+
+@pytest.mark.parametrize("id", map_systems())
+def test_the_browser_has_the_maps_that_are_derived(page, id):
+    made = map_system(id)
+    shown = asked(page, MAPS, book=explore(id).model["book"])
+    maps = derive(made, len(shown) - 1)
+    places = [*place_maps(maps)]
+    assert len(shown) > made.steps
+    for step, (found, here) in enumerate(zip(maps, shown, strict=True)):
+        assert here["walls"] == [wall.label + ">" * wall.directed for wall in found.walls]
+        assert here["letters"] == [wall.label for wall in found.walls]
+        assert here["ends"] == [[wall.start, wall.end] for wall in found.walls]
+        assert tuple(here["counts"]) == found.counts
+        assert sum(here["tokens"]) == len(found.walls)
+        assert np.allclose(np.array(here["points"]) / UNIT, places[step], atol=1e-4)
+        words = ("point", "wall", "cell")
+        assert here["size"] == ", ".join(f"{n} {word}{'s' * (n != 1)}" for n, word in zip(found.counts, words, strict=True))
+        if step:
+            assert np.allclose(np.array(here["first"]) / UNIT, initial_vertices(found, places[step - 1]), atol=1e-4)
+            assert np.allclose(here["moved"], here["points"], atol=1e-9)
+
+
+@pytest.mark.parametrize("id", map_systems())
+def test_walls_without_a_mother_grow_from_a_point(page, id):
+    shown = asked(page, MAPS, book=explore(id).model["book"])
+    for before, here in pairwise(shown):
+        assert here["mothers"].count(-1) == here["counts"][2] - before["counts"][2]
+        for mother, (across, up) in zip(here["mothers"], here["short"], strict=True):
+            assert (mother == -1) == (abs(across) + abs(up) < 1e-9)
+
+
+@pytest.mark.parametrize("id", map_systems())
+def test_whoever_points_at_the_middle_of_a_wall_finds_it(page, id):
+    panel = explore(id)
+    found = asked(page, HITS, book=panel.model["book"], step=panel.step)
+    assert found == [*range(len(found))]
+
+
+def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(opened):
+    panel = opened("K30", 2)
+    expect(panel.at(".lsys-status")).to_have_text("step 2: 8 points, 10 walls, 3 cells; 4 of 4 stages occupied")
+    assert panel.at(".lsys-module").all_inner_texts() == [f"{wall.label}>" for wall in derive(map_system("K30"), 2)[-1].walls]
+    assert [panel.at(f"[data-place='{place}']").get_attribute("aria-label") for place in range(4)] == [
+        "stage A, 1 token", "stage B, 7 tokens", "stage C, 1 token", "stage D, 1 token"]
+    panel.view("how many")
+    expect(panel.at(".lsys-counts")).to_have_attribute("aria-label", "Walls a step: " + "; ".join(
+        f"step {step}, {4 + 3 * step}" for step in range(12)))
+    panel.page.get_by_role("button", name="one step on").click()
+    expect(panel.at(".lsys-status")).to_contain_text("10 points, 13 walls, 4 cells")
+    assert "book" not in panel.asked
+
+
+def test_directions_and_labels_can_be_left_out(opened):
+    panel = opened("K30", 3)
+    seen = [panel.page.evaluate(PIXELS)]
+    for name in ("directions", "labels"):
+        panel.page.get_by_label(name, exact=True).uncheck()
+        panel.page.wait_for_timeout(200)
+        seen.append(panel.page.evaluate(PIXELS))
+    assert len(set(seen)) == 3
+    panel.page.get_by_label("directions", exact=True).check()
+    panel.page.get_by_label("labels", exact=True).check()
+    panel.page.wait_for_timeout(200)
+    assert panel.page.evaluate(PIXELS) == seen[0]
+
+
+def test_walls_that_point_nowhere_have_no_directions_to_be_left_out(opened):
+    panel = opened("K28", 1)
+    expect(panel.page.get_by_label("labels", exact=True)).to_be_visible()
+    expect(panel.page.get_by_label("directions", exact=True)).to_be_hidden()
+
+
+def test_a_panel_of_cells_has_no_signs_of_walls(opened):
+    panel = opened("J4", 3)
+    assert panel.page.get_by_label("labels", exact=True).count() == 0
+
+
+def test_a_wall_is_traced_to_its_mother_and_its_daughters(opened):
+    panel = opened("K30", 1)
+    panel.view("rules")
+    panel.at("[data-position='0']").click()
+    expect(panel.at(".lsys-sentence")).to_have_text(
+        "Wall 1 of step 1, D> comes from A>, wall 1 of step 0, by production 1, A> -> D>[-A>]B>; it becomes C> at step 2.")
+    expect(panel.at(".lsys-applied")).to_have_text("A> -> D>[-A>]B>")
+    panel.at("[data-position='6']").click()
+    expect(panel.at(".lsys-sentence")).to_contain_text("Wall 7 of step 1, A> is new: two markers that match have made it")
+    expect(panel.at(".lsys-applied")).to_have_count(0)
+
+
+def test_a_wall_of_the_drawing_is_traced_by_a_click(opened):
+    panel = opened("K28", 0)
+    box = panel.at("canvas.lsys-canvas").bounding_box()
+    found = set()
+    for across, up in ((0, -1), (1, 0), (0, 1), (-1, 0)):
+        side = 0.2791 * UNIT * 120 / 2  # at rest a square cell has this wall; its scale is the greatest one
+        panel.page.mouse.click(box["x"] + box["width"] / 2 + across * side, box["y"] + box["height"] / 2 + up * side)
+        found.add(panel.at(".lsys-sentence").inner_text().partition(" of step 0")[0])
+    assert found == {"Wall 1", "Wall 2", "Wall 3", "Wall 4"}
+    expect(panel.at(".lsys-module[data-traced='self']")).to_have_text("B")
+
+
+def test_a_force_that_is_moved_asks_for_another_book_and_changes_the_map(opened):
+    panel = opened("K29", 3)
+    before = panel.page.evaluate(PIXELS)
+    box = panel.page.get_by_role("textbox", name="pressure")
+    box.fill("0.8")
+    box.press("Enter")
+    panel.page.wait_for_function("host.get('settings').pressure === '0.8' && window.asked.includes('save')")
+    panel.page.wait_for_function(f"{PIXELS} !== before".replace("before", repr(before)))
+    assert panel.asked[0] == "book"
+    panel.page.get_by_role("button", name="reset").click()
+    panel.page.wait_for_function(f"{PIXELS} === {before!r}")
+
+
+def test_rules_of_a_map_are_broken_and_mended_in_the_editor(opened):
+    panel = opened("K28", 2)
+    panel.view("rules")
+    editor = panel.at("textarea.lsys-rules")
+    text = map_system("K28").source
+    editor.fill(text.replace("[+A]B", "[+A B"))
+    expect(panel.at(".lsys-mistake")).to_contain_text("A marker has one letter")
+    expect(editor).to_have_attribute("aria-invalid", "true")
+    expect(panel.at(".lsys-status")).to_contain_text("step 2: 9 points, 12 walls, 4 cells")
+    mended = text.replace("[-A][+A]", "x[-A][+A]x")
+    editor.fill(mended)
+    points, walls, cells = derive(read_map(mended), 2)[-1].counts
+    assert walls > 12
+    expect(panel.at(".lsys-status")).to_contain_text(f"step 2: {points} points, {walls} walls, {cells} cells")
+    expect(panel.at(".lsys-mistake")).to_be_empty()
+    expect(editor).not_to_have_attribute("aria-invalid", "true")
+    assert str(panel.explorer.system.productions[0]) == "A -> Bx[-A][+A]xB"
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_marked_walls_are_marked_in_word_and_drawing(opened, dark):
+    panel = opened("K32", 8, dark=dark)
+    before = panel.page.evaluate(PIXELS)
+    panel.page.get_by_label("mark", exact=True).select_option("V")
+    expect(panel.at(".lsys-marked")).to_have_text(["V>"] * 4)
+    panel.page.wait_for_function(f"{PIXELS} !== {before!r}")
+
+
+def test_playing_ends_at_the_last_step(opened):
+    panel = opened("K30", 10)
+    panel.page.get_by_role("button", name="play", exact=True).click()
+    expect(panel.at(".lsys-status")).to_contain_text("step 12: 28 points, 40 walls, 13 cells")
+    expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-step", "12")
+
+
+def test_a_page_without_a_kernel_shows_a_map(opened, browser, tmp_path):
+    file = tmp_path / "map.html"
+    panel = explore("K29", 2)
+    panel.pressure = 0.5
+    panel.save(file)
+    page = browser.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(file.as_uri())
+    expect(page.locator(".lsys-status")).to_contain_text("step 2: 14 points, 17 walls, 4 cells")
+    expect(page.get_by_text("Fixed on this page: stiffness = 1, rest = 0.1, pressure = 0.5, damping = 1.")).to_be_visible()
+    assert not errors
+    page.close()
