@@ -24,6 +24,8 @@ return opened.lengths().map((_, step) => {
     ends: plain(strokes.from).map((from, i) => [from, strokes.to[i]]), points: plain(x).map((place, i) => [place, y[i]]),
     counts: [n, opened.length(step), cells.starts.length - 1], tokens: opened.tokens(step), size: sizeOf(opened, step),
     mothers: word.map((_, i) => opened.mother(step, i)),
+    halves: word.flatMap((_, i) => step && opened.mother(step, i) < 0 ? [wallsBeside(opened, step, i)] : []).map((pair) =>
+      pair.map((each) => opened.production(step, each))),
     first: step && plain(first.x).slice(0, n).map((place, i) => [place, first.y[i]]),
     moved: step && plain(last.x).slice(0, n).map((place, i) => [place, last.y[i]]),
     short: step && plain(first.strokes.from).map((one, i) => ["x", "y"].map((axis) =>
@@ -99,6 +101,16 @@ def test_walls_without_a_mother_grow_from_a_point(page, id):
 
 
 @pytest.mark.parametrize("id", map_systems())
+def test_a_wall_without_a_mother_was_made_by_two_markers_of_its_letter(page, id):
+    productions = map_system(id).productions
+    for here in asked(page, MAPS, book=explore(id).model["book"])[1:]:
+        new = [letter for letter, mother in zip(here["letters"], here["mothers"], strict=True) if mother < 0]
+        for letter, halves in zip(new, here["halves"], strict=True):
+            assert all(letter in {marker.edge.label for marker in productions[rule].markers} for rule in halves)
+            assert len(halves) == 2
+
+
+@pytest.mark.parametrize("id", map_systems())
 def test_whoever_points_at_the_middle_of_a_wall_finds_it(page, id):
     panel = explore(id)
     found = asked(page, HITS, book=panel.model["book"], step=panel.step)
@@ -152,8 +164,11 @@ def test_a_wall_is_traced_to_its_mother_and_its_daughters(opened):
         "Wall 1 of step 1, D> comes from A>, wall 1 of step 0, by production 1, A> -> D>[-A>]B>; it becomes C> at step 2.")
     expect(panel.at(".lsys-applied")).to_have_text("A> -> D>[-A>]B>")
     panel.at("[data-position='6']").click()
-    expect(panel.at(".lsys-sentence")).to_contain_text("Wall 7 of step 1, A> is new: two markers that match have made it")
-    expect(panel.at(".lsys-applied")).to_have_count(0)
+    expect(panel.at(".lsys-sentence")).to_contain_text(
+        "Wall 7 of step 1, A> is new and divides a cell: markers of A>, wall 1, and C>, wall 3 of step 0 match")
+    expect(panel.at(".lsys-applied")).to_have_text(["A> -> D>[-A>]B>", "C> -> B>[-A<]B>"])
+    panel.page.get_by_role("button", name="one step back").click()
+    expect(panel.at("[data-traced='mother']")).to_have_text(["A>", "C>"])
 
 
 def test_a_wall_of_the_drawing_is_traced_by_a_click(opened):

@@ -41,6 +41,13 @@ function shapesOf(book, step) {
   };
 }
 
+// At either end of a wall that divides a cell, a wall that lies on the one in the map before whose marker was there.
+export function wallsBeside(book, step, position) {
+  const { positions, from, to } = mapShapes(book, step).strokes;
+  return [from[position], to[position]].map((point) =>
+    positions.find((wall) => book.mother(step, wall) >= 0 && (from[wall] === point || to[wall] === point)));
+}
+
 // The shapes of a map on their way out of the map before: at 0 new points lie on their walls and new walls are points.
 export function grownShapes(book, step, share) {
   const before = mapShapes(book, step - 1), to = mapShapes(book, step), known = before.n, x = new Float64Array(to.n), y = new Float64Array(to.n);

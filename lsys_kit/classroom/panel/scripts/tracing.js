@@ -1,13 +1,14 @@
 // A module that is traced: its mother in the step before, its daughters in the next, and the sentence that tells of them.
 
+import { wallsBeside } from "./map.js";
+
 // What is lit at a step when a module of some step is traced: a map from positions to "self", "mother" or "daughter".
 export function litAt(book, traced, step) {
   const lit = new Map();
   if (!traced) return lit;
   if (step === traced.step) lit.set(traced.position, "self");
   if (step === traced.step - 1) {
-    const mother = book.mother(traced.step, traced.position);
-    if (mother >= 0) lit.set(mother, "mother");
+    for (const each of originsOf(book, traced)) lit.set(book.mother(step + 1, each), "mother");
   }
   if (step === traced.step + 1) {
     const [from, to] = book.daughters(traced.step, traced.position) ?? [0, 0];
@@ -19,12 +20,15 @@ export function litAt(book, traced, step) {
 // Where in the model's text the productions stand that made a module and that will replace it.
 export function placesOf(book, traced) {
   if (!traced) return [];
-  const number = productionBefore(book, traced), at = number >= 0 && book.data.productions[number]?.at;
-  return at ? [at] : [];
+  const numbers = new Set(originsOf(book, traced).map((each) => book.production(traced.step, each)));
+  return [...numbers].flatMap((number) => book.data.productions[number]?.at ? [book.data.productions[number].at] : []);
 }
 
-function productionBefore(book, { step, position }) {
-  return step ? book.production(step, position) : -1;
+// The modules of a step by whose mothers one was made: the module itself; of a wall that divides a cell the two beside it.
+function originsOf(book, { step, position }) {
+  if (!step) return [];
+  if (book.mother(step, position) >= 0) return [position];
+  return book.data.mode === "map" ? wallsBeside(book, step, position) : [];
 }
 
 // What a module is, where it came from and what it becomes, as a sentence.
@@ -35,7 +39,7 @@ export function told(book, { step, position }) {
   if (step === 0) parts.push("stands in the axiom");
   else {
     const mother = book.mother(step, position), number = book.production(step, position);
-    if (mother < 0) parts.push("is new: two markers that match have made it, and it divides a cell");
+    if (mother < 0) parts.push(`is new and divides a cell: ${halves(book, { step, position })}`);
     else parts.push(`comes from ${text(step - 1, mother)}, ${noun} ${(mother + 1).toLocaleString("en")} of step ${step - 1}, ${by(book, number)}`);
   }
   const range = book.daughters(step, position);
@@ -46,6 +50,15 @@ export function told(book, { step, position }) {
     parts.push(stays ? `it stays as it is at step ${step + 1}` : many ? `it becomes ${made}${many > 12 ? " …" : ""} at step ${step + 1}` : `it is gone at step ${step + 1}`);
   }
   return `${parts.slice(0, 2).join(" ")}${parts[2] ? `; ${parts[2]}` : ""}.`;
+}
+
+// Which markers have made a wall that divides a cell.
+function halves(book, traced) {
+  const { step } = traced, found = originsOf(book, traced).map((each) => {
+    const mother = book.mother(step, each);
+    return `${book.label(book.word(step - 1)[mother]).text}, wall ${(mother + 1).toLocaleString("en")}`;
+  });
+  return `markers of ${found.join(", and ")} of step ${step - 1} match`;
 }
 
 function by(book, number) {
