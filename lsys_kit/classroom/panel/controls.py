@@ -5,12 +5,12 @@ What a slider moves through is a list of exact values; the browser knows only th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from lsys_kit.derivation.core.rules import constants_of
+from lsys_kit.derivation.core.rules import constants_of, real_from
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, function_of
@@ -97,3 +97,14 @@ def slider_values(span: SliderRange) -> tuple[Value, ...]:
     coarser = -(-many // MOST_VALUES) or 1
     grid = {normalised(low + number * coarser * step) for number in range(many // coarser + 1)}
     return tuple(sorted({*grid, span.value}))
+
+
+def nearest(values: Sequence[Value], name: str, wanted: object) -> Value:
+    """The value of a slider that is nearest to a number, or to the text of one."""
+    number = real_from(wanted, name)
+    return min(values, key=lambda value: abs(float(value) - number))
+
+
+def plain_number(value: Value) -> int | float:
+    """A value as a number that is no fraction."""
+    return value if isinstance(value, int) else float(value)

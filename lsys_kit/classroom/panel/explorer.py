@@ -8,7 +8,7 @@ sliders have come to rest, so that other widgets can be linked to the panel.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -22,11 +22,11 @@ from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked
 from lsys_kit.classroom.panel.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.controls import nearest, plain_number
 from lsys_kit.classroom.panel.opened.maps import OpenedMap
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.opened.systems import OpenedSystem
 from lsys_kit.classroom.panel.page import save_page
-from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.fragments import is_link
@@ -77,7 +77,7 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
     if isinstance(what, str) and is_link(what):
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **_given(step, angle, seed), **constants}
-        return explore(there.system, **given)  # type: ignore[arg-type]
+        return explore(there.system, **given)
     system = (read_map(what) if is_map(what) else read(what)) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
@@ -198,7 +198,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     @traitlets.validate("settings")
     def _possible_settings(self, proposal: Any) -> dict[str, str]:
         given = {**self.settings, **proposal["value"]} if self._ready else proposal["value"]
-        return {name: number_text(_nearest(self._opened.values[name], name, text)) for name, text in given.items()
+        return {name: number_text(nearest(self._opened.values[name], name, text)) for name, text in given.items()
                 if name in self._opened.values}
 
     # -- what happens ---------------------------------------------------------------------------------------------------
@@ -217,7 +217,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
             if not hasattr(self, name):
                 whole = all(isinstance(part, int) for part in self._opened.values[name])
                 kind: Any = traitlets.Int if whole else traitlets.Float
-                self.add_traits(**{name: kind(_plain(value))})
+                self.add_traits(**{name: kind(plain_number(value))})
                 self.observe(self._set_constant, name)
         self.observe(self._tell_constants, "settings")
 
@@ -227,11 +227,11 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _tell_constants(self, _: object) -> None:
         for name, text in self.settings.items():
             if self.has_trait(name) and name not in type(self).class_trait_names(sync=True):
-                setattr(self, name, _plain(_nearest(self._opened.values[name], name, text)))
+                setattr(self, name, plain_number(nearest(self._opened.values[name], name, text)))
 
     def _values(self, settings: Mapping[str, object]) -> dict[str, Value]:
         """The values of the sliders for some settings."""
-        return {name: _nearest(values, name, settings.get(name, self._opened.first[name]))
+        return {name: nearest(values, name, settings.get(name, self._opened.first[name]))
                 for name, values in self._opened.values.items()}
 
     def _limited(self) -> AbstractContextManager[object]:
@@ -303,13 +303,3 @@ def mistake(error: LSystemError) -> dict[str, Any]:
 def _opened(system: LSystem | MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
     """A system of either kind, opened."""
     return OpenedMap(system, title, changes) if isinstance(system, MapSystem) else OpenedSystem(system, title, changes)
-
-
-def _nearest(values: Sequence[Value], name: str, wanted: object) -> Value:
-    """The value of a slider that is nearest to a number, or to the text of one."""
-    number = real_from(wanted, name)
-    return min(values, key=lambda value: abs(float(value) - number))
-
-
-def _plain(value: Value) -> int | float:
-    return value if isinstance(value, int) else float(value)
