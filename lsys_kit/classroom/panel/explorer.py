@@ -23,9 +23,8 @@ from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked
 from lsys_kit.classroom.panel.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number
-from lsys_kit.classroom.panel.opened.maps import OpenedMap
+from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
-from lsys_kit.classroom.panel.opened.systems import OpenedSystem
 from lsys_kit.classroom.panel.page import save_page
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
 from lsys_kit.notation.dialects.map.dialect import read_map
@@ -81,7 +80,7 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
     system = (read_map(what) if is_map(what) else read(what)) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
-    return Explorer(_opened(system, title, constants), step, angle, seed)
+    return Explorer(opened(system, title, constants), step, angle, seed)
 
 
 def _given(step: int | None, angle: object, seed: int) -> dict[str, Any]:
@@ -203,11 +202,11 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
-    def _model_of(self, opened: Opened, first: int) -> dict[str, Any]:
+    def _model_of(self, shown: Opened, first: int) -> dict[str, Any]:
         """What the browser needs of a system: its sliders and its first book."""
-        sliders = [{"name": name, "texts": [*map(number_text, opened.values[name])], "hint": f"{opened.hint} {name}",
-                    "index": opened.values[name].index(value)} for name, value in opened.first.items()]
-        made = opened.book(opened.first, self.seed, first)
+        sliders = [{"name": name, "texts": [*map(number_text, shown.values[name])], "hint": f"{shown.hint} {name}",
+                    "index": shown.values[name].index(value)} for name, value in shown.first.items()]
+        made = shown.book(shown.first, self.seed, first)
         return {"book": made, "constants": sliders, "chance": made["chance"], "step": min(first, made["steps"]),
                 "angle": self.angle, "around": self.around, "above": self.above, "seed": self.seed}
 
@@ -255,14 +254,14 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """The model of a text that was typed."""
         system = self._opened.read(content["text"])
-        opened = _opened(system, "" if system != self.system else self._opened.title)
-        found = {**self._model_of(opened, opened.steps), "angle": opened.angle}
-        self._opened = opened
+        new = opened(system, "" if system != self.system else self._opened.title)
+        found = {**self._model_of(new, new.steps), "angle": new.angle}
+        self._opened = new
         return {"model": found}
 
     def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
         """Nine variants of the system, each with its book."""
-        return {"variants": [{"text": str(variant), "book": _opened(variant).book({}, self.seed, 0)}
+        return {"variants": [{"text": str(variant), "book": opened(variant).book({}, self.seed, 0)}
                              for variant in self._opened.variants(9)]}
 
     def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
@@ -298,8 +297,3 @@ def mistake(error: LSystemError) -> dict[str, Any]:
         start, end = line + error.column - 1, line + error.end - 1
     return {"message": error.message, "hint": error.hint or "", "start": start, "end": end, "line": error.line,
             "column": error.column}
-
-
-def _opened(system: LSystem | MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
-    """A system of either kind, opened."""
-    return OpenedMap(system, title, changes) if isinstance(system, MapSystem) else OpenedSystem(system, title, changes)

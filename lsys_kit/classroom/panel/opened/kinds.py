@@ -1,0 +1,31 @@
+"""The kinds of systems that the panel can show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lsys_kit.classroom.panel.opened.maps import OpenedMap
+from lsys_kit.classroom.panel.opened.opened import Opened
+from lsys_kit.classroom.panel.opened.systems import OpenedSystem
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
+
+
+def opened(system: LSystem | MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
+    """A system of either kind, opened.
+
+    Parameters
+    ----------
+    system
+        An L-system or a map system.
+    title
+        What it is called in the catalogue.
+    changes
+        First values of its constants, or of its forces.
+
+    Raises
+    ------
+    LSystemError
+        A value makes no sense.
+    """
+    return OpenedMap(system, title, changes) if isinstance(system, MapSystem) else OpenedSystem(system, title, changes)
