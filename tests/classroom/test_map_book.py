@@ -199,6 +199,12 @@ def test_rules_typed_in_the_editor_may_be_of_the_other_kind():
     assert answered(panel, {"kind": "variants"})["variants"]
 
 
+def test_a_link_of_a_map_may_be_put_in_place_of_rules():
+    panel = explore("J1", 4)
+    assert answered(panel, {"kind": "rules", "text": explore(DIVIDED).link})["model"]["book"]["counts"][1] == (6, 7, 2)
+    assert "mistake" in answered(panel, {"kind": "rules", "text": "map: AB"})
+
+
 def test_a_map_has_no_variants():
     assert answered(explore("K28", 0), {"kind": "variants"}) == {"number": 1, "variants": []}
 

@@ -202,11 +202,11 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
-    def _model_of(self, shown: Opened, first: int) -> dict[str, Any]:
+    def _model_of(self, what: Opened, first: int) -> dict[str, Any]:
         """What the browser needs of a system: its sliders and its first book."""
-        sliders = [{"name": name, "texts": [*map(number_text, shown.values[name])], "hint": f"{shown.hint} {name}",
-                    "index": shown.values[name].index(value)} for name, value in shown.first.items()]
-        made = shown.book(shown.first, self.seed, first)
+        sliders = [{"name": name, "texts": [*map(number_text, what.values[name])], "hint": f"{what.hint} {name}",
+                    "index": what.values[name].index(value)} for name, value in what.first.items()]
+        made = what.book(what.first, self.seed, first)
         return {"book": made, "constants": sliders, "chance": made["chance"], "step": min(first, made["steps"]),
                 "angle": self.angle, "around": self.around, "above": self.above, "seed": self.seed}
 
