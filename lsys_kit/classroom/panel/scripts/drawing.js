@@ -45,7 +45,9 @@ export function drawingView(parent, told) {
     if (asked.glides && before && old && !isFilament() && now.step === before.step + 1 && shapes.strokes.n < 20_000)
       glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
     else if (before && before.step !== now.step) glide = null;
-    draw();
+    cancelAnimationFrame(waiting);
+    waiting = 0;
+    paintNow();
   }
 
   // The shapes of a step; null where the turtle cannot draw them, and why.

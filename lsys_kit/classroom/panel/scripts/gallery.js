@@ -1,12 +1,60 @@
 // Several small drawings beside each other: nine seeds of one model, or nine variants of which one can be taken on.
 
+import { openBook } from "./book.js";
 import { made } from "./controls.js";
 import { sequence, paintSequence } from "./filament.js";
 import { frameOf, paint } from "./painter.js";
 import { placed, traced } from "./turtle.js";
 
+const MANY = 9;
+
+// Nine seeds: those of the row of nine to which the seed of the panel belongs. `sow` is called with the one that was chosen.
+export function seedsView(parent, sow, say) {
+  let shown = { key: "", first: 0 };
+  const gallery = galleryView(parent, (number) => sow(shown.first + number));
+
+  async function show(books, request, now, look) {
+    const first = Math.floor(request.seed / MANY) * MANY, key = JSON.stringify([request.constants, first]);
+    if (shown.key !== key) {
+      shown = { key, first };
+      const entries = [];
+      for (let seed = first; seed < first + MANY; seed++) {
+        const answer = await books.book({ ...request, seed });
+        if (answer.mistake) return say(answer.mistake);
+        entries.push({ label: `seed ${seed}`, book: answer.book });
+      }
+      if (shown.key !== key) return;
+      gallery.open(entries);
+    }
+    gallery.show(now, look, request.seed - first);
+  }
+
+  return { show };
+}
+
+// Nine variants of the model; `take` is called with the text of the one that was chosen.
+export function variantsView(parent, take, say) {
+  let found = null, bred = 0;
+  const gallery = galleryView(parent, (number) => take(found[number].text));
+
+  async function show(host, now, look) {
+    if (!found) {
+      const number = ++bred;
+      found = [];
+      const answer = await host.variants();
+      if (number !== bred) return;
+      if (answer.mistake) return say(answer.mistake);
+      found = answer.variants;
+      gallery.open(found.map((each, i) => ({ label: `variant ${i + 1}`, book: openBook(each.book) })));
+    }
+    gallery.show({ ...now, angle: null }, look);
+  }
+
+  return { show, forget() { [found, bred] = [null, bred + 1]; } };
+}
+
 // `entries` are { label, book }; `chosen` is called with the number of one.
-export function galleryView(parent, chosen) {
+function galleryView(parent, chosen) {
   let tiles = [];
 
   function open(entries) {

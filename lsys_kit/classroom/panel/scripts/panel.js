@@ -8,7 +8,7 @@ import { themeOf } from "./colours.js";
 import { button, list, made, slider } from "./controls.js";
 import { countsView } from "./counts.js";
 import { drawingView } from "./drawing.js";
-import { galleryView } from "./gallery.js";
+import { seedsView, variantsView } from "./gallery.js";
 import { keeping } from "./keeping.js";
 import { ownKeys } from "./keys.js";
 import { library } from "./library.js";
@@ -29,7 +29,7 @@ export function openPanel(element, host, compared = null) {
   element.append(root);
   const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
   let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, shownTheme = "", boxed = null, underway = null;
-  let constants = [], nine = { key: "", first: 0 }, bred = [];
+  let constants = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
 
@@ -62,7 +62,7 @@ export function openPanel(element, host, compared = null) {
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
   });
   const counts = countsView(view.counts.body, goTo);
-  const seeds = galleryView(view.seeds.body, (number) => sow(nine.first + number)), variants = galleryView(view.variants.body, (number) => rules.put(bred[number].text));
+  const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
   if (!compared) root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
 
   // -- what happens ---------------------------------------------------------------------------------------------------
@@ -128,7 +128,7 @@ export function openPanel(element, host, compared = null) {
       ...(model.book.mode === "space" ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && model.book.mode !== "map");
-    [bred, nine] = [[], { key: "", first: 0 }];
+    variants.forget();
     const first = books.keep({ constants: settings, seed: model.seed }, model.book);
     boxed = Math.min(model.step, first.steps);
     rules.open(model.book.text, host.editable);
@@ -185,46 +185,16 @@ export function openPanel(element, host, compared = null) {
     net.fill(tokens);
     counts.show(now);
     status.textContent = caption(now, tokens);
-    const one = scale.select.value === "same" || play.playing;
-    drawing.show({ step: now, angle: host.get("angle"), around: host.get("around"), above: host.get("above"), boxed: one ? Math.max(boxed, play.playing ? book.steps : 0) : null,
-      glides: play.playing && !still.matches }, look());
+    const boxes = play.playing ? Math.max(boxed, book.steps) : scale.select.value === "same" ? boxed : null, looks = look();
+    drawing.show({ ...sides(), step: now, boxed: boxes, glides: play.playing && !still.matches }, looks);
     drawing.describe(`Drawing of ${status.textContent}`);
-    light();
-    if (view.seeds.open) showSeeds();
-    if (view.variants.open) showVariants();
+    lightAround(looks);
+    if (view.seeds.open) seeds.show(books, request(), sides(), looks);
+    if (view.variants.open) variants.show(host, sides(), looks);
     compared?.shown(book, now);
   }
 
-  // Nine seeds beside each other: those of the row of nine to which the seed belongs.
-  async function showSeeds() {
-    const first = Math.floor(host.get("seed") / 9) * 9, key = JSON.stringify([request().constants, first]);
-    if (nine.key !== key) {
-      nine = { key, first };
-      const entries = [];
-      for (let each = first; each < first + 9; each++) {
-        const answer = await books.book({ ...request(), seed: each });
-        if (answer.mistake) return say(answer.mistake);
-        entries.push({ label: `seed ${each}`, book: answer.book });
-      }
-      if (nine.key !== key) return;
-      seeds.open(entries);
-    }
-    seeds.show(settingsSeen(), look(), host.get("seed") - first);
-  }
-
-  // Nine variants of the model, one of which can be taken on.
-  async function showVariants() {
-    if (!bred.length) {
-      bred = [{}];
-      const answer = await host.variants();
-      if (answer.mistake) return say(answer.mistake);
-      bred = answer.variants;
-      variants.open(bred.map((each, number) => ({ label: `variant ${number + 1}`, book: openBook(each.book) })));
-    }
-    if (bred[0]?.text) variants.show({ ...settingsSeen(), angle: null }, look());
-  }
-
-  const settingsSeen = () => ({ step: host.get("step"), angle: host.get("angle"), around: host.get("around"), above: host.get("above") });
+  const sides = () => ({ step: host.get("step"), angle: host.get("angle"), around: host.get("around"), above: host.get("above") });
 
   function sow(number) {
     seed.show(number);
@@ -238,11 +208,17 @@ export function openPanel(element, host, compared = null) {
   }
 
   function light() {
-    const looks = look(), now = host.get("step"), states = book.word(now);
+    const looks = look();
+    drawing.light(looks);
+    lightAround(looks);
+  }
+
+  // Light what is marked and traced everywhere but in the drawing.
+  function lightAround(looks) {
+    const states = book.word(looks.current);
     word.light(looks.marked, looks.lit);
     const lit = new Set([...looks.lit.keys()].map((position) => book.data.states[states[position]][2]));
     net.light(place(host.get("mark"))?.place ?? -1, lit);
-    drawing.light(looks);
     rules.light(placesOf(book, traced));
     sentence.textContent = traced ? told(book, traced) : "";
   }
