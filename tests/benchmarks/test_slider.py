@@ -13,7 +13,7 @@ import statistics
 import pytest
 
 from lsys_kit import draw, explore, read, system
-from lsys_kit.classroom.panel.book import book
+from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.view_model import ViewModel
 
 WATCH = """async ([panel, changing]) => {

@@ -28,7 +28,7 @@ IMPORT = re.compile(r"^import .*;$\n", re.MULTILINE)
 
 def joined(*names: str) -> str:
     """Some scripts as one text without imports and exports."""
-    texts = [(SCRIPTS / f"{name}.js").read_text(encoding="utf-8") for name in names]
+    texts = [next(SCRIPTS.rglob(f"{name}.js")).read_text(encoding="utf-8") for name in names]
     return "\n".join(re.sub(r"^export ", "", IMPORT.sub("", text), flags=re.MULTILINE) for text in texts)
 
 

@@ -10,8 +10,8 @@ from itertools import product
 import pytest
 
 from lsys_kit import LSystemError, derive, growth, read, stages, system, systems
-from lsys_kit.classroom.panel.book import MOST_MODULES, book
-from lsys_kit.classroom.panel.growth_rate import rate_text
+from lsys_kit.classroom.panel.books.book import MOST_MODULES, book
+from lsys_kit.classroom.panel.books.growth_rate import rate_text
 from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.derivation.growth.recurrences import greatest_root
 from lsys_kit.geometry.drawing import scene_of
@@ -57,7 +57,7 @@ def test_a_book_ends_before_a_step_that_is_too_large():
 
 
 def test_a_book_ends_before_a_later_step_that_takes_too_long(monkeypatch):
-    monkeypatch.setattr("lsys_kit.classroom.panel.book.TIME_FOR_LATER", 1e-9)
+    monkeypatch.setattr("lsys_kit.classroom.panel.books.book.TIME_FOR_LATER", 1e-9)
     made = book(system("K25"))
     assert system("K25").steps <= made["steps"] < 2 * system("K25").steps  # the clock is not looked at for each module
     assert f"Step {made['steps'] + 1} was not reached" in made["end"]

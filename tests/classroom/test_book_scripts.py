@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, derive, limits, read, stages, system, systems
-from lsys_kit.classroom.panel.book import book
+from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.geometry.filament import filament

@@ -22,7 +22,7 @@ from lsys_kit import (
     read_map,
     system,
 )
-from lsys_kit.classroom.panel.map_book import map_book, maps_at_rest
+from lsys_kit.classroom.panel.books.maps import map_book, maps_at_rest
 from lsys_kit.derivation.petri.walls import kind_of, wall_stages
 from lsys_kit.geometry.map_layout import place_maps
 from lsys_kit.geometry.relaxation import Forces

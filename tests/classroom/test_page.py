@@ -20,7 +20,7 @@ from playwright.sync_api import Browser, Page, expect
 
 import lsys_kit.classroom.panel.page as panel_page
 from lsys_kit import ModelFileError, ModelNameError, ModelValueError, derive, limits, link, linked, read, system, systems
-from lsys_kit.classroom.panel.book import book
+from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.page import deflated, live_constants, page, page_data, save_page, shared
 from lsys_kit.notation.fragments import unpacked
 from tests.classroom.front_end import joined

@@ -7,11 +7,13 @@ the module exports, so that their other names do not meet.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from functools import cache
 from graphlib import TopologicalSorter
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 
-_IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+)\.js";\n', re.MULTILINE)
+_IMPORT = re.compile(r'^import \{[^}]*\} from "[./\w]*?(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 
 
@@ -74,7 +76,15 @@ def compact(name: str, without: frozenset[str] = frozenset()) -> str:
 @cache
 def source(name: str) -> str:
     """A script as it was written."""
-    return (files(__package__) / "scripts" / f"{name}.js").read_text(encoding="utf-8")
+    return _scripts()[name].read_text(encoding="utf-8")
+
+
+@cache
+def _scripts() -> Mapping[str, Traversable]:
+    """The scripts by their names, in whatever folder they are."""
+    home = files(__package__) / "scripts"
+    folders = [home, *(place for place in home.iterdir() if place.is_dir())]
+    return {place.name.removesuffix(".js"): place for folder in folders for place in folder.iterdir() if place.name.endswith(".js")}
 
 
 @cache

@@ -20,7 +20,7 @@ from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.catalogue import entry, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked
-from lsys_kit.classroom.panel.book import MOST_MODULES
+from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number
 from lsys_kit.classroom.panel.opened.kinds import opened

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from lsys_kit.budget import current
-from lsys_kit.classroom.panel.book import book
+from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
 from lsys_kit.derivation.core.rules import number_from, real_from

@@ -10,7 +10,7 @@ from typing import Any
 
 from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
-from lsys_kit.classroom.panel.map_book import MapsAtRest, map_book, maps_at_rest, steps_of
+from lsys_kit.classroom.panel.books.maps import MapsAtRest, map_book, maps_at_rest, steps_of
 from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import deflated, kept_text, page, shared
 from lsys_kit.derivation.maps.map import Map

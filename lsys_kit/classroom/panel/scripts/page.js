@@ -1,7 +1,7 @@
 // The host of a panel on a page without a kernel: the books of all settings are in the page.
 
-import { bytesOf, inflated, packedLink, unpackedLink } from "./link.js";
-import { openPanel } from "./panel.js";
+import { bytesOf, inflated, packedLink, unpackedLink } from "./books/link.js";
+import { openPanel } from "./panels/panel.js";
 
 const MOST_BYTES = 100_000_000; // of the books of a page
 

@@ -1,7 +1,7 @@
 // Several small drawings beside each other: nine seeds of one model, or nine variants of which one can be taken on.
 
-import { openBook } from "./book.js";
-import { made } from "./controls.js";
+import { openBook } from "../books/book.js";
+import { made } from "../views/controls.js";
 import { sequence, paintSequence } from "./filament.js";
 import { frameOf, paint } from "./painter.js";
 import { placed, traced } from "./turtle.js";

@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.panel.book_drawing import drawing_entries, drawn_rows
-from lsys_kit.classroom.panel.book_net import net_entry
-from lsys_kit.classroom.panel.growth_rate import growth_entry
+from lsys_kit.classroom.panel.books.drawing import drawing_entries, drawn_rows
+from lsys_kit.classroom.panel.books.growth_rate import growth_entry
+from lsys_kit.classroom.panel.books.net import net_entry
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages

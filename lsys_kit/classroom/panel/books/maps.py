@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.panel.book import FEWEST_STEPS, MOST_BYTES, TIME_FOR_ASKED, packed, sentence
-from lsys_kit.classroom.panel.book_net import net_entry
+from lsys_kit.classroom.panel.books.book import FEWEST_STEPS, MOST_BYTES, TIME_FOR_ASKED, packed, sentence
+from lsys_kit.classroom.panel.books.net import net_entry
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages

@@ -1,6 +1,6 @@
 // A module that is traced: its mother in the step before, its daughters in the next, and the sentence that tells of them.
 
-import { wallsBeside } from "./map.js";
+import { wallsBeside } from "../drawing/map.js";
 
 // What is lit at a step when a module of some step is traced: a map from positions to "self", "mother" or "daughter".
 export function litAt(book, traced, step) {

@@ -1,7 +1,7 @@
 // The stage diagram: places with tokens, bars, arcs. A place can be chosen, by mouse and by keyboard.
 
 import { drawn } from "./controls.js";
-import { fillColour, lineColour } from "./colours.js";
+import { fillColour, lineColour } from "../drawing/colours.js";
 import { onKey } from "./keys.js";
 
 const LEGIBLE = 0.82; // a diagram is made no smaller than this: its smallest text is 9 pixels high then

@@ -1,7 +1,7 @@
 // The drawing of a step on a canvas: a filament's rows, or what the turtle draws, turned, moved and brought nearer by the browser alone.
 
-import { made } from "./controls.js";
-import { onKey } from "./keys.js";
+import { made } from "../views/controls.js";
+import { onKey } from "../views/keys.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";

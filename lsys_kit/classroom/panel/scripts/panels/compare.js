@@ -1,7 +1,7 @@
 // Two panels side by side with one step slider: two systems, or two settings of one; where their words differ is marked.
 
-import { made } from "./controls.js";
-import { ownKeys } from "./keys.js";
+import { made } from "../views/controls.js";
+import { ownKeys } from "../views/keys.js";
 import { openPanel } from "./panel.js";
 
 const SHARED = ["step", "angle", "around", "above"];

@@ -3,21 +3,21 @@
 // The kernel has sent a book; step, angle, view, mark and trace are turned here. Only a new setting of the constants, or new
 // rules, ask the kernel for another book.
 
-import { openBook } from "./book.js";
-import { themeOf } from "./colours.js";
-import { button, list, made, slider } from "./controls.js";
-import { countsView } from "./counts.js";
-import { drawingView } from "./drawing.js";
-import { seedsView, variantsView } from "./gallery.js";
-import { keeping } from "./keeping.js";
-import { ownKeys } from "./keys.js";
-import { library } from "./library.js";
-import { netView } from "./net.js";
-import { player } from "./player.js";
-import { rulesView } from "./rules.js";
-import { litAt, placesOf, told } from "./tracing.js";
-import { counted, sizeOf, wordView } from "./word.js";
-import { folding } from "./views.js";
+import { openBook } from "../books/book.js";
+import { themeOf } from "../drawing/colours.js";
+import { button, list, made, slider } from "../views/controls.js";
+import { countsView } from "../views/counts.js";
+import { drawingView } from "../drawing/drawing.js";
+import { seedsView, variantsView } from "../drawing/gallery.js";
+import { keeping } from "../views/keeping.js";
+import { ownKeys } from "../views/keys.js";
+import { library } from "../books/library.js";
+import { netView } from "../views/net.js";
+import { player } from "../views/player.js";
+import { rulesView } from "../views/rules.js";
+import { litAt, placesOf, told } from "../books/tracing.js";
+import { counted, sizeOf, wordView } from "../views/word.js";
+import { folding } from "../views/views.js";
 
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
 const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
