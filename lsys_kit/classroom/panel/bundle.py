@@ -84,7 +84,8 @@ def _scripts() -> Mapping[str, Traversable]:
     """The scripts by their names, in whatever folder they are."""
     home = files(__package__) / "scripts"
     folders = [home, *(place for place in home.iterdir() if place.is_dir())]
-    return {place.name.removesuffix(".js"): place for folder in folders for place in folder.iterdir() if place.name.endswith(".js")}
+    return {place.name.removesuffix(".js"): place for folder in folders for place in folder.iterdir()
+            if place.name.endswith(".js")}
 
 
 @cache
