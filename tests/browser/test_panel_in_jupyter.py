@@ -116,6 +116,7 @@ def test_every_control_by_mouse_in_light_and_dark(shown, dark):
     notebook.shot(f"panel-{'dark' if dark else 'light'}")
     panel.get_by_role("button", name="reset", exact=True).click()
     expect(panel.locator(".lsys-status")).to_contain_text("step 9")
+    notebook._ask("await app.commands.execute('apputils:change-theme', { theme: 'JupyterLab Light' });")
     assert notebook.console == []
 
 
