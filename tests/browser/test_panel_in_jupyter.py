@@ -97,6 +97,26 @@ def test_what_python_sets_the_panel_shows(open_notebook, write_notebook):
     expect(panel.get_by_label("lifeTimeA", exact=True)).to_have_value("5")
 
 
+def test_rules_that_are_typed_are_the_systems_of_python_too(open_notebook, write_notebook):
+    asked = "print(panel.system.productions[0], '|', panel.settings, '|', panel.text[:8])"
+    notebook = open_notebook(write_notebook("rules.ipynb", show("panel = explore('J4', 9)\npanel"), asked))
+    notebook._ask("panel.content.activeCellIndex = 1; await app.commands.execute('notebook:run-cell'); await idle();")
+    panel = panel_of(notebook.page)
+    panel.get_by_role("group", name="views").get_by_role("button", name="rules", exact=True).click()
+    rules = panel.get_by_label("rules of the model")
+    rules.fill("c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(")
+    expect(panel.locator("mark.lsys-wrong")).to_have_count(1)
+    rules.fill("c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(1)")
+    expect(panel.locator(".lsys-status")).to_contain_text("16 modules")
+    expect(panel.locator("mark.lsys-wrong")).to_have_count(0)
+    slider(panel, "c").press("ArrowRight")
+    expect(panel.locator(".lsys-status")).to_contain_text("8 modules")
+    notebook.page.wait_for_timeout(1000)
+    notebook._ask("panel.content.activeCellIndex = 2; await app.commands.execute('notebook:run-cell'); await idle();")
+    expect(notebook.output(2)).to_contain_text("A(t) : t < c -> A(t + 1) | {'c': '3'} | Step 9:")
+    assert notebook.console == []
+
+
 @pytest.mark.parametrize("dark", [False, True])
 def test_every_control_by_mouse_in_light_and_dark(shown, dark):
     notebook = shown("explore('J4', 9)")

@@ -27,7 +27,11 @@ const host = {
   },
   save: () => { window.asked.push("save"); },
   book: (settings) => ask({ kind: "book", ...settings }),
-  rules: (text) => ask({ kind: "rules", text }),
+  async rules(text) {
+    const answer = await ask({ kind: "rules", text });
+    for (const [name, value] of Object.entries(answer.state ?? {})) host.set(name, value);
+    return answer;
+  },
   variants: () => ask({ kind: "variants" }),
   keep: (what, state) => ask({ kind: "keep", what, state }),
   keeps: ["svg", "page", "link"], editable: true,
@@ -93,4 +97,5 @@ def answered(explorer: Explorer, content: dict[str, Any]) -> dict[str, Any]:
     replies: list[dict[str, Any]] = []
     explorer.send = lambda reply, buffers=None: replies.append(reply)
     explorer._answer(explorer, {"number": 1, **content}, [])
-    return replies[0]
+    state = {name: getattr(explorer, name) for name in TRAITS} if "opened" in replies[0] else {}
+    return {**replies[0], "state": state}

@@ -146,16 +146,19 @@ def test_a_mistake_in_the_rules_is_answered_with_its_place(monkeypatch, text, to
 def test_new_rules_are_a_new_model_with_its_own_sliders(monkeypatch):
     panel = explore("J4", 4)
     text = "c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(1)"
-    found = answer(panel, monkeypatch, kind="rules", text=text)["model"]
-    assert [each["name"] for each in found["constants"]] == ["c"]
-    assert found["book"]["title"] == ""
+    assert answer(panel, monkeypatch, kind="rules", text=text)["opened"]
+    assert [each["name"] for each in panel.model["constants"]] == ["c"]
+    assert panel.model["book"]["title"] == ""
+    assert (panel.settings, panel.c) == ({"c": "2"}, 2)
+    panel.c = 4
+    assert str(panel.sight.word) == str(derive(panel.system, 4, c=4)[-1])
     assert str(panel.system.axiom[0]) == "A(1)"
 
 
 def test_rules_may_be_typed_in_another_notation(monkeypatch):
     panel = explore("J1", 4)
     text = "#define n 3\nLsystem: 1\nAxiom: F\nF --> F[+F]F\nendlsystem"
-    assert "model" in answer(panel, monkeypatch, kind="rules", text=text)
+    assert answer(panel, monkeypatch, kind="rules", text=text)["opened"]
 
 
 @pytest.mark.parametrize(("choices", "message"), [

@@ -130,6 +130,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
             self.step = self.model["step"]
         self._check_step(self.step)
         self._offer_constants()
+        self.observe(self._tell_constants, "settings")
         self._ready = True
         self.on_msg(self._answer)
 
@@ -218,14 +219,13 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
                 kind: Any = traitlets.Int if whole else traitlets.Float
                 self.add_traits(**{name: kind(plain_number(value))})
                 self.observe(self._set_constant, name)
-        self.observe(self._tell_constants, "settings")
 
     def _set_constant(self, change: Any) -> None:
         self.settings = {**self.settings, change["name"]: change["new"]}
 
     def _tell_constants(self, _: object) -> None:
         for name, text in self.settings.items():
-            if self.has_trait(name) and name not in type(self).class_trait_names(sync=True):
+            if name in self._opened.values and self.has_trait(name) and name not in type(self).class_trait_names(sync=True):
                 setattr(self, name, plain_number(nearest(self._opened.values[name], name, text)))
 
     def _values(self, settings: Mapping[str, object]) -> dict[str, Value]:
@@ -252,12 +252,18 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         return {"book": self._opened.book(values, int(content["seed"]), self.model["step"])}
 
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        """The model of a text that was typed."""
+        """Show the system of a text that was typed; its sliders start anew, the step and the angle stay where they can."""
         system = self._opened.read(content["text"])
-        new = opened(system, "" if system != self.system else self._opened.title)
+        new, old = opened(system, "" if system != self.system else self._opened.title), self._opened
         found = {**self._model_of(new, new.steps), "angle": new.angle}
-        self._opened = new
-        return {"model": found}
+        with self.hold_sync():
+            self._opened, self.model = new, found
+            self.settings = {name: number_text(value) for name, value in new.first.items()}
+            self.step = min(self.step, found["book"]["steps"])
+            if new.angle != old.angle:
+                self.angle = new.angle
+        self._offer_constants()
+        return {"opened": True}
 
     def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
         """Nine variants of the system, each with its book."""

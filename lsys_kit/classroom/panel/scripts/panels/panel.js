@@ -106,9 +106,7 @@ export function openPanel(element, host, compared = null) {
   async function newRules(text) {
     const number = ++asking, answer = await host.rules(text);
     if (number !== asking || answer === null) return;
-    if (answer.mistake) return rules.mistaken(answer.mistake);
-    if (answer.model.angle !== model.angle) host.set("angle", answer.model.angle);
-    host.set("model", answer.model);
+    if (answer.mistake) rules.mistaken(answer.mistake); // otherwise the kernel has set another model
   }
 
   // A model was opened: its controls, and its first book.
