@@ -3,6 +3,7 @@
 import { made } from "../views/controls.js";
 import { onKey } from "../views/keys.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
+import { rowBetween, strokesBetween } from "./gliding.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
 import { placed, traced } from "./turtle.js";
@@ -11,6 +12,7 @@ const ROWS = 24; // of a developmental sequence
 const TURN = 5, MOVE = 30, ZOOM = 1.25, NEAREST = 40, PULL = 0.5; // of keys and of the pointer
 const REACH = 6; // pixels from a stroke that is pointed at
 const CLICK = 4; // pixels that a pointer may move in a click
+const MOST_GLIDING = 20_000; // modules of a step that is reached on the way
 const GLIDE = 350; // milliseconds from one step to the next
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
@@ -42,7 +44,7 @@ export function drawingView(parent, told) {
     const before = now, old = shapes;
     [now, look, fault] = [{ ...asked }, nextLook, ""];
     if (!isFilament()) shapes = shapesOf(now.step) ?? shapes;
-    if (asked.glides && before && old && !isFilament() && now.step === before.step + 1 && shapes.strokes.n < 20_000)
+    if (asked.glides && before && (old || isFilament()) && now.step === before.step + 1 && book.length(now.step) < MOST_GLIDING)
       glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
     else if (before && before.step !== now.step) glide = null;
     cancelAnimationFrame(waiting);
@@ -86,11 +88,11 @@ export function drawingView(parent, told) {
     if (isFilament()) {
       sheet = sequence(book, now.step, { rows: ROWS, width: width * near, height, boxed: now.boxed });
       pen.translate(leftOf(width), 0);
-      paintSequence(pen, sheet, look);
+      const share = shareOfWay();
+      paintSequence(pen, share < 1 ? rowBetween(sheet, glide.mothers, share) : sheet, look);
     } else if (fault) sentence(fault, width, height);
     else {
-      const visible = gliding(), last = now.boxed === null ? null : shapesOf(Math.max(now.boxed, now.step));
-      const box = last && boundsOf(last);
+      const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : shapes, box = boxOf(now.boxed);
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
       if (isMap()) paintCells(pen, visible, frame, look.theme);
       paint(pen, visible, frame, look);
@@ -113,15 +115,21 @@ export function drawingView(parent, told) {
     return shift[0] - most;
   }
 
-  // The shapes on their way from the mothers' places to their own.
-  function gliding() {
-    if (!glide) return shapes;
-    const share = Math.min(1, (performance.now() - glide.started) / GLIDE), eased = share * share * (3 - 2 * share);
-    if (share >= 1) {
-      glide = null;
-      return shapes;
-    }
-    return isMap() ? grownShapes(book, now.step, eased) : between(glide.from, shapes, glide.mothers, eased);
+  // How far everything is on its way from the step before: 0 there, 1 at its own place.
+  function shareOfWay() {
+    const share = glide ? Math.min(1, (performance.now() - glide.started) / GLIDE) : 1;
+    if (share >= 1) glide = null;
+    return share * share * (3 - 2 * share);
+  }
+
+  const shapesBetween = (share) => (isMap() ? grownShapes(book, now.step, share) : strokesBetween(glide.from, shapes, glide.mothers, share));
+
+  // The room of the step whose frame is kept; null where each step has its own, or where that one cannot be drawn.
+  function boxOf(boxed) {
+    if (boxed === null) return null;
+    const before = fault, last = shapesOf(Math.max(boxed, now.step));
+    fault = before;
+    return last && boundsOf(last);
   }
 
   const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n);
@@ -252,27 +260,4 @@ export function drawingView(parent, told) {
       cancelAnimationFrame(waiting);
     },
   };
-}
-
-// Shapes whose strokes are on their way from those of their mothers: 0 there, 1 at their own place.
-function between(from, to, mothers, share) {
-  const first = new Map();
-  for (let i = 0; i < from.strokes.n; i++) if (!first.has(from.strokes.positions[i])) first.set(from.strokes.positions[i], i);
-  const many = 2 * to.strokes.n, x = new Float64Array(to.n + many), y = new Float64Array(to.n + many);
-  const z = to.z && new Float64Array(to.n + many), starts = new Int32Array(to.strokes.n), stops = new Int32Array(to.strokes.n);
-  x.set(to.x);
-  y.set(to.y);
-  if (z) z.set(to.z);
-  for (let i = 0; i < to.strokes.n; i++) {
-    const mother = first.get(mothers[to.strokes.positions[i]]), ends = [to.strokes.from[i], to.strokes.to[i]];
-    [starts[i], stops[i]] = [to.n + 2 * i, to.n + 2 * i + 1];
-    ends.forEach((end, k) => {
-      const start = mother === undefined ? ends[0] : [from.strokes.from[mother], from.strokes.to[mother]][k];
-      const there = mother === undefined ? to : from, at = to.n + 2 * i + k;
-      x[at] = there.x[start] + share * (to.x[end] - there.x[start]);
-      y[at] = there.y[start] + share * (to.y[end] - there.y[start]);
-      if (z) z[at] = there.z[start] + share * (to.z[end] - there.z[start]);
-    });
-  }
-  return { ...to, n: to.n + many, x, y, z, strokes: { ...to.strokes, from: starts, to: stops } };
 }
