@@ -183,8 +183,8 @@ export function openPanel(element, host, compared = null) {
     net.fill(tokens);
     counts.show(now);
     status.textContent = caption(now, tokens);
-    const boxes = play.playing ? Math.max(boxed, book.steps) : scale.select.value === "same" ? boxed : null, looks = look();
-    drawing.show({ ...sides(), step: now, boxed: boxes, glides: play.playing && !still.matches }, looks);
+    const kept = play.playing || scale.select.value === "same" ? boxed : null, looks = look();
+    drawing.show({ ...sides(), step: now, boxed: kept, glides: play.playing && !still.matches }, looks);
     drawing.describe(`Drawing of ${status.textContent}`);
     lightAround(looks);
     if (view.seeds.open) seeds.show(books, request(), sides(), looks);
