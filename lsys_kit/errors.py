@@ -102,7 +102,15 @@ class ModelNameError(LSystemError):
 
 
 class ModelValueError(LSystemError):
-    """A value is not possible: a number where a truth is needed, a division by zero."""
+    """A value is not possible: a number where a truth is needed, a division by zero.
+
+    Attributes
+    ----------
+    partial
+        What was finished before: the derivation of the steps before the one that fails, or None.
+    """
+
+    partial: object = None
 
 
 class ModelLimitError(LSystemError):

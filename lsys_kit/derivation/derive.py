@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from operator import index as place
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.closure import check_d0l
@@ -21,6 +21,9 @@ from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
+
+_Refusal: TypeAlias = ModelLimitError | ModelValueError
+"""Why a step is not made."""
 
 
 @overload
@@ -112,8 +115,8 @@ class Derivation(Sequence[Word]):
             with Task(lambda: f"Step {reached} was not reached"):
                 for reached in range(last + 1):
                     self._reach(reached)
-        except ModelLimitError as error:
-            raise self._refusal(error, reached) from None
+        except (ModelLimitError, ModelValueError) as error:
+            raise self._refusal(error, reached) from error.__cause__
         return Derivation(self._engine, last)
 
     def _reach(self, step: int) -> None:
@@ -123,7 +126,7 @@ class Derivation(Sequence[Word]):
         else:
             check_size(self.states, step, self._engine.size(step))
 
-    def _refusal(self, error: ModelLimitError, step: int) -> ModelLimitError:
+    def _refusal(self, error: _Refusal, step: int) -> _Refusal:
         """The error, with the steps that were finished."""
         error.partial = Derivation(self._engine, step - 1) if step else None
         kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""

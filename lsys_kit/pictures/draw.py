@@ -30,6 +30,7 @@ from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project
 from lsys_kit.worlds.derive import derive
+from lsys_kit.worlds.fields import Field
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,7 +45,7 @@ def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions:
 def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture: ...
 @overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
-         arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None,
+         arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
          **constants: object) -> Picture: ...
 @overload
 def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
@@ -64,8 +65,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     cells
         How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses"; by default as the system says.
     **choices
-        For a system `seed`, `arithmetic` and new values of constants, as for `derive`; `marked`, the states whose modules
-        are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
+        For a system `seed`, `arithmetic`, `field` and new values of constants, as for `derive`; `marked`, the states whose
+        modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
         For a map system `iterations`, after which its last step is shown on the way to rest, and new values of the forces that
         shape it: `stiffness`, `rest`, `pressure`, `damping`.
@@ -97,7 +98,8 @@ def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | N
         _check_options(choices, ("intervals",))
         return lineage_picture(what, **choices)
     if isinstance(what, LSystem):
-        _check_options(choices, ("angle", "seed", "arithmetic", "marked", "cells"), [each.name for each in what.constants])
+        options = "angle", "seed", "arithmetic", "marked", "cells", "field"
+        _check_options(choices, options, [each.name for each in what.constants])
     return _drawing(what, n, **choices)
 
 
@@ -116,13 +118,14 @@ def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = Fals
 
 
 def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int | None = None,
-             arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, **constants: object) -> Picture:
+             arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
+             **constants: object) -> Picture:
     if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
     require(marked, Collection, "A collection of states")
     marked = frozenset(whole_number(each, "A state") for each in marked)
-    what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
+    what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **({} if field is None else {"field": field}), **constants)
     if drawing_mode(what.states.system) is DrawingMode.FILAMENT:
         return _sequence(what, marked, cells)
     turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)

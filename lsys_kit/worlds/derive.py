@@ -7,6 +7,7 @@ module did not exist.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, overload
 
 from lsys_kit.derivation import derive as words_alone
@@ -14,11 +15,12 @@ from lsys_kit.derivation.derive import Derivation, derive_observed
 from lsys_kit.derivation.maps.development import Development
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.worlds.fields import Field
 from lsys_kit.worlds.sight import observe
 
 
 @overload
-def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
+def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact", field: Field | None = None,
            **constants: object) -> Derivation: ...
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
@@ -35,7 +37,8 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     **choices
         `seed` of the random numbers: the same seed gives the same words on every machine; by default the system's own, else 0.
         `arithmetic`, "exact", or "float" to compute in doubles as cpfg and L-Py do. And new values for declared constants:
-        numbers, or texts such as "14/10".
+        numbers, or texts such as "14/10". `field`, what answers query modules `?E`: any object with a method
+        `answer(questions, scene)` that returns a value for each question; by default the field that the model names.
 
     Returns
     -------
@@ -49,7 +52,8 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     ModelLimitError
         A step would be too large; the error has the step, the size and, in `partial`, the derivation of the steps that fit.
     ModelValueError
-        A value cannot be computed; the error names the module and the production.
+        A value cannot be computed; the error names the module and the production. Or nothing answers `?E`, or what answers it
+        returns no number for each question; `partial` has the derivation of the steps that were finished.
 
     Examples
     --------
@@ -68,8 +72,17 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     2 F F F A?P(0,2)
     3 F F F A?P(0,3)
     4 F F F A?P(0,3)
+
+    And one that asks how high it is, of a field that answers for it:
+
+    >>> class Height:
+    ...     def answer(self, questions, scene):
+    ...         return [question.place[1] for question in questions]
+    >>> derive(read("axiom: F A ?E(0)\\nA > ?E(y) : y < 3 -> F A"), 4, field=Height())[-1]
+    F F F A?E(3)
     """
     if isinstance(system, LSystem):
-        return derive_observed(system, steps, observe, **choices)
+        field = choices.pop("field", None)
+        return derive_observed(system, steps, observe if field is None else partial(observe, field=field), **choices)
     maps: Development = words_alone.derive(system, steps, **choices)
     return maps

@@ -7,32 +7,38 @@ Mech, Synthetic Topiary, 1994). A module whose rules call a sensitive function r
 
 Measured values are rounded to nine decimals: a coordinate that should be 4 is 4, and no rule depends on the last bits of a
 sine.
+
+A query module `?E` is answered by a field: one that the caller gives, or else the one that the model names.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from dataclasses import field as attribute
 from typing import NamedTuple
 
 import numpy as np
 
 from lsys_kit.budget import check_budget, counted
-from lsys_kit.derivation.core.rules import kind_of, number_from
+from lsys_kit.derivation.core.rules import kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.scene import SPHERE, Segments
 from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.interpreter import compile_word
+from lsys_kit.geometry.turtle.shapes import collected_shapes
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, TurtleFrame, Vector, initial_frame, operand, strokes_of
 from lsys_kit.notation.model.arithmetic import Value, short_text
-from lsys_kit.notation.model.modules import Module
+from lsys_kit.worlds.fields import Field, Question, Surroundings, answered
+from lsys_kit.worlds.ready_fields import named_field
+from lsys_kit.worlds.rounding import rounded
 from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoots
 
-DECIMALS = 9
-"""The number of decimals to which measured values are rounded."""
+TURTLE_QUERIES = QUERIES - {"?E"}
+"""The symbols whose values are the turtle's own."""
 NO_SHOOT = -1
 """The number of the shoot before the first one."""
 
@@ -82,7 +88,7 @@ class TurtleObservation:
     word: Word
     shoots: Shoots
     places: dict[int, Standpoint]
-    _known: dict[tuple[object, ...], Value] = field(default_factory=dict, compare=False, repr=False)
+    _known: dict[tuple[object, ...], Value] = attribute(default_factory=dict, compare=False, repr=False)
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
         """The value of a sensitive function for the module at a position; both apices of a fork get the same.
@@ -116,20 +122,22 @@ class TurtleObservation:
         return Query(self.shoots, (place.shoot, self.shoots.mothers[place.shoot]), tip, head)
 
 
-def observe(word: Word) -> TurtleObservation:
+def observe(word: Word, field: Field | None = None) -> TurtleObservation:
     """Interpret a word and record what its modules see.
 
     Parameters
     ----------
     word
         The word; interpretation rules are applied first.
+    field
+        What answers query modules `?E`; by default the field that the model names.
 
     Raises
     ------
     ModelLimitError
         More brackets are open at once than the limit allows.
     ModelValueError
-        A value is too large to draw, or symbolic; or a query module asks for more than three values.
+        A value is too large to draw, or symbolic; a query module asks for more than three values; or no field answers.
 
     Examples
     --------
@@ -137,6 +145,8 @@ def observe(word: Word) -> TurtleObservation:
     >>> from lsys_kit.notation.read import read
     >>> print(observe(derive(read("axiom: F(2)[+F(1)?P(0,0)]F(1)?H(0,0,0)"), 0)[0]).word)
     F(2)[+F(1)?P(-1,2)]F(1)?H(0,1,0)
+    >>> print(observe(derive(read("field: place(y/2)\\naxiom: F?E(0)F?E(0)"), 0)[0]).word)
+    F?E(0.5)F?E(1)
     """
     states, system, numbers = word.states, word.states.system, word.numbers()
     turtle = ShootTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
@@ -148,11 +158,12 @@ def observe(word: Word) -> TurtleObservation:
             places[position] = Standpoint(turtle.position, turtle.orientation, turtle.shoot)
         for handler, instruction in calls[state]:
             handler(turtle, instruction)
-    for position, place in places.items():
-        module = states.modules[numbers[position]]
-        if module.symbol in QUERIES and module.arguments:
-            numbers[position] = states.number(module.symbol, _query_values(module, place, states.arithmetic))
-    return TurtleObservation(Word(states, numbers), Shoots(strokes_of(turtle), turtle.mothers), places)
+    strokes = strokes_of(turtle)
+    found = dict(_query_values(states, numbers, places))
+    found.update(_field_values(states, numbers, places, field, lambda: surroundings_of(turtle, strokes)))
+    for position, values in found.items():
+        numbers[position] = states.number(states.modules[numbers[position]].symbol, values)
+    return TurtleObservation(Word(states, numbers), Shoots(strokes, turtle.mothers), places)
 
 
 def _observing_states(states: States, present: Iterable[int]) -> frozenset[int]:
@@ -162,22 +173,46 @@ def _observing_states(states: States, present: Iterable[int]) -> frozenset[int]:
                      or any(rule.looks for rule in states.rules.get(kind_of(states.modules[state]), ())))
 
 
-def _query_values(module: Module, place: Standpoint, arithmetic: str) -> tuple[Value, ...]:
-    """The values that a query module receives."""
-    if len(module.arguments) > 3:
-        raise ModelValueError(f"{module} asks for more than the three values x, y and z")
-    head, left, up, _ = place.frame
-    x, y, z = {"?P": place.position, "?H": head, "?U": up, "?L": left}[module.symbol]
-    return tuple(rounded(value, arithmetic) for value in (x, z, -y)[:len(module.arguments)])
+def _query_values(states: States, numbers: Sequence[int],
+                  places: Mapping[int, Standpoint]) -> Iterator[tuple[int, tuple[Value, ...]]]:
+    """The positions of the query modules that ask the turtle, with the values that they receive."""
+    for position, place in places.items():
+        module = states.modules[numbers[position]]
+        if module.symbol in TURTLE_QUERIES and module.arguments:
+            if len(module.arguments) > 3:
+                raise ModelValueError(f"{module} asks for more than the three values x, y and z")
+            vector = {"?P": place.position, "?H": place.frame[0], "?U": place.frame[2], "?L": place.frame[1]}[module.symbol]
+            values = tuple(rounded(value, states.arithmetic) for value in seen_from_the_front(vector))
+            yield position, values[:len(module.arguments)]
 
 
-def rounded(value: float, arithmetic: str = "exact") -> Value:
-    """A measured value, exact to nine decimals; an infinite one stays infinite.
+def _field_values(states: States, numbers: Sequence[int], places: Mapping[int, Standpoint], field: Field | None,
+                  scene: Callable[[], Surroundings]) -> Iterator[tuple[int, tuple[Value, ...]]]:
+    """The positions of the query modules that ask a field, with the values that they receive."""
+    modules = [states.modules[number] for number in numbers]
+    asking = [at for at in places if modules[at].symbol == "?E" and modules[at].arguments]
+    if not asking:
+        return
+    field = named_field(states) if field is None else field
+    if field is None:
+        raise ModelValueError(f"Nothing answers {modules[asking[0]]}: the model has no field",
+                              hint='Name one in the model, as in "field: light", or derive with field=...')
+    questions = [Question(seen_from_the_front(places[at].position), seen_from_the_front(places[at].frame[0]),
+                          modules[at].arguments, modules[at - 1] if at else None,
+                          modules[at + 1] if at + 1 < len(modules) else None) for at in asking]
+    yield from zip(asking, answered(field, questions, scene(), states.arithmetic), strict=True)
 
-    >>> rounded(0.1 + 0.2), rounded(4.000000000000001), rounded(math.inf)
-    (Fraction(3, 10), 4, inf)
-    """
-    if not math.isfinite(value):
-        return value
-    nearest = round(value, DECIMALS) + 0.0
-    return nearest if arithmetic == "float" else number_from(nearest)
+
+def surroundings_of(turtle: SpaceTurtle, strokes: Segments) -> Surroundings:
+    """What a turtle has drawn, as fields see it: x to the right, y upwards, z towards the viewer."""
+    _, discs = collected_shapes((), turtle.rounds, lambda points: np.array(points, np.float64).reshape(-1, 3))
+    spheres = discs.kinds == SPHERE
+    ends, centres = strokes.ends.reshape(-1, 2, 3), discs.centres[spheres]
+    to_front = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    return Surroundings(ends @ to_front + 0.0, centres @ to_front + 0.0, discs.radii[spheres])
+
+
+def seen_from_the_front(vector: Vector) -> Vector:
+    """A vector with x to the right, y upwards and z towards the viewer."""
+    x, y, z = vector
+    return x, z, -y

@@ -20,7 +20,8 @@ from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import _parser
 
 TOKENS = (
-    "axiom:", "\\omega :", "ω =", "axiom A", "angle:", "δ:", "decomposition depth:", "δ =", "\\delta :", "°", "^\\circ",
+    "field:", "axiom:",
+    "\\omega :", "ω =", "axiom A", "angle:", "δ:", "decomposition depth:", "δ =", "\\delta :", "°", "^\\circ",
     "turtle:", "abop", "fractint", "cells:", "ellipses", "ignore:", "meta:", "repeat(", "alphabet:", "V = {", "P = {",
     "productions:", "decomposition", "homomorphism", "interpretation:", "->", "-->", "→", "⟶", "::=", "\\rightarrow",
     "\\xrightarrow{", "in", "by", "..", "ε", "*", "\\varepsilon", ", ", "ε]", "(A, ", "(A,", "\\vec{A}", "A⃗", "b_{r}", "@Ts",

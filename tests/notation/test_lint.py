@@ -147,7 +147,7 @@ def test_random_numbers_are_drawn_by_what_stands_behind_the_values(text: str) ->
      'The "." after the production for A is read as a command of the turtle; a line needs no sign at its end.'),
     ("axiom: A\nA -> B : 0.5\nA -> C",
      "Production 2, for A, has no probability: it is applied only where none of those that have one matches."),
-    ("axiom: A ?E(0)\nA -> A", "Nothing answers ?E: its values stay as they are."),
+    ("axiom: A ?E(0)\nA -> A", 'Nothing in the model answers ?E: name a field, as in "field: light", or derive with field=...'),
 ])
 def test_what_is_probably_not_meant_is_noted(text: str, note: str) -> None:
     assert note in read(text).notes

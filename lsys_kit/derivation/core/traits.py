@@ -21,8 +21,8 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
-QUERIES = frozenset(("?P", "?H", "?U", "?L"))
-"""The symbols whose values are the turtle's: its position, its heading, its up and its left."""
+QUERIES = frozenset(("?P", "?H", "?U", "?L", "?E"))
+"""The symbols whose values come from outside: the turtle's position, its heading, its up and its left, or what a field says."""
 MOST = 10**9
 """More modules than any production names."""
 

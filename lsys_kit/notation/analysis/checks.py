@@ -20,6 +20,7 @@ from lsys_kit.notation.model.expressions import (
     function_of,
     names_in,
 )
+from lsys_kit.notation.model.fields import FIELD_FORMS
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
 
@@ -174,6 +175,20 @@ def check_meta(rule: MetaRule, constants: Collection[str]) -> None:
     check_word(rule.successor, names)
     if any(isinstance(item, Repeat) for item in rule.successor) or len(rule.successor) >= len(rule.predecessors):
         raise problem("meta-rule not shorter", rule.at)
+
+
+def check_field(field: Pattern, constants: Collection[str]) -> None:
+    """A field is one of those that the kit has, and its values are numbers, as many as it takes."""
+    form = FIELD_FORMS.get(field.symbol)
+    if form is None:
+        raise problem("unknown field", field.at, closest(field.symbol, FIELD_FORMS, 0.7), name=field.symbol,
+                      known=", ".join(sorted(FIELD_FORMS)))
+    if not form.least <= len(field.arguments) <= form.most:
+        wanted = f"{form.least}" if form.least == form.most else f"{form.least} to {form.most}"
+        raise problem("number of arguments", field.at, name=field.symbol, wanted=f"{wanted} value{'s' * (form.most > 1)}",
+                      given=len(field.arguments))
+    for argument in field.arguments:
+        check_expression(argument, {*constants, *form.names})
 
 
 def check_parameters(modules: Iterable[Pattern], constants: Collection[str]) -> list[str]:

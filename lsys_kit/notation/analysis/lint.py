@@ -34,8 +34,8 @@ def warnings(system: LSystem) -> list[Problem]:
     reachable = _reachable_kinds(system)
     return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
             *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
-            *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system), *_unanswered(reachable),
-            *_passed_over(system), *_timed(system), *slips(system)]
+            *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system),
+            *_unanswered(system, reachable), *_passed_over(system), *_timed(system), *slips(system)]
 
 
 def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
@@ -125,9 +125,9 @@ def _final_signs(system: LSystem) -> Iterator[Problem]:
             yield Problem("final sign", rule.at, {"sign": last, "rule": rule})
 
 
-def _unanswered(reachable: set[_ModuleKind]) -> Iterator[Problem]:
-    """Queries that nothing answers."""
-    if any(symbol == "?E" for symbol, _ in reachable):
+def _unanswered(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem]:
+    """Queries that nothing answers: there is no field."""
+    if system.field is None and any(symbol == "?E" and count for symbol, count in reachable):
         yield Problem("unanswered query", None, {"symbol": "?E"})
 
 

@@ -160,6 +160,8 @@ class LSystem:
         The notation in which it was read and prints itself. Equality ignores it.
     source, notes
         The text it was read from, and notes on how it was read. Equality ignores them too.
+    field
+        What answers its query modules `?E`: the name of a ready-made field with the values that shape it, or None.
     """
 
     axiom: tuple[Pattern, ...]
@@ -185,6 +187,7 @@ class LSystem:
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
+    field: Pattern | None = None  # the last: below it the name is no longer that of the function
 
     def __post_init__(self) -> None:
         """Settings are exact: a double is taken as the decimal that it is printed as. Where no production depends on what

@@ -215,6 +215,9 @@ class Statements(Transformer[Any, Any]):
     def turtle(self, _: Token, tradition: Token) -> tuple[str, str]:
         return "turtle", str(tradition)
 
+    def field(self, _: Token, name: Token, *arguments: Expression) -> tuple[str, Pattern]:
+        return "field", Pattern(str(name), arguments, place_of(name, *arguments))
+
     def cells(self, _: Token, look: Token) -> tuple[str, str]:
         return "cells", str(look)
 

@@ -10,6 +10,7 @@ from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import (
     check_constants,
     check_expression,
+    check_field,
     check_meta,
     check_production,
     check_word,
@@ -22,8 +23,8 @@ from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Producti
 
 _SYMBOL_LISTS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are lists of symbols, and their attributes of a system."""
-_TEXT_SETTINGS = frozenset(("turtle", "cells", "branches", "widths"))
-"""The settings that are words."""
+_TEXT_SETTINGS = frozenset(("turtle", "cells", "branches", "widths", "field"))
+"""The settings that are words, or a field."""
 _COUNTS = {"steps": "steps", "depth": "rounds", "decomposition_depth": "rounds"}
 """The settings that are whole numbers from 0 on, and what they count."""
 
@@ -107,6 +108,8 @@ def build_system(draft: Draft) -> LSystem:
             check_production(production, names, section)
     for rule in draft.meta:
         check_meta(rule, names)
+    if "field" in draft.settings:
+        check_field(draft.settings["field"], names)
     sections = {section: tuple(productions) for section, productions in draft.sections.items()}
     return LSystem(draft.axiom, constants=tuple(draft.constants), meta=tuple(draft.meta), notation=draft.notation,
                    source=source, notes=tuple(draft.notes), **sections, **_checked_settings(draft))  # type: ignore[arg-type]

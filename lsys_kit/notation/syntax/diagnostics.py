@@ -39,7 +39,8 @@ from lsys_kit.notation.syntax.predecessor_diagnostics import diagnose_predecesso
 from lsys_kit.notation.syntax.text.statements import ARROW
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
-            "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells", "branches", "widths")
+            "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells", "branches", "widths",
+            "field")
 _SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books call a keyword."""
 _CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),

@@ -35,6 +35,8 @@ def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
             yield f"{keyword}: {' '.join(symbols)}"
     if system.branches != ANY_BRANCH:
         yield f"branches: {system.branches}"
+    if system.field is not None:
+        yield f"field: {system.field}"
 
 
 def sections(system: LSystem, rule: Callable[[object], str]) -> Iterator[str]:
@@ -70,6 +72,7 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "decomposition rules": lambda s: bool(s.decomposition),
     "meta-rules": lambda s: bool(s.meta),
     "interpretation rules": lambda s: bool(s.interpretation),
+    "a field": lambda s: s.field is not None,
     "starting direction": lambda s: s.heading != 90,
     "ignored symbols": lambda s: bool(s.ignored or s.considered),
     "right contexts that name the next branch": lambda s: s.branches == NEXT_BRANCH,

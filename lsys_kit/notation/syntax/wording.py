@@ -20,6 +20,7 @@ WORDINGS: Mapping[str, Wording] = {
         'A parameter is named before the arrow, as in "A(t) {arrow} A(t+1)"; a constant on a line before, as in "{constant}".',
         ModelNameError),
     "unknown function": Wording('I do not know the function "{name}"', "Functions are: {known}.", ModelNameError),
+    "unknown field": Wording('I do not know the field "{name}"', "Fields are: {known}.", ModelNameError),
     "number of arguments": Wording("{name}(...) takes {wanted}, not {given}"),
     "random number": Wording('"{expression}" draws a new number at every use, which is not possible here',
                              'Random numbers belong after the arrow of a production, as in "{random}".', ModelValueError),
@@ -116,7 +117,8 @@ WORDINGS: Mapping[str, Wording] = {
     "decimal comma": Wording("{module} has two values: a decimal is written with a point."),
     "only in time": Wording("No step changes the axiom: productions such as that for {rule} wait for an age, and no step makes "
                             "a module older. Time passes in timed(system).word(t), and in steps with a(t) -> a(t+dt)."),
-    "unanswered query": Wording("Nothing answers {symbol}: its values stay as they are."),
+    "unanswered query": Wording("Nothing in the model answers {symbol}: name a field, as in \"field: light\", or derive with "
+                                "field=..."),
     "endless decomposition": Wording("Rule {symbol} decomposes into itself: {cycle}", "It can never finish.", ModelValueError),
 }
 """The problems of L-systems, as the kit's own notation words them."""

@@ -85,7 +85,8 @@ def _rules(production: Production) -> Iterator[str]:
 def lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
     return (first_missing(system, "conditions", "contexts", "predecessors of several modules", "probabilities", "repetition",
-                          "constants", "decomposition rules", "meta-rules", "interpretation rules", "ignored symbols")
+                          "constants", "decomposition rules", "meta-rules", "interpretation rules", "ignored symbols",
+                          "a field")
             or _strange_setting(system) or _strange_rule(system) or _strange_word(system))
 
 
