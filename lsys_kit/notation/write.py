@@ -53,4 +53,7 @@ def as_written(system: LSystem, part: Any) -> str:
     ('(t<6) k(t) # k(t+1)', 'k(t) : t < 6 -> k(t + 1)')
     """
     start, end = span(part)
-    return " ".join(system.source[start:end].split()) if system.source and end else str(part)
+    if not system.source or not end:
+        return str(part)
+    written = " ".join(system.source[start:end].split())
+    return written + ")" * (written.count("(") - written.count(")"))  # the place of a call ends with its last value

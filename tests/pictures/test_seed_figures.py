@@ -66,6 +66,8 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "003-dichotomy": ("Dichotomous branching that does not look around", lambda: draw(system("K20"), 8).svg),
     "003-sensitive-dichotomy": ("Dichotomous branching that keeps its distance", lambda: draw(system("K21"), 8).svg),
     "003-overshading": ("Overshading in two dimensions", lambda: draw(system("K22")).svg),
+    "003-toppled": ("Overshading: the tree topples when all its branches are dead",
+                    lambda: draw(system("K22"), 23, apart=400).svg),
     "003-light": ("Trees that compete for light", lambda: draw(system("K23"), 15).svg),
     "003-stand": ("A stand of nine trees", lambda: draw(system("K23"), 13, trees=9).svg),
     "003-pruning": ("Pruning in two dimensions", lambda: draw(system("K24")).svg),
