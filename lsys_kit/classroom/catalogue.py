@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
@@ -35,6 +35,8 @@ WORKS = MappingProxyType({
     "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
 })
 """The works from which the systems come, in the order in which the catalogue lists them."""
+MOST_LISTED = 40
+"""A message names so many systems at most."""
 _NAME_PATTERN = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
@@ -218,8 +220,14 @@ def _known(id: str, folder: str) -> str:
         if elsewhere is not None:
             raise ModelValueError(f"{elsewhere} is {kind}", hint=f'It is returned by {function}("{elsewhere}").')
     shown = id if len(id) <= 30 else f"{id[:30]}..."
-    hint = _suggestion(id, folder) or f"Systems are: {', '.join(sorted(_ids(folder).values(), key=_natural))}."
+    hint = _suggestion(id, folder) or _listed(sorted(_ids(folder).values(), key=_natural))
     raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
+
+
+def _listed(ids: Sequence[str]) -> str:
+    """A hint with the first ids, no longer than a reader takes in."""
+    more = f" and {len(ids) - MOST_LISTED} more, which systems() lists" if len(ids) > MOST_LISTED else ""
+    return f"Systems are: {', '.join(ids[:MOST_LISTED])}{more}."
 
 
 def _id_of(id: str, folder: str) -> str | None:

@@ -39,6 +39,24 @@ def least_clearance(places: Floats, scene: Surroundings, reach: float) -> Floats
     return found
 
 
+def depths_in_outline(places: Floats, corners: Floats) -> Floats:
+    """The distance of places in the plane from the nearest side of a polygon, negative outside; shape (n,).
+
+    A place is inside if a ray to its right crosses an odd number of sides.
+    """
+    starts, sides = corners, np.roll(corners, -1, axis=0) - corners
+    away = places[:, None] - starts
+    lengths = np.einsum("sk,sk->s", sides, sides)
+    along = np.clip(np.einsum("psk,sk->ps", away, sides) / np.where(lengths, lengths, 1.0), 0.0, 1.0)
+    distances = np.linalg.norm(away - along[..., None] * sides, axis=2).min(axis=1)
+    heights = starts[:, 1] + sides[:, 1]
+    spans = (places[:, 1:] < starts[:, 1]) != (places[:, 1:] < heights)
+    crossing = sides[:, 0] * away[..., 1] / np.where(sides[:, 1], sides[:, 1], 1.0) - away[..., 0]
+    inside = np.count_nonzero(spans & (crossing > 0), axis=1) % 2 == 1
+    found: Floats = np.where(inside, distances, -distances)
+    return found
+
+
 def _flattened(points: Floats, direction: Floats) -> Floats:
     """Points as they are seen along a direction: without their part in it."""
     return points - np.outer(points @ direction, direction)

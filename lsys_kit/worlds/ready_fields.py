@@ -1,4 +1,7 @@
-"""Ready-made fields: light, space, water, and a fixed function of the place. A text names one, as in `field: light(0.25)`."""
+"""Ready-made fields: light, space, water, an outline, and a fixed function of the place.
+
+A text names one, as in `field: light(0.25)`.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ from lsys_kit.notation.model.expressions import function_of
 from lsys_kit.notation.model.fields import PLACE
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.worlds.fields import Field, Question, Surroundings
-from lsys_kit.worlds.neighbours import crossings, least_clearance
+from lsys_kit.worlds.neighbours import crossings, depths_in_outline, least_clearance
 from lsys_kit.worlds.rounding import rounded
 
 _SLANT = pi / 4
@@ -93,6 +96,25 @@ class Water:
         return [self.supply / sharing[layer] if layer >= 0 else 0.0 for layer in layers]
 
 
+class Polygon:
+    """How far inside an outline in the plane of the picture a place is: negative outside.
+
+    Parameters
+    ----------
+    coordinates
+        Those of its corners, x and y of one after x and y of the other; a side goes from the last to the first.
+    """
+
+    def __init__(self, *coordinates: float) -> None:
+        if len(coordinates) % 2:
+            raise ModelValueError(f"A corner of a polygon has x and y, and {len(coordinates)} values are no whole corners")
+        self.corners = np.array(coordinates).reshape(-1, 2)
+
+    def answer(self, questions: Sequence[Question], scene: Surroundings) -> Floats:
+        """The distance of each place from the nearest side, negative outside."""
+        return depths_in_outline(_places(questions)[:, :2], self.corners)
+
+
 class Place:
     """A fixed function of the place, whatever grows there.
 
@@ -111,7 +133,7 @@ class Place:
         return [values[0] if len(values) == 1 else values for values in found]
 
 
-_NAMED: Mapping[str, Callable[..., Field]] = {"light": Light, "space": Space, "water": Water}
+_NAMED: Mapping[str, Callable[..., Field]] = {"light": Light, "polygon": Polygon, "space": Space, "water": Water}
 """The fields that are shaped by numbers, by name."""
 
 

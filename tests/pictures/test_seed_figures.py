@@ -71,7 +71,10 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "003-light": ("Trees that compete for light", lambda: draw(system("K23"), 15).svg),
     "003-stand": ("A stand of nine trees", lambda: draw(system("K23"), 13, trees=9).svg),
     "003-pruning": ("Pruning in two dimensions", lambda: draw(system("K24")).svg),
-    "003-topiary": ("Pruning in three dimensions", lambda: draw(system("K25")).svg),
+    "003-outline": ("Pruning to another outline", lambda: draw(system("K24b")).svg),
+    **{f"003-topiary{solid}": ("Pruning in three dimensions",
+                               lambda n=n, number=number: draw(system("K25"), n, solid=number, L=8 if number < 3 else 14).svg)
+       for number, (solid, n) in enumerate({"": 70, "-sphere": 70, "-cone": 100, "-spiral": 110}.items(), 1)},
     "003-timed": ("Timed Anabaena", lambda: draw(lineage(system("K27"), 12)).svg),
     **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
     "003-forces": ("On the way to rest: some iterations", lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80]).svg),

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from lsys_kit import LSystemError, ModelValueError, derive, draw, explain, read, write
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.worlds.fields import Question, Surroundings
-from lsys_kit.worlds.ready_fields import SKY, Light, Space, Water
+from lsys_kit.worlds.ready_fields import SKY, Light, Polygon, Space, Water
 from lsys_kit.worlds.sight import observe
 
 coordinates = st.integers(-12, 12).map(lambda fourths: fourths / 4)
@@ -133,11 +133,26 @@ def test_a_function_of_the_place_answers_what_the_turtle_knows_of_its_position()
     assert [module.arguments for module in by_turtle] == [module.arguments for module in by_field]
 
 
+@given(coordinates, coordinates)
+def test_a_square_is_as_deep_as_its_nearest_side_is_far(x, y) -> None:
+    dx, dy = abs(x) - 2, abs(y) - 2
+    depth = -max(dx, dy) if dx <= 0 and dy <= 0 else -math.hypot(max(dx, 0), max(dy, 0))
+    for corners in ((-2, -2, 2, -2, 2, 2, -2, 2), (-2, 2, 2, 2, 2, -2, -2, -2), (2, 2, -2, 2, -2, -2, 2, -2, 2, -2)):
+        assert Polygon(*corners).answer(at((x, y, 5.0)), scene_of([])) == pytest.approx([depth])
+
+
+def test_a_notch_is_outside() -> None:
+    arrow = Polygon(0, 0, 4, 4, 0, 2, -4, 4)
+    assert [depth > 0 for depth in arrow.answer(at((0.0, 1.0, 0.0), (0.0, 3.0, 0.0), (2.9, 3.2, 0.0)), scene_of([]))] == [
+        True, False, True]
+
+
 def test_a_constant_that_is_called_like_a_coordinate_is_the_constant() -> None:
     assert str(observe(derive(read("x = 7\nfield: place(x + y)\naxiom: F ?E(0)"), 0)[0]).word) == "F?E(8)"
 
 
 @pytest.mark.parametrize("field", ["light", "light(0.25)", "light(k/2)", "space(3)", "water(k)", "water(2, 1/2)",
+                                   "polygon(0,0, 2,0, k,3)",
                                    "place(x^2 + y - k, z)"])
 def test_a_field_is_written_as_it_is_read(field) -> None:
     system = read(f"k = 1 in 0 .. 2 by 1\nfield: {field}\naxiom: A?E(0)")
@@ -191,7 +206,7 @@ def test_what_is_no_field_is_refused() -> None:
         derive(read("axiom: ?E(0)"), 1, field=3)
 
 
-@pytest.mark.parametrize("text", ["light(2)", "light(-1)", "water(1, 0)", "light(log(-1))"])
+@pytest.mark.parametrize("text", ["light(2)", "light(-1)", "water(1, 0)", "polygon(0,0,1,0,1,1,2)", "light(log(-1))"])
 def test_a_field_with_impossible_values_is_an_error(text) -> None:
     with pytest.raises(LSystemError):
         derive(read(f"field: {text}\naxiom: ?E(0)"), 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from itertools import pairwise
-from math import hypot, isclose
+from math import cos, hypot, isclose, radians, sin
 from pathlib import Path
 
 import pytest
@@ -15,6 +15,7 @@ from lsys_kit.__main__ import main
 from lsys_kit.derivation.derive import derive as words_alone
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 OUTSIDE = "x < -2.6 || x > 2.6 || y < 0 || y > 5.2"
 BOX = "[;(5)^(90)f(1)&(90)+(90)F(2.6)[F(0.05)]-(90)F(5.2)[F(0.05)]-(90)F(5.2)[F(0.05)]-F(5.2)[F(0.05)]-F(2.6)]"
@@ -67,14 +68,14 @@ def test_the_topiary_of_the_table_of_systems() -> None:
                      "F@oF/@oF/@oF/@oS/", "F@oF/@oF/@oF/[+FA?P]/"]
 
 
-@pytest.mark.parametrize(("id", "size", "steps"), [("K24", 2, 20), ("K24", 4, 68), ("K24", 3, 40), ("K25", 4, 110)])
+@pytest.mark.parametrize(("id", "size", "steps"), [("K24", 2, 20), ("K24", 4, 68), ("K24", 3, 40), ("K25", 4, 130)])
 def test_what_grows_out_of_the_box_is_cut_off(id: str, size: int, steps: int) -> None:
     """In the end everything is inside, and no bud is left that a signal could wake."""
-    derivation = derive(system(id), steps + 10, L=size)
+    choices = {"wakes": 1} if id == "K25" else {}
+    derivation = derive(system(id), steps + 10, L=size, **choices)
     assert derivation[-1] == derivation[steps]
     assert derivation[-1].counts().keys() <= {"B", "F", "[", "]", "+", "/"}
-    plant = read(write(system(id)).replace("axiom: B", "axiom:"))
-    scene = scene_of(derive(plant, steps, L=size)[-1])
+    scene = scene_of(derive(bare(system(id)), steps, L=size, **choices)[-1])
     (left, *_), (right, *_) = scene.corners
     assert -size / 2 - 1e-9 <= left
     assert right <= size / 2 + 1e-9
@@ -82,12 +83,62 @@ def test_what_grows_out_of_the_box_is_cut_off(id: str, size: int, steps: int) ->
     assert len(scene.segments) > size
 
 
-def test_another_condition_cuts_a_ball() -> None:
-    outside, farther = "max(abs(x), abs(z)) > L/2 || y < 0 || y > L", "x^2 + (y - L/2)^2 + z^2 > (L/2)^2 + 0.01"
-    ball = read(write(system("K25")).replace(outside, farther).replace("axiom: B", "axiom:"))
-    ends = scene_of(derive(ball, 300, L=8)[-1]).segments.ends[:, 3:]
-    assert len(ends) > 20
-    assert all(hypot(x, y, z - 4) < 4.01 for x, y, z in ends)
+def bare(plant: LSystem) -> LSystem:
+    """A plant without the outline that it is cut to, and without leaves."""
+    return read(write(plant).split("interpretation:")[0].replace("axiom: B", "axiom:"))
+
+
+SOLIDS = {
+    1: lambda x, y, z: max(abs(x), abs(z), abs(y - 4)) - 4,
+    2: lambda x, y, z: hypot(x, y - 4, z) - 4,
+    3: lambda x, y, z: max(hypot(x, z) - (8 - y) / 2, -y),
+    4: lambda x, y, z: max(hypot(x - 1.6 * sin(radians(90 * y)), z - 1.6 * cos(radians(90 * y))) - 2, abs(y - 4) - 4),
+}
+"""How far outside a solid that is 8 high a place is; negative inside."""
+
+
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_every_shoot_begins_inside_the_solid(solid: int) -> None:
+    ends = scene_of(derive(bare(system("K25")), 100, solid=solid, wakes=4)[-1]).segments.ends
+    assert len(ends) > 25
+    assert max(SOLIDS[solid](x, z, -y) for x, y, z in ends[:, :3]) < 1e-6
+
+
+def test_more_buds_live_at_once_where_a_signal_wakes_more() -> None:
+    living = [max(map(apices, derive(system("K25"), 60, wakes=wakes))) for wakes in (1, 2, 4)]
+    assert living[0] == 1
+    assert living == sorted(set(living))
+
+
+def test_a_plant_of_800_steps_is_more_than_wires() -> None:
+    picture = draw(system("K25"), 70, L=10)
+    assert len(picture.scene.segments) > 241, "of 800 steps where one bud lives at a time"
+    leaves = len(picture.scene.polygons) / 2  # two halves each
+    assert leaves > 200
+
+
+def test_a_signal_goes_on_until_it_has_woken_so_many_buds() -> None:
+    before = read("consider: F @o S\naxiom: @o F @o F @o F S(2)\nF > S(n) -> S(n) F\n@o > S(n) : n > 1 -> S(n-1) b\n"
+                  "@o > S(n) -> b\nS(n) -> ε")
+    assert str(derive(before, 6)[-1]) == "@o F b F b F"
+
+
+def test_the_fir_tree_is_cut_to_its_outline() -> None:
+    fir = derive(system("K24b"), 90)
+    asked = [module.arguments[0] for word in fir for module in word if module.symbol == "?E"]
+    assert min(asked) < 0 < max(asked)
+    rows = scene_of(derive(bare(system("K24b")), 90)[-1]).segments.ends
+    assert len(rows) > 100
+    assert max(abs(rows[:, 0])) < 5, "every shoot begins inside"
+
+
+def test_another_outline_in_the_text_cuts_another_shape() -> None:
+    text = system("K24b").source
+    first = text.index("polygon(")
+    house = text[first:text.index(")", first) + 1]
+    box = read(text.replace(house, "polygon(-2,0, 2,0, 2,4, -2,4)").replace("axiom: B", "axiom:"))
+    words = [shown(word).replace("%?E", "").replace("?E", "?P") for word in derive(box, 5)]
+    assert words == [shown(word) for word in derive(system("K24"), 5)]
 
 
 def test_one_apex_grows_at_a_time() -> None:

@@ -24,6 +24,7 @@ class FieldForm(NamedTuple):
 FIELD_FORMS: Mapping[str, FieldForm] = {
     "light": FieldForm(0, 1),
     "place": FieldForm(1, 16, PLACE),
+    "polygon": FieldForm(6, 64),
     "space": FieldForm(1, 1),
     "water": FieldForm(1, 2),
 }
