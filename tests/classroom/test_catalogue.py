@@ -62,9 +62,9 @@ def test_an_entry_says_where_it_comes_from(id):
 
 
 def test_the_rows_of_the_lessons_are_all_there():
-    assert " ".join(systems()) == ("J1 J2 J3 J4 J5 J6 T1 T2 P1 P2 P3 P4 P5 P6 P7 P8 P9 P9w "
+    assert " ".join(systems()) == ("J1 J2 J3 J4 J5 J6 T1 T2 T3 P1 P2 P3 P4 P5 P6 P7 P8 P9 P9w "
                                    "K1 K2 K3 K4 K5 K6 K7 K8 K9 K10 K11 K12 K13 K14 K15 K16 K17a K17b K18 K19 K20 "
-                                   "K21 K22 K23 K24 K24b K25 K26 K27 L1 L2 L3 L4")
+                                   "K21 K22 K23 K24 K24b K25 K26 K27 L0 L1 L2 L3 L4")
 
 
 @pytest.mark.parametrize("id", systems())
@@ -123,6 +123,22 @@ def test_the_koch_snowflake():
     assert derivation.lengths == [7, 28, 112, 448, 1792]
     side = "F+F--F+F+F+F--F+F--F+F--F+F+F+F--F+F--"
     assert str(derivation[2]) == (3 * side).removesuffix("--")
+
+
+def test_chance_turns_the_bulges_of_a_stochastic_koch_curve_and_not_their_number():
+    first = {"outward": "F+F--F+F", "inward": "F-F++F-F"}
+    for seed in range(40):
+        words = derive(system("T3"), 3, seed=seed)
+        assert [word.counts()["F"] for word in words] == [3, 12, 48, 192]
+    one = [str(derive(read("axiom: F\nF -> F+F--F+F : 1/2\nF -> F-F++F-F : 1/2"), 1, seed=seed)[-1]) for seed in range(900)]
+    assert set(one) == set(first.values())
+    assert all(390 <= one.count(word) <= 510 for word in first.values())
+
+
+def test_the_production_of_the_plant_strings_notation_adds_eight_characters_to_each_i():
+    words = derive(system("L0"), 8)
+    assert [word.counts()["I"] for word in words] == [2**n for n in range(9)]
+    assert words.lengths == [8 * 2**n - 7 for n in range(9)]
 
 
 def test_the_stages_of_p2_are_the_values_of_p3_and_p4():
