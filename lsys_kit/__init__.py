@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from lsys_kit.notation.write import write
     from lsys_kit.pictures.draw import draw, figure
     from lsys_kit.pictures.films import animate
+    from lsys_kit.pictures.hierarchy import draw_hierarchy
     from lsys_kit.pictures.qr_codes import qr_code
     from lsys_kit.worlds.derive import derive
 
@@ -53,6 +54,7 @@ _HOMES = {
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films",
     "check": "classroom.exercises.check", "compare": "classroom.panel.comparison",
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
+    "draw_hierarchy": "pictures.hierarchy",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth.growth", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
@@ -77,6 +79,7 @@ __all__ = [
     "continuity",
     "derive",
     "draw",
+    "draw_hierarchy",
     "explain",
     "explore",
     "figure",

@@ -38,7 +38,8 @@ GROWING = read("c = 1\naxiom: a\na -> a b(c)\nb(x) -> b(x)")
 AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "animate": lambda: (GROWING, 1), "check": lambda: ("1.1", "al"), "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
-    "derive": lambda: (GROWING, 1), "draw": lambda: (GROWING, 1), "explain": lambda: (derive(GROWING, 1), 1),
+    "derive": lambda: (GROWING, 1), "draw": lambda: (GROWING, 1), "draw_hierarchy": tuple,
+    "explain": lambda: (derive(GROWING, 1), 1),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
     "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,
     "pnml": lambda: (stages(GROWING), None), "read": lambda: ("axiom: a", "abop", "x"), "read_map": lambda: ("map: A>A>",),

@@ -104,8 +104,9 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 
 
 FUNCTIONS = (
-    "animate", "check", "continuity", "derive", "draw", "explain", "explore", "figure", "growth", "lineage", "link", "linked",
-    "map_system", "pnml", "qr_code", "read", "read_map", "stages", "system", "systems", "map_systems", "timed", "write",
+    "animate", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "explain", "explore", "figure", "growth",
+    "lineage", "link", "linked", "map_system", "pnml", "qr_code", "read", "read_map", "stages", "system", "systems", "map_systems",
+    "timed", "variants", "write",
 )
 """The public functions; `limits` is about each of them."""
 

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from lsys_kit import draw, lineage, map_system, read, stages, system
+from lsys_kit import draw, draw_hierarchy, lineage, map_system, read, stages, system
 
 GOLDEN = Path(__file__).parent / "golden"
 PART = re.compile(r"#[0-9A-Fa-f]{6}|-?\d+(?:\.\d+)?(?:e-?\d+)?|[^-#\d]+|.", re.DOTALL)
@@ -33,6 +33,8 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "000-figure-3": ("Algae growth with lifetimes 2 and 5 for cells a and b", lambda: draw(system("J5"), 15).svg),
     "000-figure-4": ("Example of an artificial flower", lambda: draw(system("J6"), 12).svg),
     **{f"001-koch-{n}": (f"Koch snowflake, step {n}", lambda n=n: draw(system("T2"), n).svg) for n in range(4)},
+    "001-stochastic": ("A stochastic L-system", lambda: draw(system("T3"), seed=1).svg),
+    "001-figure-5.2": ("Power of 0L-systems and (k,l)-systems", lambda: draw_hierarchy().svg),
     "002-figure-1": ("Developmental sequence of an Anabaena filament (L-system 1)", lambda: draw(system("P1"), 6).svg),
     "002-figure-2": ("Petri net representation of L-system 2", lambda: draw(stages(system("P2"))).svg),
     "002-figure-3-left": ("Improved developmental sequence (L-system 2)", lambda: draw(system("P2"), 16).svg),
@@ -79,7 +81,7 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
     "003-forces": ("On the way to rest: some iterations", lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80]).svg),
     "003-microsorium": ("Gametophyte of Microsorium linguaeforme", lambda: draw(map_system("K32"), 12).svg),
-    **{f"004-{id}": (f"Plant string {id}", lambda id=id: draw(system(id)).svg) for id in ("L1", "L2", "L3", "L4")},
+    **{f"004-{id}": (f"Plant string {id}", lambda id=id: draw(system(id)).svg) for id in ("L0", "L1", "L2", "L3", "L4")},
 }
 """Each figure's name, what its seed says it shows, and how it is drawn."""
 

@@ -1,0 +1,148 @@
+"""The languages of L-systems beside the Chomsky hierarchy, as nested ellipses.
+
+Languages of 0L-systems cut across the finite, the regular and the context-free ones, and are all context-sensitive;
+(k,l)-systems add languages up to some that are only recursively enumerable. The picture is drawn anew: that of the textbook,
+figure 5.2, whose caption it keeps, was not at hand. Sources: Herman and Rozenberg, Developmental Systems and Languages (1975);
+The Algorithmic Beauty of Plants, figure 1.2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from lsys_kit.files import marked_xml
+from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET, VERMILION, tinted
+from lsys_kit.pictures.svg import background, document
+
+WIDTH, HEIGHT = 720, 430
+"""The size of the picture, in pixels."""
+
+
+class LanguageClass(NamedTuple):
+    """A class of languages: its name, the centre and the half axes of its ellipse, and the position of its name, in pixels."""
+
+    name: str
+    centre: tuple[float, float]
+    reach: tuple[float, float]
+    label: tuple[float, float]
+    colour: str
+
+    def holds(self, x: float, y: float) -> bool:
+        """Whether a point lies inside."""
+        return ((x - self.centre[0]) / self.reach[0])**2 + ((y - self.centre[1]) / self.reach[1])**2 < 1
+
+
+class Language(NamedTuple):
+    """A language that shows that two classes differ: how it is written, its point, and the classes to which it belongs."""
+
+    text: str
+    x: float
+    y: float
+    classes: frozenset[str]
+
+
+FINITE, REGULAR, FREE = "Finite", "Regular", "Context-free"
+SENSITIVE, ENUMERABLE = "Context-sensitive", "Recursively enumerable"
+CHOMSKY = (
+    LanguageClass(ENUMERABLE, (360, 215), (345, 200), (360, 44), QUIET),
+    LanguageClass(SENSITIVE, (305, 232), (275, 163), (300, 98), QUIET),
+    LanguageClass(FREE, (238, 245), (195, 122), (190, 152), QUIET),
+    LanguageClass(REGULAR, (205, 252), (145, 90), (160, 190), QUIET),
+    LanguageClass(FINITE, (165, 258), (92, 52), (113, 263), QUIET),
+)
+"""The classes of Chomsky's grammars, each inside the one before."""
+PARALLEL = (
+    LanguageClass("(k,l)-systems", (410, 258), (262, 112), (600, 236), BLUE),
+    LanguageClass("0L-systems", (362, 262), (150, 66), (440, 238), VERMILION),
+)
+"""The classes of L-systems, the second inside the first."""
+LANGUAGES = (
+    Language("{a, aa}", 184, 227, frozenset({FINITE, REGULAR, FREE, SENSITIVE, ENUMERABLE, "(k,l)-systems"})),
+    Language("{a}", 235, 264, frozenset({FINITE, REGULAR, FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
+    Language("aⁿ", 300, 264, frozenset({REGULAR, FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
+    Language("aⁿbaⁿ", 378, 264, frozenset({FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
+    Language("a², a⁴, a⁸, …", 461, 266, frozenset({SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
+)
+"""A language in each part that matters. 0L are {a}; aⁿ by a → a and a → aa; aⁿbaⁿ by b → aba; a², a⁴, a⁸ by a → aa. {a, aa} is
+not: where a becomes aa, aa becomes aaaa, unless a neighbour prevents it."""
+DESCRIPTION = (
+    "Power of 0L-systems and (k,l)-systems in comparison to Chomsky languages: five nested ellipses, finite inside regular "
+    "inside context-free inside context-sensitive inside recursively enumerable languages. The ellipse of 0L-systems lies "
+    "inside the context-sensitive one and cuts across the finite, regular and context-free ones. That of (k,l)-systems "
+    "contains it, lies inside the recursively enumerable one and cuts across all others. Languages as examples: ")
+
+
+@dataclass(frozen=True)
+class HierarchyPicture:
+    """The languages of L-systems beside the Chomsky hierarchy."""
+
+    @property
+    def text(self) -> str:
+        """What the picture shows, in words."""
+        return DESCRIPTION + "; ".join(f"{each.text}: {', '.join(sorted(each.classes))}" for each in LANGUAGES) + "."
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        shapes = [*map(_ellipse, CHOMSKY), *map(_ellipse, PARALLEL), *map(_class_name, (*CHOMSKY, *PARALLEL)),
+                  *map(_point, LANGUAGES)]
+        return document(background(WIDTH, HEIGHT) + "".join(shapes), WIDTH, HEIGHT, self.text)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg file.
+
+        Raises
+        ------
+        ModelFileError
+            The extension is unknown, or the file cannot be written.
+        """
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"image/svg+xml": self.svg, "text/plain": self.text}
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def draw_hierarchy() -> HierarchyPicture:
+    """Draw the languages of 0L-systems and (k,l)-systems beside those of the Chomsky hierarchy.
+
+    Examples
+    --------
+    >>> print(draw_hierarchy().text[:79])
+    Power of 0L-systems and (k,l)-systems in comparison to Chomsky languages: five
+
+    References
+    ----------
+    Herman and Rozenberg, Developmental Systems and Languages (1975); the caption is that of figure 5.2 of the textbook.
+    """
+    return HierarchyPicture()
+
+
+def _ellipse(each: LanguageClass) -> str:
+    """An ellipse; those of L-systems are broken lines, so that colour alone says nothing."""
+    (x, y), (across, up) = each.centre, each.reach
+    broken = ' stroke-dasharray="90 50"' if each in PARALLEL else ""
+    fill = f'fill="{tinted(each.colour, 0.3)}" fill-opacity="{0.3 if broken else 0.24}"'
+    return (f'<ellipse cx="{10 * x:g}" cy="{10 * y:g}" rx="{10 * across:g}" ry="{10 * up:g}" {fill} '
+            f'stroke="{each.colour}" stroke-width="{20 if broken else 14}"{broken}/>')
+
+
+def _class_name(each: LanguageClass) -> str:
+    return _text(each.name, *each.label, 15, INK if each.colour == QUIET else each.colour)
+
+
+def _point(each: Language) -> str:
+    """The point of a language, with the language below it."""
+    return (f'<circle cx="{10 * each.x:g}" cy="{10 * each.y:g}" r="30" fill="{INK}"/>'
+            f"{_text(each.text, each.x, each.y + 19, 13, INK)}")
+
+
+def _text(text: str, x: float, y: float, size: int, colour: str) -> str:
+    return (f'<text x="{10 * x:g}" y="{10 * y:g}" font-family="sans-serif" font-size="{10 * size}" text-anchor="middle" '
+            f'fill="{colour}" stroke="{PAPER}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{text}</text>')
