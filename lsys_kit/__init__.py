@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lsys_kit.budget import limits
-    from lsys_kit.classroom.catalogue import map_system, map_systems, system, systems
+    from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
     from lsys_kit.classroom.link import link, linked
     from lsys_kit.classroom.panel.comparison import compare
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
         ModelSyntaxError,
         ModelValueError,
     )
+    from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
     from lsys_kit.notation.dialects.map.dialect import read_map
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films",
+    "cellwork_system": "classroom.catalogue", "cellwork_systems": "classroom.catalogue",
     "check": "classroom.exercises.check", "compare": "classroom.panel.comparison",
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "draw_hierarchy": "pictures.hierarchy",
@@ -60,7 +62,8 @@ _HOMES = {
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "qr_code": "pictures.qr_codes",
-    "read": "notation.read", "read_map": "notation.dialects.map.dialect", "stages": "derivation.petri.stages",
+    "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
+    "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
     "variants": "classroom.variants",
     "write": "notation.write",
@@ -74,6 +77,8 @@ __all__ = [
     "ModelSyntaxError",
     "ModelValueError",
     "animate",
+    "cellwork_system",
+    "cellwork_systems",
     "check",
     "compare",
     "continuity",
@@ -93,6 +98,7 @@ __all__ = [
     "pnml",
     "qr_code",
     "read",
+    "read_cellwork",
     "read_map",
     "stages",
     "system",

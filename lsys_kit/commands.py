@@ -33,9 +33,9 @@ MOST_NEIGHBOURS = 1_000
 
 def list_systems(_: argparse.Namespace) -> None:
     """Print the catalogue: ids, names and titles, under the works from which the systems come."""
-    from lsys_kit import map_systems, systems
+    from lsys_kit import cellwork_systems, map_systems, systems
 
-    print(f"{systems()!r}\n\nMap systems\n{map_systems()!r}")
+    print(f"{systems()!r}\n\nMap systems\n{map_systems()!r}\n\nCellwork systems\n{cellwork_systems()!r}")
 
 
 def print_words(options: argparse.Namespace) -> None:
@@ -89,15 +89,16 @@ def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
 
 
 def draw_word(options: argparse.Namespace) -> None:
-    """Write a picture of a word or of maps, or a film of the steps, and print what it shows."""
-    from lsys_kit.classroom.catalogue import is_map_system, map_system
+    """Write a picture of a word, of maps or of a cellwork, or a film of the steps, and print what it shows."""
+    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
-    if is_map_system(options.system):
-        maps = draw(map_system(options.system), options.steps)
-        maps.save(options.output)
-        print(maps)
+    if is_map_system(options.system) or is_cellwork_system(options.system):
+        cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
+        picture = draw(cells, options.steps)
+        picture.save(options.output)
+        print(picture)
         return
     words = _derivation(_system_with_constants(options), options)
     if Path(options.output).suffix.lower() in FILMS:

@@ -13,7 +13,7 @@ import sympy
 from matplotlib.figure import Figure
 
 import lsys_kit
-from lsys_kit import LSystemError, ModelValueError, derive, growth, lineage, map_system, read, stages, timed
+from lsys_kit import LSystemError, ModelValueError, cellwork_system, derive, growth, lineage, map_system, read, stages, timed
 from lsys_kit.derivation.derive import Derivation
 
 
@@ -39,6 +39,9 @@ AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "animate": lambda: (GROWING, 1), "check": lambda: ("1.1", "al"), "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
     "derive": lambda: (GROWING, 1), "draw": lambda: (GROWING, 1), "draw_hierarchy": tuple,
+    "cellwork_system": lambda: ("K33",),
+    "cellwork_systems": tuple, "read_cellwork": lambda: (str(cellwork_system("K33")),),
+    "draw a cellwork": lambda: (cellwork_system("K33"), 1), "derive a cellwork": lambda: (cellwork_system("K33"), 1),
     "explain": lambda: (derive(GROWING, 1), 1),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
     "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,
@@ -54,6 +57,7 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "derive": ("seed", "arithmetic", "c"), "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c"),
     "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"), "limits": ("modules", "bytes", "seconds"),
     "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",), "draw in space": ("angle", "marked"),
+    "draw a cellwork": ("azimuth", "elevation", "cell", "generation", "pressure"),
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""

@@ -1,4 +1,4 @@
-"""The catalogue: L-systems in the folder `systems` and map systems in the folder `maps`, each a TOML file that explains itself.
+"""The catalogue: L-systems in the folder `systems`, map systems in `maps`, cellwork systems in `cellworks`, a TOML file each.
 
 A file holds the rules in their own notation, where they were printed, what is wrong in print, and the words that must come
 out. A system is asked for by its id, which is the name of its file, or by its telling name. A file is read when its system is
@@ -20,13 +20,18 @@ from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
 from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 
-SYSTEMS, MAPS = "systems", "maps"
+SYSTEMS, MAPS, CELLWORKS = "systems", "maps", "cellworks"
 """The folders."""
+_KINDS = {SYSTEMS: ("an L-system", "system"), MAPS: ("a map system", "map_system"),
+          CELLWORKS: ("a cellwork system", "cellwork_system")}
+"""What each folder holds, and the function that returns it."""
 WORKS = MappingProxyType({
     "Jacob": "C. Jacob, Modeling Growth with L-Systems & Mathematica",
     "textbook": "Lindenmayer Systems (textbook)",
@@ -61,7 +66,7 @@ class Entry:
     notes
         What else a reader should know, a sentence each.
     words
-        The words, or maps, of some steps, where chance has no part in them.
+        The words, maps or cellworks of some steps, where chance has no part in them.
     lengths
         The number of modules, or walls, at steps 0, 1, 2, ..., as far as they were checked, where chance has no part in them.
     same_as
@@ -109,7 +114,7 @@ def system(id: str) -> LSystem:
     ModelNameError
         No system is called that.
     ModelValueError
-        A map system is.
+        A map system or a cellwork system is.
 
     Examples
     --------
@@ -122,26 +127,21 @@ def system(id: str) -> LSystem:
 
 
 def map_system(id: str) -> MapSystem:
-    """The map system with an id or a name, in capitals or not.
+    """The map system with an id or a name, in capitals or not; errors are those of `system`.
 
-    Parameters
-    ----------
-    id
-        One of `map_systems()`, or the name listed beside it.
-
-    Raises
-    ------
-    ModelNameError
-        No map system is called that.
-    ModelValueError
-        An L-system is.
-
-    Examples
-    --------
     >>> print(map_system("k28").productions[0])
     A -> B[-A][+A]B
     """
     return _parsed_map(_known(id, MAPS))
+
+
+def cellwork_system(id: str) -> CellworkSystem:
+    """The cellwork system with an id or a name, in capitals or not; errors are those of `system`.
+
+    >>> print(cellwork_system("k33").productions[0])
+    P: * -> R [PQ: PR|P|PR, PQ] [PR: QR|Q|QR, PQ] R
+    """
+    return read_cellwork(_entry(_known(id, CELLWORKS)).rules)
 
 
 def systems() -> Catalogue:
@@ -166,13 +166,18 @@ def map_systems() -> Catalogue:
     return _catalogue(MAPS)
 
 
+def cellwork_systems() -> Catalogue:
+    """All cellwork systems of the catalogue, grouped by the works from which they come."""
+    return _catalogue(CELLWORKS)
+
+
 def _catalogue(folder: str) -> Catalogue:
     works = list(WORKS)
     return Catalogue(sorted(_ids(folder).values(), key=lambda id: (works.index(_entry(id).work), _natural(id))))
 
 
 def entry(id: str) -> Entry:
-    """What the catalogue knows about an L-system or a map system, given its id or its name.
+    """What the catalogue knows about a system of any kind, given its id or its name.
 
     Raises
     ------
@@ -186,7 +191,7 @@ def entry(id: str) -> Entry:
     >>> entry("anabaena-life-spans").id
     'J4'
     """
-    return _entry(_known(id, MAPS if is_map_system(id) else SYSTEMS))
+    return _entry(_known(id, next((folder for folder in _KINDS if _id_of(id, folder)), SYSTEMS)))
 
 
 def is_map_system(id: str) -> bool:
@@ -196,6 +201,11 @@ def is_map_system(id: str) -> bool:
     (True, True, False)
     """
     return _id_of(id, MAPS) is not None
+
+
+def is_cellwork_system(id: str) -> bool:
+    """Whether this is the id or the name of a cellwork system."""
+    return _id_of(id, CELLWORKS) is not None
 
 
 def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
@@ -214,11 +224,11 @@ def _known(id: str, folder: str) -> str:
     known = _id_of(id, folder)
     if known is not None:
         return known
-    for other, kind, function in ((MAPS, "a map system, not an L-system", "map_system"),
-                                  (SYSTEMS, "an L-system, not a map system", "system")):
+    for other, (kind, function) in _KINDS.items():
         elsewhere = _id_of(id, other)
         if elsewhere is not None:
-            raise ModelValueError(f"{elsewhere} is {kind}", hint=f'It is returned by {function}("{elsewhere}").')
+            raise ModelValueError(f"{elsewhere} is {kind}, not {_KINDS[folder][0]}",
+                                  hint=f'It is returned by {function}("{elsewhere}").')
     shown = id if len(id) <= 30 else f"{id[:30]}..."
     hint = _suggestion(id, folder) or _listed(sorted(_ids(folder).values(), key=_natural))
     raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
@@ -261,7 +271,7 @@ def _folder(folder: str) -> Traversable:
 
 @cache
 def _entry(id: str) -> Entry:
-    folder = MAPS if id.lower() in _ids(MAPS) else SYSTEMS
+    folder = next(folder for folder in _KINDS if id.lower() in _ids(folder))
     fields: dict[str, Any] = tomllib.loads((_folder(folder) / f"{id}.toml").read_text(encoding="utf-8"))
     for name in ("errata", "notes", "lengths"):
         fields[name] = tuple(fields.get(name, ()))

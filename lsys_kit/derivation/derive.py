@@ -11,6 +11,7 @@ from operator import index as place
 from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
+from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
@@ -19,6 +20,7 @@ from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Or
 from lsys_kit.derivation.engines.table import engine_for
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
@@ -31,13 +33,16 @@ def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: 
            **constants: object) -> Derivation: ...
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
-def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
+@overload
+def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
     """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
 
     Parameters
     ----------
     system
-        Any L-system; or a map system, whose maps are derived and which takes none of the choices below.
+        Any L-system; or a map system or a cellwork system, whose maps or cellworks are derived and which take none of the
+        choices below.
     steps
         How many steps.
     seed
@@ -51,7 +56,7 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     -------
     Derivation
         A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those in between. For a
-        map system a `Development`, a sequence of `steps + 1` maps.
+        map system a `Development`, a sequence of `steps + 1` maps; for a cellwork system a `CellworkDevelopment`.
 
     Raises
     ------
@@ -69,12 +74,13 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     >>> derive(fibonacci, 30).lengths[-1]
     2178309
     """
-    if not isinstance(system, MapSystem):
+    if not isinstance(system, MapSystem | CellworkSystem):
         return derive_observed(system, steps, None, **choices)
     if choices:
-        raise ModelValueError(f'A map system has no "{next(iter(choices))}"',
+        kind = "map" if isinstance(system, MapSystem) else "cellwork"
+        raise ModelValueError(f'A {kind} system has no "{next(iter(choices))}"',
                               hint="It has neither chance nor declared constants.")
-    return develop(system, steps)
+    return develop(system, steps) if isinstance(system, MapSystem) else develop_cellwork(system, steps)
 
 
 def derive_observed(system: LSystem, steps: int, world: Observer | None, /, *, seed: int | None = None,

@@ -11,7 +11,8 @@ import numpy as np
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.map import Map, cell_words
-from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax
+from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax, with_finished
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.model.maps import Edge
 
@@ -39,6 +40,8 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
     ------
     ModelLimitError
         The relaxation takes too long.
+    ModelValueError
+        It blows up; the positions of the steps before are in `partial`.
 
     Examples
     --------
@@ -49,10 +52,15 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
     [0.28 0.28] [0.56 0.36]
     """
     layout = Task()
-    points: Floats | None = None
+    finished: list[Floats] = []
     for step, found in enumerate(maps):
         with layout, Task(f"The cells of step {step} did not come to rest"):
-            points = _equilibrium(relax(initial_vertices(found, points), tissue(found), forces))
+            start = initial_vertices(found, finished[-1] if finished else None)
+            try:
+                points = _equilibrium(relax(start, tissue(found), forces))
+            except ModelValueError as error:
+                raise with_finished(error, finished) from None
+        finished.append(points)
         yield points
 
 

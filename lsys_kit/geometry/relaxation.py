@@ -7,11 +7,12 @@ length of the wall; half of the force acts on either end. So a cell can be compr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Floats, Integers
 
 TIME_STEP = 0.05
@@ -22,6 +23,8 @@ AT_REST = 1e-6
 """Vertices that move less than this in an iteration are at rest."""
 MOST_ITERATIONS = 20_000
 """After this number of iterations a map is taken to be at equilibrium."""
+FARTHEST = 1e6
+"""Vertices that are farther away than this fly apart: edges are some tenths to some units long."""
 LEAST_AREA = 1e-3
 """The least area from which a pressure is computed, so that pressures are finite. A concave cell whose new wall lies outside of
 it may stay turned inside out."""
@@ -89,6 +92,11 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
     tissue, forces
         The topology of the map, and the forces of its cells and walls.
 
+    Raises
+    ------
+    ModelValueError
+        The positions grow beyond all bounds.
+
     Examples
     --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
@@ -104,10 +112,25 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
         pace, moved, left = _integrated(points, speeds, push, tissue, room)
         speeds = speeds + push * pace
         farthest = max(np.abs(moved - points).max(), np.abs(push).max() * TIME_STEP**2)
-        points, room = moved, left
+        points, room = check_bounds(moved), left
         yield points
         if farthest < AT_REST:
             return
+
+
+def check_bounds(points: Floats) -> Floats:
+    """The same positions, if they are within bounds."""
+    if not np.abs(points).max() < FARTHEST:  # which NaN is not
+        raise ModelValueError("The relaxation blows up: vertices fly apart instead of coming to rest",
+                              hint="Make stiffness or pressure smaller, or damping nearer to 1.")
+    return points
+
+
+def with_finished(error: ModelValueError, finished: Sequence[Floats]) -> ModelValueError:
+    """The error of a relaxation that blows up, with the positions of the steps before it."""
+    step, error.partial = len(finished), finished
+    kept = "" if not step else " Step 0 is kept." if step == 1 else f" Steps 0-{step - 1} are kept."
+    return error.with_hint(f"This was step {step}.{kept} {error.hint}")
 
 
 def _integrated(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:

@@ -29,6 +29,8 @@ from lsys_kit.notation.syntax.systems import system_in
 from lsys_kit.notation.syntax.text.statements import ARROW, check_text
 from lsys_kit.notation.syntax.wording import reporting
 
+_CELLWORK = re.compile(r"\s*cellwork[ \t]*:", re.IGNORECASE)
+"""How a cellwork system begins (see `read_cellwork`)."""
 _MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
 
@@ -79,6 +81,9 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     if _MAP.match(text):
         raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
                               "Maps are read by read_map(text).")
+    if _CELLWORK.match(text):
+        raise ModelValueError("This is a cellwork system, not an L-system", text, len(text) - len(text.lstrip()), None,
+                              "Cellworks are read by read_cellwork(text).")
     require(notation, (str, type(None)), "The name of a notation")
     if notation:
         return _read_or_claimed(dialect_named(notation), text, name)

@@ -34,6 +34,8 @@ def dialect_named(name: str) -> Dialect:
     if name == "map":
         hint = "A text that begins with the walls of a cell is read by read_map(text)."
         raise ModelNameError("Maps are no L-systems", hint=hint)
+    if name == "cellwork":
+        raise ModelNameError("Cellworks are no L-systems", hint="Cellworks are read by read_cellwork(text).")
     if name not in DIALECTS:
         raise ModelNameError(f'There is no notation called "{name}"', hint=f"Notations are: {', '.join(DIALECTS)}.")
     return DIALECTS[name]

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.budget import Task
+from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
@@ -18,8 +19,10 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.pictures.cellworks import CellworkPicture, cellwork_picture
 from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes
 from lsys_kit.pictures.line_widths import in_units
@@ -50,6 +53,9 @@ def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: obje
 @overload
 def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
          **forces: object) -> MapPicture: ...
+@overload
+def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, azimuth: object = ..., elevation: object = ...,
+         cell: int | None = None, generation: int | None = None, **forces: object) -> CellworkPicture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
@@ -57,7 +63,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     ----------
     what
         A system is derived first. A filament is then shown as a developmental sequence, one row a step; anything else as
-        the turtle draws its last word. A single word is shown as it is. The maps of a map system stand side by side.
+        the turtle draws its last word. A single word is shown as it is. The maps of a map system stand side by side; of a
+        cellwork system one sees the last step in space.
     n
         The number of steps of a system; by default its own.
     angle
@@ -69,7 +76,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
         For a map system `iterations`, after which its last step is shown on the way to rest, and new values of the forces that
-        shape it: `stiffness`, `rest`, `pressure`, `damping`.
+        shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has the same forces; `azimuth` and `elevation`
+        of the viewer in degrees; and `cell`, a number, or `generation`, the number of divisions behind cells, to light these.
 
     Raises
     ------
@@ -94,6 +102,8 @@ def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | N
         return _net_picture(what, **choices)
     if isinstance(what, MapSystem | Development):
         return map_picture(what, n, **choices)
+    if isinstance(what, CellworkSystem | CellworkDevelopment):
+        return cellwork_picture(what, n, **choices)
     if isinstance(what, Lineage):
         _check_options(choices, ("intervals",))
         return lineage_picture(what, **choices)

@@ -21,7 +21,7 @@ from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
 from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
-from lsys_kit.geometry.relaxation import Forces
+from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.display_list import MARGIN, ViewFrame
@@ -152,8 +152,8 @@ def _check_walls(maps: Sequence[Map]) -> None:
                               limit=current().segments, needed=walls, hint="Take fewer steps, or set limits(segments=...).")
 
 
-def forces_of(choices: dict[str, object]) -> Forces:
-    """The chosen forces; the others by default.
+def forces_of(choices: dict[str, object], usual: Forces = DEFAULT_FORCES, what: str = "map") -> Forces:
+    """The chosen forces; the others as usual.
 
     >>> forces_of({"pressure": "1/5"})
     Forces(stiffness=1.0, rest=0.1, pressure=0.2, damping=1.0)
@@ -161,12 +161,12 @@ def forces_of(choices: dict[str, object]) -> Forces:
     values: dict[str, float] = {}
     for name, choice in choices.items():
         if name not in RANGES:
-            raise ModelNameError(f'A map has no "{name}"', hint=f"Its forces are {', '.join(RANGES)}.")
+            raise ModelNameError(f'A {what} has no "{name}"', hint=f"Its forces are {', '.join(RANGES)}.")
         values[name] = real_from(choice, name)
         least, most = RANGES[name]
         if not least <= values[name] <= most:
             raise ModelValueError(f'"{name}" must lie between {least} and {most}, not be {values[name]:g}')
-    return replace(Forces(), **values)
+    return replace(usual, **values)
 
 
 class Panel(NamedTuple):

@@ -11,8 +11,10 @@ from functools import partial
 from typing import Any, overload
 
 from lsys_kit.derivation import derive as words_alone
+from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.derive import Derivation, derive_observed
 from lsys_kit.derivation.maps.development import Development
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.fields import Field
@@ -24,14 +26,17 @@ def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: 
            **constants: object) -> Derivation: ...
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
-def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
+@overload
+def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
     """Derive a system: the words of steps 0 to `steps`.
 
     Parameters
     ----------
     system
         Any L-system. If its rules depend on the turtle, by a sensitive function or by a query module such as `?P(x,y)`, a
-        turtle interprets each word before the next step. Or a map system, whose maps are derived; it takes no choices.
+        turtle interprets each word before the next step. Or a map system or a cellwork system, whose
+        maps or cellworks are derived; they take no choices.
     steps
         The number of steps.
     **choices
@@ -45,7 +50,7 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     Derivation
         A sequence of `steps + 1` words. A word is built when it is first used, `[-1]` without those between. A query module
         holds the answer of the last step; `sight(step)` gives what the next one sees. For a map system a
-        `Development`, a sequence of `steps + 1` maps.
+        `Development`, a sequence of `steps + 1` maps; for a cellwork system a `CellworkDevelopment`.
 
     Raises
     ------
@@ -84,5 +89,5 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development:
     if isinstance(system, LSystem):
         field = choices.pop("field", None)
         return derive_observed(system, steps, observe if field is None else partial(observe, field=field), **choices)
-    maps: Development = words_alone.derive(system, steps, **choices)
-    return maps
+    cells: Development | CellworkDevelopment = words_alone.derive(system, steps, **choices)
+    return cells

@@ -57,8 +57,8 @@ EXTREME: tuple[object, ...] = (
 """Values for any argument."""
 NAMES = (
     "steps", "n", "seed", "arithmetic", "angle", "marked", "cells", "tokens", "positions", "intervals", "iterations",
-    "stiffness", "pressure", "polarity", "durations", "seconds", "hint", "solution", "ax", "c", "d", "dt", "lifeTimeA",
-    "notation", "name", "x", "settings", "base",
+    "stiffness", "pressure", "azimuth", "cell", "generation", "polarity", "durations", "seconds", "hint", "solution", "ax",
+    "c", "d", "dt", "lifeTimeA", "notation", "name", "x", "settings", "base",
 )
 """Names of arguments, and of constants."""
 
@@ -72,9 +72,9 @@ def system_text(chance: random.Random) -> str:
 @cache
 def catalogue() -> tuple[Any, ...]:
     """All systems of the catalogue."""
-    from lsys_kit import map_system, map_systems, system, systems
+    from lsys_kit import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
 
-    return (*map(system, systems()), *map(map_system, map_systems()))
+    return (*map(system, systems()), *map(map_system, map_systems()), *map(cellwork_system, cellwork_systems()))
 
 
 def some_system(chance: random.Random) -> Any:
@@ -104,9 +104,9 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 
 
 FUNCTIONS = (
-    "animate", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "explain", "explore", "figure", "growth",
-    "lineage", "link", "linked", "map_system", "pnml", "qr_code", "read", "read_map", "stages", "system", "systems", "map_systems",
-    "timed", "variants", "write",
+    "animate", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "explain", "explore",
+    "figure", "growth", "lineage", "link", "linked", "map_system", "pnml", "qr_code", "read", "read_cellwork", "read_map",
+    "stages", "system", "systems", "map_systems", "timed", "variants", "write",
 )
 """The public functions; `limits` is about each of them."""
 

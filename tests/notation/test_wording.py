@@ -9,6 +9,7 @@ import pytest
 import lsys_kit.notation
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.analysis.problems import Problem
+from lsys_kit.notation.dialects.cellwork.spelling import SPELLING as CELLWORK_SPELLING
 from lsys_kit.notation.dialects.map.spelling import SPELLING as MAP_SPELLING
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
@@ -16,7 +17,8 @@ from lsys_kit.notation.syntax.spelling import Wording
 from lsys_kit.notation.syntax.wording import WORDINGS, worded
 
 ROOM = Path(lsys_kit.notation.__file__).parent
-DIALECT_WORDINGS = {code: wording for spelling in (MAP_SPELLING, *(dialect.spelling for dialect in DIALECTS.values()))
+DIALECT_WORDINGS = {code: wording
+                    for spelling in (MAP_SPELLING, CELLWORK_SPELLING, *(dialect.spelling for dialect in DIALECTS.values()))
                     for code, wording in spelling.wordings.items()}
 NAMED = {"context in {}": ("decomposition", "interpretation"), "several modules in {}": ("decomposition", "interpretation"),
          "number of {}": ("steps", "rounds"),

@@ -69,3 +69,13 @@ def tinted(colour: str, strength: float) -> str:
     strength = min(1.0, max(0.0, strength))
     channels = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
     return "#" + "".join(f"{int(255 - strength * (255 - channel) + 0.5):02x}" for channel in channels)
+
+
+def shaded(colour: str, light: float) -> str:
+    """A colour mixed with black: 0 is black, 1 the colour itself.
+
+    >>> shaded("#0072B2", 0.5)
+    '#003959'
+    """
+    light = min(1.0, max(0.0, light))
+    return "#" + "".join(f"{int(light * int(colour[i:i + 2], 16) + 0.5):02x}" for i in (1, 3, 5))

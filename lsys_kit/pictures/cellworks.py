@@ -1,0 +1,143 @@
+"""Cellworks as pictures: the cells of a step in space, with shaded walls.
+
+Walls of one colour have the same label. Where some cells are lit, those alone have walls, and of the others one sees the edges.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
+from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
+from lsys_kit.geometry.cellwork_layout import cellwork_scene, place_cellworks
+from lsys_kit.geometry.scene import Floats, Scene
+from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.pictures.maps import forces_of
+from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.style.palette import QUIET, SERIES, shaded, tinted
+from lsys_kit.pictures.svg import FilamentRow, described
+from lsys_kit.pictures.view import project
+
+STEPS = 3
+"""The default number of steps."""
+AZIMUTH, ELEVATION = 30, 25
+"""From where cells are seen, in degrees: from the front and somewhat from the right, and from above."""
+LIGHT = (-0.4, 0.75, 0.5)
+"""The direction to the light, as the viewer sees it: from the left, from above, from behind the viewer."""
+SHADES, DARKEST = 24, 0.55
+"""How many shades a colour has, and how dark the darkest is."""
+
+
+@dataclass(frozen=True, repr=False)
+class CellworkPicture(Picture):
+    """A picture of one step of a cellwork, which can be seen from any side.
+
+    Attributes
+    ----------
+    counts
+        How many vertices, edges, walls and cells there are.
+    lit
+        How many cells have walls in the picture.
+    """
+
+    counts: tuple[int, int, int, int] = (0, 0, 0, 0)
+    lit: int = 0
+
+    @cached_property
+    def text(self) -> str:
+        """What the picture shows, in words."""
+        names = (("vertex", "vertices"), ("edge", "edges"), ("wall", "walls"), ("cell", "cells"))
+        counts = [f"{count:,} {names[count != 1]}" for count, names in zip(self.counts, names, strict=True)]
+        shown = "" if self.lit == self.counts[3] else f"walls of {self.lit:,} of them, and the edges of the others"
+        return described([f"step {self.rows[-1].step}", ", ".join(counts), shown, "walls of one colour have the same label"])
+
+
+def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, azimuth: object = AZIMUTH,
+                     elevation: object = ELEVATION, cell: int | None = None, generation: int | None = None,
+                     **forces: object) -> CellworkPicture:
+    """The picture of a cellwork system after `n` steps, or of the last step of a development."""
+    if isinstance(what, CellworkSystem):
+        what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
+    elif n is not None:
+        raise ModelValueError("Steps are chosen when a cellwork system is derived, not when its development is drawn")
+    lit, chosen = lit_cells(what, cell, generation), forces_of(forces, SPACE_FORCES, "cellwork")
+    _check_size(what)
+    turn, tilt = real_from(azimuth, "azimuth"), real_from(elevation, "elevation")
+    *_, points = place_cellworks(what, chosen)
+    labels = {label: number for number, label in enumerate(_labels(what))}
+    solid = cellwork_scene(what[-1], points, labels, lit, len(labels))
+    seen = project(_with_shades(solid, turn, tilt, len(labels) + 1), turn, tilt)
+    return CellworkPicture((FilamentRow(what.steps, seen),), _colours(labels), solid=solid, counts=what[-1].counts,
+                           lit=len(lit))
+
+
+def lit_cells(development: CellworkDevelopment, cell: int | None = None, generation: int | None = None) -> Collection[int]:
+    """The cells of the last step that are shown with their walls: all, one, or those behind which so many divisions lie."""
+    cells = range(len(development[-1].cells))
+    if cell is not None:
+        if whole_number(cell, "The number of a cell") not in cells:
+            raise ModelValueError(f"There is no cell {cell}",
+                                  hint=f"The cells of step {development.steps} are 0 to {cells[-1]}.")
+        return {cell}
+    if generation is None:
+        return cells
+    generations = development.generations
+    lit = {each for each in cells if generations[each] == whole_number(generation, "The number of a generation")}
+    if not lit:
+        there = ", ".join(map(str, sorted({*generations})))
+        raise ModelValueError(f"There is no cell of generation {generation}",
+                              hint=f"Generations are counted by divisions; at step {development.steps} there are: {there}.")
+    return lit
+
+
+def _check_size(development: CellworkDevelopment) -> None:
+    shapes = len(development[-1].walls) + len(development[-1].edges)
+    if shapes > current().figure:
+        raise ModelLimitError(f"The picture would have {shapes:,} walls and edges; the limit is {current().figure:,}",
+                              limit=current().figure, needed=shapes, hint="Take fewer steps, or set limits(figure=...).")
+
+
+def _labels(development: CellworkDevelopment) -> Mapping[str, None]:
+    """The labels of walls, in the order of their first occurrence."""
+    return dict.fromkeys(wall.label for found in development for wall in found.walls)
+
+
+def _colours(labels: Mapping[str, int]) -> Mapping[int, str]:
+    """The colours of the states: of the labels, of edges, then of each label in each of its shades."""
+    plain = [SERIES[number % len(SERIES)] for number in labels.values()]
+    shades = [shaded(colour, DARKEST + (1 - DARKEST) * level / (SHADES - 1)) for colour in plain for level in range(SHADES)]
+    return dict(enumerate((*plain, tinted(QUIET, 0.6), *shades)))
+
+
+def _with_shades(scene: Scene, azimuth: float, elevation: float, first: int) -> Scene:
+    """The scene with the shades that its polygons have from a side, as states from a first one on."""
+    polygons = scene.polygons
+    towards = _in_view(azimuth, elevation) @ (np.array(LIGHT) / math.sqrt(sum(part**2 for part in LIGHT)))
+    normals = np.array([_normal(corners) for corners in polygons]).reshape(-1, 3)
+    bright = np.clip((1 + normals @ towards) / 2, 0, 1)
+    levels = np.floor(bright * (SHADES - 1) + 0.5).astype(np.int64)
+    return replace(scene, polygons=replace(polygons, states=first + polygons.states * SHADES + levels))
+
+
+def _in_view(azimuth: float, elevation: float) -> Floats:
+    """The directions that appear as right and up and the one towards the viewer, as columns."""
+    turn, tilt = math.radians(azimuth), math.radians(elevation)
+    level = np.array([math.sin(turn), -math.cos(turn), 0.0])
+    right, vertical = np.array([math.cos(turn), math.sin(turn), 0.0]), np.array([0.0, 0.0, 1.0])
+    return np.column_stack([right, math.cos(tilt) * vertical - math.sin(tilt) * level,
+                            math.cos(tilt) * level + math.sin(tilt) * vertical])
+
+
+def _normal(corners: Floats) -> Floats:
+    """The unit normal of a polygon, towards whom its corners run counter-clockwise."""
+    vector = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+    found: Floats = vector / (np.linalg.norm(vector) or 1.0)
+    return found

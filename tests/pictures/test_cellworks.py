@@ -1,0 +1,91 @@
+"""Pictures of cellworks: shaded walls, lit cells, and the formats in which they are kept."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+import pytest
+import trimesh
+from PIL import Image
+
+from lsys_kit import ModelLimitError, ModelNameError, ModelValueError, cellwork_system, derive, draw, limits
+from lsys_kit.pictures.cellworks import CellworkPicture
+
+K33 = cellwork_system("K33")
+
+
+def fills(picture: CellworkPicture) -> list[str]:
+    return re.findall(r'<polygon[^>]*fill="([^"]*)"', picture.svg)
+
+
+def test_a_picture_says_how_much_there_is() -> None:
+    assert str(draw(K33, 2)) == ("step 2; 18 vertices, 33 edges, 20 walls, 4 cells; walls of one colour have the same label")
+    assert str(draw(derive(K33, 0))) == "step 0; 8 vertices, 12 edges, 6 walls, 1 cell; walls of one colour have the same label"
+    assert "walls of 1 of them, and the edges of the others" in str(draw(K33, 2, cell=1))
+    assert str(draw(K33)).startswith("step 4")
+    assert f'aria-label="{draw(K33, 1)}"' in draw(K33, 1).svg
+
+
+def test_the_walls_of_a_cube_are_lighter_toward_the_light() -> None:
+    assert len(fills(draw(K33, 0))) == 6
+    assert len(set(fills(draw(K33, 0)))) >= 5
+    for azimuth, lighter, darker in ((0, 1, 0), (30, 1, 0), (200, 1, 0), (0, 2, 3), (90, 5, 4)):
+        picture = draw(K33, 0, azimuth=azimuth)
+        light, dark = (picture.colour_of[int(picture.scene.polygons.states[wall])] for wall in (lighter, darker))
+        assert all(int(light[at:at + 2], 16) >= int(dark[at:at + 2], 16) for at in (1, 3, 5))
+        assert light != dark
+
+
+def test_a_full_turn_changes_nothing_and_half_a_turn_does() -> None:
+    assert draw(K33, 2, azimuth=390).svg == draw(K33, 2, azimuth=30).svg
+    assert draw(K33, 2, azimuth=120).svg != draw(K33, 2).svg
+    front = draw(K33, 0, azimuth=0, elevation=0).scene
+    assert (front.width, front.height) == pytest.approx((2, 2))
+
+
+def test_one_cell_or_one_generation_is_lit() -> None:
+    assert len(fills(draw(K33, 4, cell=3))) == 6
+    assert "<path" in draw(K33, 4, cell=3).svg
+    assert fills(draw(K33, 3, generation=3)) == fills(draw(K33, 3))
+    with pytest.raises(ModelValueError, match=r"There is no cell 8. The cells of step 3 are 0 to 7"):
+        draw(K33, 3, cell=8)
+    with pytest.raises(ModelValueError, match=r"There is no cell of generation 1. .*at step 3 there are: 3"):
+        draw(K33, 3, generation=1)
+
+
+@pytest.mark.parametrize(("choices", "kind", "message"), [
+    ({"angle": 30}, ModelNameError, 'A cellwork has no "angle". Its forces are stiffness, rest, pressure, damping'),
+    ({"pressure": -1}, ModelValueError, '"pressure" must lie between'),
+    ({"azimuth": "x"}, ModelNameError, "I do not know the name"),
+    ({"cell": "x"}, ModelValueError, "The number of a cell must be a whole number"),
+    ({"generation": -1}, ModelValueError, "The number of a generation must be a whole number"),
+])
+def test_choices_are_checked(choices: dict[str, object], kind: type[Exception], message: str) -> None:
+    with pytest.raises(kind, match=message):
+        draw(K33, 1, **choices)
+
+
+def test_more_pressure_makes_larger_cells() -> None:
+    assert draw(K33, 1, pressure=10).scene.width > 1.02 * draw(K33, 1).scene.width
+
+
+def test_steps_are_chosen_when_a_system_is_derived() -> None:
+    with pytest.raises(ModelValueError, match="Steps are chosen when a cellwork system is derived"):
+        draw(derive(K33, 2), 3)
+    with limits(figure=10), pytest.raises(ModelLimitError, match="The picture would have 18 walls and edges; the limit is 10"):
+        draw(K33, 0)
+
+
+def test_a_cellwork_is_kept_in_every_format(tmp_path: Path) -> None:
+    picture = draw(K33, 3)
+    for ending in ("svg", "png", "pdf", "glb", "obj"):
+        picture.save(tmp_path / f"cells.{ending}")
+        assert (tmp_path / f"cells.{ending}").stat().st_size > 400
+    assert Image.open(io.BytesIO(picture.png)).size[0] > 100
+    mesh = trimesh.load(tmp_path / "cells.glb", force="mesh")
+    assert len(mesh.faces) == 2 * 24
+    mesh.merge_vertices(merge_norm=True, merge_tex=True)
+    assert mesh.is_watertight
+    assert mesh.volume == pytest.approx(8 * 15.8546, rel=1e-3)
