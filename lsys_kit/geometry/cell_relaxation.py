@@ -12,7 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lsys_kit.geometry.relaxation import AT_REST, MOST_ITERATIONS, SHORTEST_TIME_STEP, TIME_STEP, Forces, check_bounds
+from lsys_kit.geometry.relaxation import (
+    AT_REST,
+    MOST_ITERATIONS,
+    SHORTEST_TIME_STEP,
+    TIME_STEP,
+    Forces,
+    check_bounds,
+    summed_at_vertices,
+)
 from lsys_kit.geometry.scene import Floats, Integers
 
 SPACE_FORCES = Forces(rest=1.0, pressure=8.0)
@@ -108,22 +116,17 @@ def _force(points: Floats, tissue: SolidTissue, following: Integers, room: Float
     pressures = forces.pressure / np.maximum(room, LEAST_VOLUME)
     net = np.bincount(tissue.walls, weights=tissue.signs * pressures[tissue.cells], minlength=len(tissue.sizes))
     push = area_vectors(points, tissue, following) * (net / tissue.sizes)[:, None]
-    return (_summed(first, pull, len(points)) - _summed(second, pull, len(points))
-            + _summed(tissue.corners, np.repeat(push, tissue.sizes, axis=0), len(points)))
-
-
-def _summed(at: Integers, pushes: Floats, size: int) -> Floats:
-    """The sum of forces at each vertex."""
-    return np.column_stack([np.bincount(at, weights=part, minlength=size) for part in pushes.T])
+    return (summed_at_vertices(first, pull, len(points)) - summed_at_vertices(second, pull, len(points))
+            + summed_at_vertices(tissue.corners, np.repeat(push, tissue.sizes, axis=0), len(points)))
 
 
 def area_vectors(points: Floats, tissue: SolidTissue, following: Integers) -> Floats:
     """For each wall a vector at right angles to it, as long as it is large: its corners run counter-clockwise around it."""
-    found: Floats = np.add.reduceat(_cross(points[tissue.corners], points[following]), tissue.starts[:-1]) / 2
+    found: Floats = np.add.reduceat(cross(points[tissue.corners], points[following]), tissue.starts[:-1]) / 2
     return found
 
 
-def _cross(a: Floats, b: Floats) -> Floats:
+def cross(a: Floats, b: Floats) -> Floats:
     """The cross products of rows, many times as fast as those of numpy."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)

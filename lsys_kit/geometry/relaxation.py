@@ -153,11 +153,11 @@ def force(points: Floats, tissue: Tissue, following: Integers, room: Floats, for
     sides = points[following] - points[tissue.corners]
     pressures = forces.pressure / np.maximum(room, LEAST_AREA)
     outward = np.column_stack([-sides[:, 1], sides[:, 0]]) * np.repeat(pressures, np.diff(tissue.starts))[:, None] / 2
-    return (_summed_at_vertices(first, pull, len(points)) - _summed_at_vertices(second, pull, len(points))
-            + _summed_at_vertices(tissue.corners, outward, len(points)) + _summed_at_vertices(following, outward, len(points)))
+    return (summed_at_vertices(first, pull, len(points)) - summed_at_vertices(second, pull, len(points))
+            + summed_at_vertices(tissue.corners, outward, len(points)) + summed_at_vertices(following, outward, len(points)))
 
 
-def _summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:
+def summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:
     """The sum of forces at each vertex."""
     return np.column_stack([np.bincount(at, weights=part, minlength=size) for part in pushes.T])
 

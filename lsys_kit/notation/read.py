@@ -31,7 +31,7 @@ from lsys_kit.notation.syntax.wording import reporting
 
 _CELLWORK = re.compile(r"\s*cellwork[ \t]*:", re.IGNORECASE)
 """How a cellwork system begins (see `read_cellwork`)."""
-_MAP = re.compile(rf"\s*map[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
+_MAP = re.compile(rf"\s*(?:map|sphere)[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
 """How a map system begins (see `read_map`)."""
 
 

@@ -24,7 +24,7 @@ from lsys_kit.pictures.maps import forces_of
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.style.palette import QUIET, SERIES, shaded, tinted
 from lsys_kit.pictures.svg import FilamentRow, described
-from lsys_kit.pictures.view import project
+from lsys_kit.pictures.view import axes, project
 
 STEPS = 3
 """The default number of steps."""
@@ -120,20 +120,12 @@ def _colours(labels: Mapping[str, int]) -> Mapping[int, str]:
 def _with_shades(scene: Scene, azimuth: float, elevation: float, first: int) -> Scene:
     """The scene with the shades that its polygons have from a side, as states from a first one on."""
     polygons = scene.polygons
-    towards = _in_view(azimuth, elevation) @ (np.array(LIGHT) / math.sqrt(sum(part**2 for part in LIGHT)))
+    view = np.column_stack(axes(math.radians(azimuth), math.radians(elevation)))
+    towards = view @ (np.array(LIGHT) / math.sqrt(sum(part**2 for part in LIGHT)))
     normals = np.array([_normal(corners) for corners in polygons]).reshape(-1, 3)
     bright = np.clip((1 + normals @ towards) / 2, 0, 1)
     levels = np.floor(bright * (SHADES - 1) + 0.5).astype(np.int64)
     return replace(scene, polygons=replace(polygons, states=first + polygons.states * SHADES + levels))
-
-
-def _in_view(azimuth: float, elevation: float) -> Floats:
-    """The directions that appear as right and up and the one towards the viewer, as columns."""
-    turn, tilt = math.radians(azimuth), math.radians(elevation)
-    level = np.array([math.sin(turn), -math.cos(turn), 0.0])
-    right, vertical = np.array([math.cos(turn), math.sin(turn), 0.0]), np.array([0.0, 0.0, 1.0])
-    return np.column_stack([right, math.cos(tilt) * vertical - math.sin(tilt) * level,
-                            math.cos(tilt) * level + math.sin(tilt) * vertical])
 
 
 def _normal(corners: Floats) -> Floats:

@@ -29,6 +29,7 @@ from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
+from lsys_kit.pictures.spheres import sphere_picture
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project
@@ -76,8 +77,9 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
         For a map system `iterations`, after which its last step is shown on the way to rest, and new values of the forces that
-        shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has the same forces; `azimuth` and `elevation`
-        of the viewer in degrees; and `cell`, a number, or `generation`, the number of divisions behind cells, to light these.
+        shape it: `stiffness`, `rest`, `pressure`, `damping`; on a sphere also `azimuth` and `elevation` of the viewer in
+        degrees. A cellwork system has all of these, too; and `cell`, a number, or `generation`, the number of divisions behind
+        cells, to light these alone.
 
     Raises
     ------
@@ -101,7 +103,8 @@ def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | N
         _check_options(choices, ("tokens", "positions"))
         return _net_picture(what, **choices)
     if isinstance(what, MapSystem | Development):
-        return map_picture(what, n, **choices)
+        system = what if isinstance(what, MapSystem) else what.system
+        return (sphere_picture if system.sphere else map_picture)(what, n, **choices)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
         return cellwork_picture(what, n, **choices)
     if isinstance(what, Lineage):

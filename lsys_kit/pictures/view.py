@@ -35,7 +35,7 @@ def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene
     """
     if scene.dimension == 2:
         return scene
-    right, up, towards = _axes(math.radians(azimuth), math.radians(elevation))
+    right, up, towards = axes(math.radians(azimuth), math.radians(elevation))
     plane = np.stack([right, up], axis=1)
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     ends = _mapped(segments.points, plane).reshape(-1, 4)
@@ -72,7 +72,7 @@ def _means(numbers: Floats, starts: Integers) -> Floats:
     return np.add.reduceat(numbers, starts[:-1]) / np.diff(starts) if len(starts) > 1 else np.empty(0)
 
 
-def _axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
+def axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
     """The directions that appear as right and up, and the one towards the viewer."""
     right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
     level = np.array([math.sin(azimuth), -math.cos(azimuth), 0.0])

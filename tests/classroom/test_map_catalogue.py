@@ -14,6 +14,7 @@ from lsys_kit.derivation.maps.map import cell_words
 COUNTS = {
     "K28": [(4, 4, 1), (6, 7, 2), (9, 12, 4)], "K29": [(4, 4, 1), (8, 9, 2), (14, 17, 4)],
     "K30": [(4, 4, 1), (6, 7, 2), (8, 10, 3)], "K32": [(3, 3, 1), (5, 6, 2), (7, 9, 3)],
+    "K34": [(2, 4, 4), (10, 16, 8), (26, 40, 16)],
 }
 
 
@@ -36,7 +37,7 @@ def test_the_maps_of_the_table_come_out(id: str) -> None:
 def test_an_entry_explains_itself(id: str) -> None:
     found = entry(id)
     assert (found.id, found.work, found.notation) == (id, "Kurth", "map")
-    assert found.status == ("reconstruction" if id == "K32" else "as printed")
+    assert found.status == ("reconstruction" if id in ("K32", "K34") else "as printed")
     assert all(sentence.endswith(".") for sentence in found.errata + found.notes)
     assert map_system(id).notes == ()
     assert read_map(str(map_system(id))) == map_system(id)
@@ -77,7 +78,7 @@ def test_each_kind_of_system_is_asked_for_by_its_own_name() -> None:
         map_system("P4")
     with pytest.raises(ModelNameError, match=r'no system "K300". Did you mean "K30"'):
         map_system("K300")
-    with pytest.raises(ModelNameError, match=r'no system "\?". Systems are: K28, K29, K30, K32'):
+    with pytest.raises(ModelNameError, match=r'no system "\?". Systems are: K28, K29, K30, K32, K34'):
         map_system("?")
     with pytest.raises(ModelValueError, match="The id or name of a system must be a text"):
         map_system(4)  # type: ignore[arg-type]

@@ -53,6 +53,15 @@ def test_arrows_stand_over_the_letters_or_behind_them(right: str, left: str) -> 
     assert read_map(f"map: {right} {left} B").axiom == (Edge("A", ">"), Edge("A", "<"), Edge("B"))
 
 
+def test_a_map_may_cover_a_sphere() -> None:
+    found = read_map("Sphere: D> D<\nD> -> A> B>")
+    assert found == MapSystem((Edge("D", ">"), Edge("D", "<")), read_map("map: DDD\nD> -> A> B>").productions, None, True)
+    assert str(found) == "sphere: D>D<\nD> -> A>B>"
+    assert read_map(str(found)) == found
+    with pytest.raises(ModelValueError, match="This is a map system, not an L-system"):
+        read(str(found))
+
+
 UNREADABLE = [
     ("", "There is no first cell", 1, 1, 'Give its walls, one after another, clockwise, as in "map: ABAB".'),
     ("A -> B", "There is no first cell", 1, 7, 'Give its walls, one after another, clockwise, as in "map: ABAB".'),
@@ -105,6 +114,8 @@ UNREADABLE = [
 SENSELESS = [
     ("map: AB", "The first cell has only 2 walls", 1, 6, 'A cell has three walls or more, as in "map: AAA".'),
     ("map: A>", "The first cell has only 1 wall", 1, 6, 'A cell has three walls or more, as in "map: AAA".'),
+    ("sphere: D>", "The sphere has only 1 wall from pole to pole", 1, 9,
+     'Two walls or more divide it into cells, as in "sphere: D>D>D>D>".'),
     ("map: ABC\nA< -> B", "A production is written in the direction of its wall", 2, 1,
      'Write "A> -> ...": what becomes of the wall, from its beginning to its end.'),
     ("map: ABC\nA -> B\nA -> C", "This is a second production for A", 3, 1,

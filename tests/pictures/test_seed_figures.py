@@ -81,6 +81,7 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
     "003-forces": ("On the way to rest: some iterations", lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80]).svg),
     "003-microsorium": ("Gametophyte of Microsorium linguaeforme", lambda: draw(map_system("K32"), 12).svg),
+    "003-patella": ("Embryo of the snail Patella vulgata", lambda: draw(map_system("K34"), 3).svg),
     **{f"003-cellwork-{n}": (f"Cellwork L-system, step {n}", lambda n=n: draw(cellwork_system("K33"), n).svg) for n in (1, 4)},
     "003-cellwork-cell": ("One cell of a cellwork", lambda: draw(cellwork_system("K33"), 4, cell=3).svg),
     **{f"004-{id}": (f"Plant string {id}", lambda id=id: draw(system(id)).svg) for id in ("L0", "L1", "L2", "L3", "L4")},

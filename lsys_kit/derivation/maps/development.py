@@ -97,7 +97,9 @@ def _next_map(found: Map, productions: Mapping[Edge, EdgeProduction], step: int)
 
 
 def first_map(system: MapSystem) -> Map:
-    """The first cell of a map system."""
+    """The first cell of a map system, or the first cells of a sphere."""
+    if system.sphere:
+        return _first_sphere(system.axiom)
     size = len(system.axiom)
     walls, sides = [], []
     for number, edge in enumerate(system.axiom):
@@ -105,3 +107,12 @@ def first_map(system: MapSystem) -> Map:
         walls.append(Wall(edge.label, *(ends if forward else ends[::-1]), bool(edge.arrow)))
         sides.append(Side(number, forward))
     return Map((Vertex(),) * size, tuple(walls), (tuple(sides),), tuple(sides))
+
+
+def _first_sphere(meridians: Sequence[Edge]) -> Map:
+    """Walls from the upper pole to the lower one, and a cell between any two neighbours."""
+    walls = tuple(Wall(edge.label, *((1, 0) if edge.arrow == "<" else (0, 1)), bool(edge.arrow)) for edge in meridians)
+    down = [edge.arrow != "<" for edge in meridians]
+    right = [*range(1, len(walls)), 0]
+    cells = tuple((Side(other, down[other]), Side(number, not down[number])) for number, other in enumerate(right))
+    return Map((Vertex(), Vertex()), walls, cells, ())

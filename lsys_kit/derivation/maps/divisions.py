@@ -41,7 +41,8 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) 
     """The map of the next step."""
     check_walls(sum(len(_successor(wall, productions)) for wall in counted(found.walls)), step)
     vertices, walls = [*found.vertices], list[Wall]()
-    partings = [_parted(wall, productions.get(_predecessor(wall)), vertices, walls) for wall in counted(found.walls)]
+    partings = [_parted(number, wall, productions.get(_predecessor(wall)), vertices, walls)
+                for number, wall in enumerate(counted(found.walls))]
     cells, mothers = [], []
     for number, cell in enumerate(counted(found.cells)):
         daughters = _divided(*_replaced(cell, partings), walls)
@@ -61,11 +62,12 @@ def _successor(wall: Wall, productions: Mapping[Edge, EdgeProduction]) -> tuple[
     return productions[predecessor].walls if predecessor in productions else (predecessor,)
 
 
-def _parted(wall: Wall, production: EdgeProduction | None, vertices: list[Vertex], walls: list[Wall]) -> DividedWall:
+def _parted(number: int, wall: Wall, production: EdgeProduction | None, vertices: list[Vertex],
+            walls: list[Wall]) -> DividedWall:
     """Replace a wall, in its own direction: its vertices and walls are put behind those that there are."""
     edges = production.walls if production else (_predecessor(wall),)
     between = range(len(vertices), len(vertices) + len(edges) - 1)
-    vertices += (Vertex((wall.start, wall.end), Fraction(part, len(edges))) for part in range(1, len(edges)))
+    vertices += (Vertex((wall.start, wall.end), Fraction(part, len(edges)), number) for part in range(1, len(edges)))
     ends = [wall.start, *between, wall.end]
     first = len(walls)
     walls += (Wall(edge.label, *((b, a) if edge.arrow == "<" else (a, b)), bool(edge.arrow))

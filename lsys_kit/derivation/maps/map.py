@@ -35,10 +35,14 @@ class Side(NamedTuple):
 
 
 class Vertex(NamedTuple):
-    """Where a vertex was made: between which two others, and which share of the way; None for those of the first cell."""
+    """Where a vertex was made: between which two others, which share of the way, and on which wall of the map before.
+
+    The vertices of the first cell were made nowhere.
+    """
 
     between: tuple[int, int] | None = None
     share: Fraction = Fraction(0)
+    wall: int | None = None
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,7 @@ class Map:
     cells
         For each cell the sides around it, clockwise.
     boundary
-        The sides of the outermost walls, clockwise around the map: those of one big cell.
+        The sides of the outermost walls, clockwise around the map: those of one big cell. None on a sphere.
     mothers
         For each cell the number of the cell in the map before from which it came.
 

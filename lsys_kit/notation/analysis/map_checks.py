@@ -9,14 +9,14 @@ from lsys_kit.notation.analysis.problems import Problem, problem
 from lsys_kit.notation.model.expressions import TextSpan
 from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 
-LEAST_WALLS = 3
-"""A cell with fewer straight walls has no inside."""
+LEAST_WALLS, LEAST_MERIDIANS = 3, 2
+"""A cell with fewer straight walls has no inside; on a sphere walls are round, and two of them divide it."""
 
 
 def check_map(system: MapSystem) -> None:
     """The first cell has an inside, and each wall has at most one production, which can be applied from either of its ends."""
-    if len(system.axiom) < LEAST_WALLS:
-        raise problem("cell without inside", _row_span(system.axiom),
+    if len(system.axiom) < (LEAST_MERIDIANS if system.sphere else LEAST_WALLS):
+        raise problem("undivided sphere" if system.sphere else "cell without inside", _row_span(system.axiom),
                     walls="1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls")
     met: set[Edge] = set()
     for production in system.productions:

@@ -109,16 +109,19 @@ class EdgeProduction:
 
 @dataclass(frozen=True)
 class MapSystem:
-    """A map L-system: the walls of the first cell, and productions.
+    """A map L-system: the walls of the first cell, or of the first cells of a sphere, and productions.
 
     Attributes
     ----------
     axiom
-        The walls of the first cell, clockwise: the inside is to the right.
+        The walls of the first cell, clockwise: the inside is to the right. Of a sphere the meridians from its upper pole to its
+        lower one, from left to right as seen from outside; between any two that follow one another is a cell.
     productions
         At most one per wall; a wall without one stays as it is.
     steps
         The number of steps that the model sets, or None.
+    sphere
+        Whether the map covers a sphere.
     source, notes
         The text it was read from, and notes on how it was read. Equality ignores them.
     """
@@ -126,12 +129,14 @@ class MapSystem:
     axiom: tuple[Edge, ...]
     productions: tuple[EdgeProduction, ...]
     steps: int | None = None
+    sphere: bool = False
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
     def __str__(self) -> str:
         steps = () if self.steps is None else (f"steps: {self.steps}",)
-        return "\n".join((f"map: {''.join(map(str, self.axiom))}", *steps, *map(str, self.productions)))
+        first = f"{'sphere' if self.sphere else 'map'}: {''.join(map(str, self.axiom))}"
+        return "\n".join((first, *steps, *map(str, self.productions)))
 
     @property
     def markers(self) -> Iterator[Marker]:

@@ -12,7 +12,6 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.cellwork_checks import check_cellwork, unused_parts
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.cellwork.diagnostics import DIAGNOSTICS
@@ -86,9 +85,6 @@ def _system(text: str) -> CellworkSystem:
         if kind in ("cellwork", "steps") and made[kind]:
             raise problem("setting twice", (start, end), keyword=kind)
         made[kind].append(record)
-        if sum(map(len, made.values())) > 2 * current().rules:
-            raise ModelLimitError(f"The model has more than {2 * current().rules:,} walls and productions",
-                                  limit=2 * current().rules, source=text, start=start)
     if not (made["cellwork"] and made["wall"]):
         raise problem("no first cell", (len(text), len(text)))
     return CellworkSystem(made["cellwork"][0], tuple(made["wall"]), tuple(made["production"]), tuple(made["wall_production"]),

@@ -16,7 +16,7 @@ _MARKER = 'A marker reads "[-A]" or "[+A]": the side of the wall, the letter of 
 _FIRST_HINT = 'Give the walls of the first cell, one after another, clockwise, as in "map: ABAB".'
 _MISSPELT_ARROWS = re.compile(r"::=|:=|=>|⇒|↦|[–—−~]>|-[ \t]+>|=")
 _SETTING = re.compile(r"([A-Za-z]{2,})[ \t]*:")
-_FIRST_CELL = re.compile(r"(map|axiom|omega|ω)\b", re.IGNORECASE)
+_FIRST_CELL = re.compile(r"(map|sphere|axiom|omega|ω)\b", re.IGNORECASE)
 _FOREIGN_SIGNS: Mapping[str, tuple[str, str]] = {
     "(": ("A wall has no values", "Walls are letters, perhaps with a digit and an arrow: A, A1, A>."),
     ")": ("A wall has no values", "Walls are letters, perhaps with a digit and an arrow: A, A1, A>."),

@@ -36,8 +36,8 @@ def read_map(text: str) -> MapSystem:
     Parameters
     ----------
     text
-        The walls of the first cell, clockwise, and productions, one a line, in ASCII or as print has them. `/* ... */` is a
-        comment. Or a link with a map system in it.
+        The walls of the first cell, clockwise, or of a sphere, and productions, one a line, in ASCII or as print has them.
+        `/* ... */` is a comment. Or a link with a map system in it.
 
     Raises
     ------
@@ -90,7 +90,8 @@ def _system(text: str) -> MapSystem:
                                   source=text, start=start)
     if "first" not in settings:
         raise problem("no first cell", (len(text), len(text)))
-    return MapSystem(settings["first"], tuple(productions), settings.get("steps"), text)
+    sphere, axiom = settings["first"]
+    return MapSystem(axiom, tuple(productions), settings.get("steps"), sphere, text)
 
 
 @v_args(inline=True)
@@ -111,8 +112,8 @@ class _MapStatements(Transformer[Any, Any]):
     def production(self, predecessor: Edge, _: Token, *successor: SuccessorPart) -> tuple[str, EdgeProduction]:
         return "production", EdgeProduction(predecessor, successor, predecessor.at)
 
-    def first(self, _: Token, *edges: Edge) -> tuple[str, tuple[Edge, ...]]:
-        return "first", edges
+    def first(self, keyword: Token, *edges: Edge) -> tuple[str, tuple[bool, tuple[Edge, ...]]]:
+        return "first", (keyword.lower().startswith("sphere"), edges)
 
     def steps(self, _: Token, number: Token) -> tuple[str, int]:
         if len(number) > 9:

@@ -15,6 +15,8 @@ SPELLING = Spelling(
         "second cell": Wording("This is a second first cell", "A map begins with one cell."),
         "cell without inside": Wording("The first cell has only {walls}", 'A cell has three walls or more, as in "map: AAA".',
                                        ModelValueError),
+        "undivided sphere": Wording("The sphere has only {walls} from pole to pole",
+                                    'Two walls or more divide it into cells, as in "sphere: D>D>D>D>".', ModelValueError),
         "wall against its direction": Wording(
             "A production is written in the direction of its wall",
             'Write "{turned} -> ...": what becomes of the wall, from its beginning to its end.', ModelValueError),

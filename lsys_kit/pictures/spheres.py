@@ -1,0 +1,172 @@
+"""Maps on a sphere as pictures: the steps of a development side by side, each a shaded sphere.
+
+Cells of one colour have the same walls around them. Walls are arcs of great circles; what lies behind is not seen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from lsys_kit.budget import Task, counted
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.maps.map import Map, cell_words
+from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.sphere_layout import SPHERE_FORCES, arc, meridian, place_on_sphere
+from lsys_kit.notation.model.maps import Edge, MapSystem
+from lsys_kit.pictures.display_list import MARGIN
+from lsys_kit.pictures.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
+from lsys_kit.pictures.style.palette import INK, QUIET
+from lsys_kit.pictures.svg import background, described, document
+from lsys_kit.pictures.view import axes
+
+AZIMUTH, ELEVATION = 20, 25
+"""From where spheres are seen, in degrees: somewhat from the right, and from above."""
+LARGEST = 120.0
+"""The greatest radius of a sphere, in pixels."""
+STRAIGHT = math.radians(6)
+"""Arcs are drawn as straight pieces that turn by this angle at most."""
+SLIVER = 0.1
+"""Twice the area that an outline along the rim may enclose, because it is made of straight pieces."""
+_SHADE = ('<radialGradient id="lsys-sphere" cx="0.38" cy="0.32" r="0.72">'
+          '<stop offset="0" stop-color="#FFFFFF" stop-opacity="0.5"/><stop offset="0.5" stop-color="#FFFFFF" stop-opacity="0"/>'
+          '<stop offset="0.55" stop-color="#000000" stop-opacity="0"/>'
+          '<stop offset="1" stop-color="#000000" stop-opacity="0.45"/></radialGradient>')
+
+
+@dataclass(frozen=True)
+class SphereView:
+    """A map on a sphere as it is seen: for each of its walls some points, to the right, up and towards the viewer."""
+
+    arcs: Sequence[Floats]
+    kinds: Sequence[int]
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class SpherePicture(MapPicture):
+    """A picture of the steps of a map on a sphere, side by side.
+
+    Attributes
+    ----------
+    views
+        The maps as they are seen.
+    """
+
+    views: Sequence[SphereView] = ()
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        with Task("The picture was not drawn"):
+            many = len(self.views)
+            radius = min(LARGEST, (WIDTH - 2 * MARGIN - GAP * (many - 1)) / (2 * many))
+            spheres = [_sphere_svg(found, view, MARGIN + radius + number * (2 * radius + GAP), MARGIN + radius, radius, step)
+                       for number, (found, view, step) in enumerate(zip(self.maps, self.views, self.numbers, strict=True))]
+            width = math.ceil(2 * MARGIN + many * 2 * radius + (many - 1) * GAP)
+            height = math.ceil(2 * MARGIN + 2 * radius + CAPTION)
+            body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
+            return document(body, width, height, described([self.text, "cells of one colour have the same walls around them"]))
+
+
+def sphere_picture(what: MapSystem | Development, n: int | None = None, *, azimuth: object = AZIMUTH,
+                   elevation: object = ELEVATION, **forces: object) -> SpherePicture:
+    """The picture of a map system on a sphere after `n` steps, or of a development."""
+    if isinstance(what, MapSystem):
+        what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
+    elif n is not None:
+        raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
+    chosen = forces_of(forces, SPHERE_FORCES, "map on a sphere")
+    view = np.column_stack(axes(math.radians(real_from(azimuth, "azimuth")), math.radians(real_from(elevation, "elevation"))))
+    first, kinds = max(0, len(what) - MOST_MAPS), dict[tuple[Edge, ...], int]()
+    placed = [*place_on_sphere(what, chosen)]
+    views = [SphereView([each @ view for each in _arcs(found, points, longitudes)],
+                        [kinds.setdefault(word, len(kinds)) for word in cell_words(found)])
+             for found, (points, longitudes) in zip(what, placed, strict=True)]
+    return SpherePicture(what[first:], [points for points, _ in placed[first:]], (), range(first, len(what)),
+                         views=views[first:])
+
+
+def _arcs(found: Map, points: Floats, longitudes: dict[int, float]) -> Iterator[Floats]:
+    """Points along each wall, from its beginning to its end."""
+    for number, wall in enumerate(counted(found.walls)):
+        if number in longitudes:
+            shares = _shares(math.pi)
+            yield meridian(longitudes[number], shares if wall.start == 0 else 1 - shares)
+        else:
+            start, end = points[wall.start], points[wall.end]
+            yield arc(start, end, _shares(float(np.linalg.norm(end - start))))
+
+
+def _shares(angle: float) -> Floats:
+    """The shares of the way at which the straight pieces of an arc end."""
+    return np.linspace(0, 1, 2 + math.ceil(angle / STRAIGHT))
+
+
+def _sphere_svg(found: Map, view: SphereView, x: float, y: float, radius: float, step: int) -> str:
+    """A sphere: its cells, its walls, its shade, and the number of the step below."""
+    cells = []
+    for cell, kind in zip(found.cells, view.kinds, strict=True):
+        around = np.concatenate([view.arcs[wall][:-1] if forward else view.arcs[wall][:0:-1] for wall, forward in cell])
+        if (around[:, 2] > 0).any():
+            outline = "".join(_closed(row, x, y, radius) for row in _seen_outlines(around))
+            cells.append(f'<path d="{outline}" fill="{FILLS[kind] if kind < len(FILLS) else REST}" fill-rule="evenodd"/>')
+    walls = "".join(_visible(each, x, y, radius) for each in view.arcs)
+    centre = f'cx="{round(10 * x)}" cy="{round(10 * y)}" r="{round(10 * radius)}"'
+    return (f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{INK}" '
+            f'stroke-width="14" stroke-linecap="round" stroke-linejoin="round"/>'
+            f'<circle {centre} fill="none" stroke="{INK}" stroke-width="14"/>'
+            f'<text x="{round(10 * x)}" y="{round(10 * (y + radius + NUMBER + 8))}" font-size="{NUMBER * 10}" '
+            f'text-anchor="middle" font-family="sans-serif" fill="{QUIET}">{step}</text>')
+
+
+def _seen_outlines(around: Floats) -> list[Floats]:
+    """The outline of what is seen of a cell; with that of the whole sphere, if the cell lies all around what is not it.
+
+    Cells run clockwise, as seen from outside. A cell whose outline does not, after what is hidden has moved to the rim, has the
+    point in it that is farthest from the viewer.
+    """
+    front = _to_the_front(around)
+    (x, y), (beyond, above) = front.T, np.roll(front, -1, axis=0).T
+    if (x * above - beyond * y).sum() < SLIVER:
+        return [front]
+    rim = 2 * math.pi * _shares(2 * math.pi)
+    return [front, np.column_stack([np.cos(rim), np.sin(rim)])]
+
+
+def _closed(points: Floats, x: float, y: float, radius: float) -> str:
+    """An outline as part of a path."""
+    return f"M{'L'.join(map('{} {}'.format, *_pixels(points, x, y, radius)))}Z"
+
+
+def _to_the_front(points: Floats) -> Floats:
+    """An outline whose hidden parts run along the rim of the sphere, with as many points there as an arc needs."""
+    hidden, angles = points[:, 2] < 0, np.arctan2(points[:, 1], points[:, 0])
+    rows = []
+    for here, there in zip(range(-1, len(points) - 1), range(len(points)), strict=True):
+        if hidden[here] and hidden[there]:
+            turn = (angles[there] - angles[here] + math.pi) % (2 * math.pi) - math.pi
+            between = angles[here] + turn * _shares(abs(turn))[1:]
+            rows.append(np.column_stack([np.cos(between), np.sin(between)]))
+        else:
+            rows.append(points[there:there + 1, :2] / (np.linalg.norm(points[there, :2]) if hidden[there] else 1.0))
+    return np.concatenate(rows)
+
+
+def _visible(points: Floats, x: float, y: float, radius: float) -> str:
+    """The part of a wall that is seen, as pieces of a path."""
+    seen = points[:, 2] >= 0
+    places = list(zip(*_pixels(points[:, :2], x, y, radius), strict=True))
+    return "".join(f"M{places[at][0]} {places[at][1]}L{places[at + 1][0]} {places[at + 1][1]}"
+                   for at in range(len(points) - 1) if seen[at] and seen[at + 1])
+
+
+def _pixels(points: Floats, x: float, y: float, radius: float) -> tuple[list[int], list[int]]:
+    """Points in tenths of a pixel."""
+    across, down = np.floor(10 * (points * (radius, -radius) + (x, y)) + 0.5001).astype(np.int64).T.tolist()
+    return across, down
