@@ -139,7 +139,7 @@ def test_steps_belong_to_a_system():
 
 def test_a_bundle_has_the_picture_and_its_words():
     bundle = draw(system("J1"), 2)._repr_mimebundle_()
-    assert set(bundle) == {"image/svg+xml", "text/plain"}
+    assert set(bundle) == {"image/svg+xml", "text/html", "text/plain"}
 
 
 def test_names_of_a_model_never_become_markup():
@@ -148,7 +148,7 @@ def test_names_of_a_model_never_become_markup():
 
 
 @pytest.mark.parametrize(("what", "hint"), [
-    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells."),
+    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells, field."),
     (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
     (stages(system("P2")), "Options are: tokens, positions."), (lineage(system("P6"), 2), "Options are: intervals."),
 ])

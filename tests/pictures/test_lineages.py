@@ -117,7 +117,7 @@ def test_a_picture_of_a_lineage_is_described_kept_and_the_same_every_time(tmp_pa
     assert ET.fromstring(picture.svg).get("aria-label") == f"Lineage of {P6}"
     assert repr(picture) == "lineage of 17 cells at time 4.2, after 16 divisions"
     assert picture.svg == draw(lineage(system("P6"), 3, dt="1.4")).svg
-    assert set(picture._repr_mimebundle_()) == {"image/svg+xml", "text/plain"}
+    assert set(picture._repr_mimebundle_()) == {"image/svg+xml", "text/html", "text/plain"}
     picture.save(tmp_path / "tree.svg")
     assert (tmp_path / "tree.svg").read_text(encoding="utf-8").startswith(f"{picture.svg}\n")
     with pytest.raises(ModelFileError):

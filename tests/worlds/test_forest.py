@@ -6,7 +6,7 @@ import json
 from itertools import pairwise
 
 import pytest
-from lsys_kit.classroom.panel.book import book
+from lsys_kit.classroom.panel.books.book import book
 
 from lsys_kit import derive, explore, read, system
 from lsys_kit.derivation.core.words import Word
