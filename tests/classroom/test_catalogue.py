@@ -319,6 +319,16 @@ def test_a_meta_rule_keeps_the_word_of_a_moving_organism_short():
         assert x * x + y * y <= step * step + 1e-9
 
 
+def test_without_the_meta_rule_the_word_shows_the_whole_path_and_is_longer_by_one_module_a_step():
+    assert derive(system("K26"), 20, short=0).lengths == [n + 2 for n in range(21)]
+    assert derive(system("K26"), 20).lengths == [2, *20 * [3]]
+    for short, strokes in ((0, 12), (1, 1)):
+        path = draw(system("K26"), 12, short=short, seed=3).scene.segments
+        assert len(path) == 4 + strokes + 1, "the cross, the path, and the organism"
+    straight, short = (draw(system("K26"), 9, turn=0, short=short).scene.segments.ends for short in (0, 1))
+    assert straight[-1] == pytest.approx(short[-1]), "the organism is where its steps add up to"
+
+
 TIMED_ANABAENA = "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)"
 
 

@@ -112,7 +112,7 @@ def test_durations_and_conditions_are_told() -> None:
     assert only_texts(root, ".//p:toolspecific/p:duration") == ["0", "0"]
     assert only_texts(root, ".//p:toolspecific/p:condition") == ["x >= x_div && p == LEFT", "x >= x_div && p == RIGHT"]
     root = ET.fromstring(pnml(stages(system("K26"))))
-    assert only_texts(root, ".//p:toolspecific/p:besides") == ["meta: f(x,y)f(u,v) -> f(x + u,y + v)"]
+    assert only_texts(root, ".//p:toolspecific/p:besides") == ["meta: f(x,y)f(u,v) : short == 1 -> f(x + u,y + v)"]
 
 
 @pytest.mark.parametrize("name", HOSTILE)

@@ -310,7 +310,7 @@ def test_repetitions_are_counted_or_named() -> None:
 
 
 def test_what_no_transition_shows_is_said() -> None:
-    assert stages(catalogued("K26")).besides == ("meta: f(x,y)f(u,v) -> f(x + u,y + v)",)
+    assert stages(catalogued("K26")).besides == ("meta: f(x,y)f(u,v) : short == 1 -> f(x + u,y + v)",)
     assert repr(stages(read("axiom: A\nA -> [ % A ]"))).endswith("besides: % cuts off the rest of its branch")
 
 

@@ -77,6 +77,8 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     **{f"003-topiary{solid}": ("Pruning in three dimensions",
                                lambda n=n, number=number: draw(system("K25"), n, solid=number, L=8 if number < 3 else 14).svg)
        for number, (solid, n) in enumerate({"": 70, "-sphere": 70, "-cone": 100, "-spiral": 110}.items(), 1)},
+    **{f"003-movement-{name}": (f"An organism that moves: {name}", lambda short=short: draw(system("K26"), short=short).svg)
+       for short, name in enumerate(("path", "short-word"))},
     "003-timed": ("Timed Anabaena", lambda: draw(lineage(system("K27"), 12)).svg),
     **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
     "003-forces": ("On the way to rest: some iterations", lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80]).svg),
