@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,11 +17,7 @@ import numpy as np
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
 from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
-
-NEARNESS = 1e-9
-"""A point as close to a boundary as this lies on it."""
-WINDOW = 32
-"""The nearest point is first sought among this number of points on either side in the sorted order."""
+from lsys_kit.worlds.neighbours import NEARNESS, tree_of
 
 
 @dataclass(frozen=True)
@@ -30,7 +27,7 @@ class EndPoints:
     Attributes
     ----------
     places
-        Shape (n, 3), sorted by their first coordinate, so that few have to be compared to find the nearest.
+        Shape (n, 3).
     owners
         Shape (n,): the number of the shoot of each point.
     """
@@ -38,23 +35,23 @@ class EndPoints:
     places: Floats
     owners: Integers
 
+    @cached_property
+    def tree(self) -> Any:
+        """Their k-d tree."""
+        return tree_of(self.places)
+
     def nearest(self, tip: Floats, near: Sequence[int]) -> float:
         """The distance of the nearest point from a tip, except those of some shoots; infinite if there is none.
 
-        The nearest of the neighbours in the sorted order bounds the range in which a nearer point can lie. That neighbour
-        itself may lie on the edge of this range, or just outside it by a rounding error, so the smaller distance counts.
+        Each of these shoots has two points, so that one more is sure to be another's.
         """
-        first = self.places[:, 0]
-        at = int(np.searchsorted(first, tip[0]))
-        reach = self._least(tip, near, max(0, at - WINDOW), at + WINDOW)
-        low, high = np.searchsorted(first, tip[0] - reach, "left"), np.searchsorted(first, tip[0] + reach, "right")
-        return min(reach, self._least(tip, near, int(low), int(high)))
-
-    def _least(self, tip: Floats, near: Sequence[int], low: int, high: int) -> float:
-        distances = np.linalg.norm(self.places[low:high] - tip, axis=1)
-        for number in near:
-            distances[self.owners[low:high] == number] = math.inf
-        return float(distances.min(initial=math.inf))
+        if not len(self.places):
+            return math.inf
+        distances, numbers = self.tree.query(tip, k=[*range(1, 2 * len(near) + 2)])
+        for distance, number in zip(distances.tolist(), numbers.tolist(), strict=True):
+            if math.isfinite(distance) and self.owners[number] not in near:
+                return float(distance)
+        return math.inf
 
 
 class Shoots:
@@ -86,12 +83,10 @@ class Shoots:
         return np.flatnonzero((self.lengths >= least - NEARNESS) & (True if colour is None else self.colours == colour))
 
     def points(self, least: float, colour: float | None = None) -> EndPoints:
-        """The start and end points of the same shoots, sorted once."""
+        """The start and end points of the same shoots, for which a tree is built once."""
         if (least, colour) not in self._points:
             numbers = self.chosen(least, colour)
-            places, owners = self.ends[numbers].reshape(-1, 3), np.repeat(numbers, 2)
-            order = np.argsort(places[:, 0], kind="stable")
-            self._points[least, colour] = EndPoints(places[order], owners[order])
+            self._points[least, colour] = EndPoints(self.ends[numbers].reshape(-1, 3), np.repeat(numbers, 2))
         return self._points[least, colour]
 
 
