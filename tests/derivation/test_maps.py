@@ -241,3 +241,17 @@ def assert_corners_meet(maps: Development) -> None:
         for cell in found.cells:
             turned = [side._replace(forward=not side.forward) for side in cell]
             assert found.corners(turned) == [*found.corners(cell)[1:], found.corners(cell)[0]]
+
+
+def test_a_sphere_begins_with_its_meridians_and_the_cells_between_them() -> None:
+    maps = derive(read_map("sphere: A> B> C<\nA> -> D>[-e]x>[+e]D>"), 1)
+    assert str(maps[0]) == "B>A< | C<B< | A>C>"
+    assert maps[0].boundary == ()
+    assert [vertices - walls + cells for vertices, walls, cells in maps.counts] == [2, 2]
+    assert [vertex.wall for vertex in maps[1].vertices] == [None, None, 0, 0]
+
+
+def test_a_cell_between_meridians_is_divided_from_one_to_the_other() -> None:
+    maps = derive(read_map("sphere: D>D>D>D>\nD> -> L>[-e]x>[+e]L>\nL> -> D>[+e]x>[-e]D>"), 2)
+    assert maps.counts == [(2, 4, 4), (10, 16, 8), (26, 40, 16)]
+    assert str(maps[1]) == " | ".join(["L>ex<L< | x>L>L<e"] * 4)
