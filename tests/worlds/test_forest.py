@@ -6,9 +6,9 @@ import json
 from itertools import pairwise
 
 import pytest
-from lsys_kit.classroom.panel.books.book import book
 
 from lsys_kit import derive, explore, read, system
+from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.turtle.space import trace_in_space
 
