@@ -185,7 +185,7 @@ def check_field(field: Pattern, constants: Collection[str]) -> None:
                       known=", ".join(sorted(FIELD_FORMS)))
     if not form.least <= len(field.arguments) <= form.most:
         wanted = f"{form.least}" if form.least == form.most else f"{form.least} to {form.most}"
-        raise problem("number of arguments", field.at, name=field.symbol, wanted=f"{wanted} value{'s' * (form.most > 1)}",
+        raise problem("number of arguments", field.at, name=field.symbol, wanted=f"{wanted} value{'s' * (wanted != '1')}",
                       given=len(field.arguments))
     for argument in field.arguments:
         check_expression(argument, {*constants, *form.names})

@@ -36,8 +36,8 @@ _STEPS = re.compile(r"\bn[ \t]*+=")
 _N = re.compile(r"\bn\b")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
-_INCLUDED = re.compile(r"[ \t]*+#[ \t]*+include\b.*")
 _NEIGHBOURS = re.compile(r"[ \t]*+(#[ \t]*+)(?:ignore|consider)\b", re.IGNORECASE)
+_DIRECTIVE = re.compile(rf"{_DEFINED.pattern}|(?i:{_NEIGHBOURS.pattern})|[ \t]*+#[ \t]*+include\b")
 _START = re.compile(r"[ \t]*+((?i:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)")
 _NAMED_AXIOM = re.compile(rf"[ \t]*+(?i:axiom)\b|{_START.pattern}|{_OMEGA.pattern}")
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
@@ -139,7 +139,7 @@ class _Listing:
         for line in self.lines:
             if _ASSIGNMENTS.match(line.text):
                 yield from self._assignments(line)
-            elif self.labelled and line.text.lstrip().startswith("#"):
+            elif self.labelled and _DIRECTIVE.match(line.text):
                 yield from self._directive(line)
             elif start := _START.match(line.text):
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
@@ -154,7 +154,7 @@ class _Listing:
             yield Edit(line.start + defined.start(3), line.start + defined.end(3), " = ")
         elif neighbours := _NEIGHBOURS.match(line.text):
             yield Edit(line.start + neighbours.start(1), line.start + neighbours.end(1), "")
-        elif _INCLUDED.match(line.text):
+        else:
             self.notes.append(f'"{line.text.strip()}" is passed over.')
             yield Edit(line.start, line.end, "")
 
