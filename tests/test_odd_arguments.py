@@ -13,7 +13,19 @@ import sympy
 from matplotlib.figure import Figure
 
 import lsys_kit
-from lsys_kit import LSystemError, ModelValueError, cellwork_system, derive, growth, lineage, map_system, read, stages, timed
+from lsys_kit import (
+    LSystemError,
+    ModelValueError,
+    cellwork_system,
+    derive,
+    growth,
+    lineage,
+    link,
+    map_system,
+    read,
+    stages,
+    timed,
+)
 from lsys_kit.derivation.derive import Derivation
 
 
@@ -39,7 +51,8 @@ AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "animate": lambda: (GROWING, 1), "check": lambda: ("1.1", "al"), "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
     "derive": lambda: (GROWING, 1), "draw": lambda: (GROWING, 1), "draw_hierarchy": tuple,
-    "cellwork_system": lambda: ("K33",),
+    "cellwork_system": lambda: ("K33",), "compare": lambda: (GROWING, GROWING), "link": lambda: (GROWING, {"step": 1}),
+    "linked": lambda: (link(GROWING),), "qr_code": lambda: ("text",), "variants": lambda: (GROWING, 2),
     "cellwork_systems": tuple, "read_cellwork": lambda: (str(cellwork_system("K33")),),
     "draw a cellwork": lambda: (cellwork_system("K33"), 1), "derive a cellwork": lambda: (cellwork_system("K33"), 1),
     "explain": lambda: (derive(GROWING, 1), 1),
