@@ -179,32 +179,142 @@ def test_compare_has_one_slider_and_marks_differences(shown):
     assert notebook.console == []
 
 
-# --- Notebook 7 and Voila ---------------------------------------------------------------------------------------------
+# --- JupyterLab, Notebook 7 and Voila ---------------------------------------------------------------------------------
 
-def test_in_notebook_7_arrow_keys_move_the_sliders(browser: Browser, lab: Lab, write_notebook):
-    name = write_notebook("seven.ipynb", show("explore('J4', 9)"))
-    page = browser.new_page(viewport={"width": 1200, "height": 900})
+def in_jupyterlab(page: Page, lab: Lab, name: str) -> None:
+    page.goto(f"{lab.url}/lab/tree/{name}?reset")
+    page.wait_for_function("window.jupyterapp?.shell?.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'")
+    page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
+
+
+def in_notebook_7(page: Page, lab: Lab, name: str) -> None:
     page.goto(f"{lab.url}/notebooks/{name}")
     page.wait_for_function("window.jupyterapp?.shell?.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'")
     page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
-    panel = panel_of(page)
-    expect(panel.locator("canvas[data-drawn]").first).to_be_visible(timeout=90_000)
-    slider(panel, "step").press("ArrowRight")
-    expect(panel.locator(".lsys-status")).to_contain_text("step 10")
-    page.close()
 
 
-def test_voila_serves_a_panel(browser: Browser, lab: Lab, write_notebook):
-    name = write_notebook("voila.ipynb", show("explore('J4', 9)"))
-    page = browser.new_page(viewport={"width": 1200, "height": 900})
+def in_voila(page: Page, lab: Lab, name: str) -> None:
     page.goto(f"{lab.url}/voila/render/{name}")
-    panel = panel_of(page)
-    expect(panel.locator("canvas[data-drawn]").first).to_be_visible(timeout=90_000)
-    slider(panel, "step").press("ArrowRight")
-    expect(panel.locator(".lsys-status")).to_contain_text("step 10")
-    slider(panel, "lifeTimeB").press("ArrowRight")
-    expect(panel.locator(".lsys-status")).to_contain_text("of 6 stages")
-    page.close()
+
+
+@pytest.fixture
+def at_home(browser: Browser, lab: Lab, write_notebook, pytestconfig):
+    """Opens a panel in one of the three, and keeps a picture of it at the end."""
+    pages, folder = [], pytestconfig.getoption("screenshots")
+
+    def opened(home, source):
+        page = browser.new_page(viewport={"width": 1300, "height": 1000})
+        pages.append((page, home))
+        home(page, lab, write_notebook(f"{home.__name__}.ipynb", show(source)))
+        expect(panel_of(page).locator("canvas[data-drawn]").first).to_be_visible(timeout=90_000)
+        return panel_of(page)
+
+    yield opened
+    for page, home in pages:
+        if folder:
+            page.screenshot(path=Path(folder) / f"{home.__name__}.png")
+        page.close()
+
+
+HOMES = pytest.mark.parametrize("home", [in_jupyterlab, in_notebook_7, in_voila])
+
+
+@HOMES
+def test_every_control_by_the_keyboard(at_home, home):
+    panel = at_home(home, "explore('J4', 9)")
+    status = panel.locator(".lsys-status")
+    for name, key, told in (("step", "ArrowRight", "step 10"), ("step", "Home", "step 0"), ("step", "End", "step 20"),
+                            ("lifeTimeB", "ArrowRight", "of 6 stages"), ("lifeTimeA", "ArrowLeft", "of 5 stages")):
+        slider(panel, name).press(key)
+        expect(status).to_contain_text(told)
+    box = panel.get_by_label("step", exact=True)
+    for typed, told in (("7", "step 7"), ("3", "step 3")):
+        box.fill(typed)
+        box.press("Enter")
+        expect(status).to_contain_text(told)
+    box.press("ArrowUp")
+    expect(status).to_contain_text("step 4")
+    for name, told in (("one step on", "step 5"), ("one step back", "step 4"), ("to step 0", "step 0"), ("play", "step 1")):
+        panel.get_by_role("button", name=name, exact=True).press("Enter")
+        expect(status).to_contain_text(told)
+    panel.get_by_role("button", name="pause", exact=True).press("Enter")
+    panel.get_by_label("mark", exact=True).press("ArrowDown")
+    expect(panel.locator('[data-place][aria-pressed="true"]')).to_have_count(1)
+    panel.locator("[data-place]").last.press("Enter")
+    expect(panel.locator("[data-place]").last).to_have_attribute("aria-pressed", "true")
+    panel.get_by_label("size", exact=True).press("ArrowDown")
+    expect(panel.get_by_label("size", exact=True)).to_have_value("same")
+    panel.get_by_label("loop", exact=True).press(" ")
+    expect(panel.get_by_label("loop", exact=True)).to_be_checked()
+    panel.locator(".lsys-word").press("ArrowRight")
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 1 of step")
+    panel.locator("canvas.lsys-canvas").press("+")
+    expect(panel.locator("canvas.lsys-canvas")).to_have_attribute("data-near", "1.25")
+    for title in ("rules", "how many", "word", "class"):
+        tab = panel.get_by_role("group", name="views").get_by_role("button", name=title, exact=True)
+        before = tab.get_attribute("aria-pressed")
+        tab.press("Enter")
+        expect(tab).to_have_attribute("aria-pressed", "false" if before == "true" else "true")
+    rules = panel.get_by_label("rules of the model")
+    rules.fill("axiom: a\na -> a b\nb -> a")
+    rules.press("End")
+    rules.type(" b")
+    expect(status).to_contain_text(re.compile("of 2 stages"))
+    panel.get_by_role("button", name="back to the first rules").press("Enter")
+    expect(status).to_contain_text("of 5 stages")
+    panel.get_by_role("button", name="code", exact=True).press("Enter")
+    expect(panel.get_by_label("to be copied")).to_have_value(re.compile(r'^explore\("J4", '))
+    panel.get_by_role("button", name="reset", exact=True).press("Enter")
+    expect(status).to_contain_text("step 10")  # the system's own: its rules were typed again
+
+
+@HOMES
+def test_every_control_by_the_mouse(at_home, home):
+    panel = at_home(home, "explore('J4', 9)")
+    status = panel.locator(".lsys-status")
+    for name in ("step", "lifeTimeA", "lifeTimeB"):
+        handle = slider(panel, name)
+        box, before = handle.bounding_box(), handle.input_value()
+        handle.click(position={"x": box["width"] - 3, "y": box["height"] / 2})
+        expect(handle).not_to_have_value(before)
+    expect(status).to_contain_text("step 20")
+    for name, told in (("one step back", "step 19"), ("one step on", "step 20"), ("to step 0", "step 0"), ("play", "step 1")):
+        panel.get_by_role("button", name=name, exact=True).click()
+        expect(status).to_contain_text(told)
+    panel.get_by_role("button", name="pause", exact=True).click()
+    panel.get_by_role("button", name="reset", exact=True).click()
+    expect(status).to_contain_text("step 9: 9 modules")
+    panel.locator("[data-place]").first.click()
+    expect(panel.locator("[data-place]").first).to_have_attribute("aria-pressed", "true")
+    panel.locator('.lsys-module[data-position="2"]').click()
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 3 of step 9")
+    canvas = panel.locator("canvas.lsys-canvas")
+    canvas.click(position={"x": canvas.bounding_box()["width"] / 2 + 17, "y": 42})
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 1 of step 0")
+    for title in ("rules", "how many", "nine variants", "class"):
+        panel.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+    expect(panel.locator(".lsys-tile-button")).to_have_count(9)
+    plot = panel.locator(".lsys-counts")
+    plot.click(position={"x": plot.bounding_box()["width"] * 53 / 380, "y": 20})
+    expect(status).to_contain_text("step 0")
+    for name in ("SVG", "page", "PNG"):
+        with panel.page.expect_download() as kept:
+            panel.get_by_role("button", name=name, exact=True).click()
+        assert kept.value.suggested_filename == {"SVG": "J4.svg", "page": "J4.html", "PNG": "J4.png"}[name]
+    panel.get_by_role("button", name="link", exact=True).click()
+    expect(panel.get_by_label("to be copied")).to_have_value(re.compile("^#lsys="))
+
+
+@HOMES
+def test_nine_seeds_and_two_systems(at_home, home):
+    panel = at_home(home, "explore('K7', 3)")
+    panel.get_by_role("group", name="views").get_by_role("button", name="nine seeds", exact=True).click()
+    expect(panel.locator(".lsys-tile-button")).to_have_count(9)
+    panel.locator(".lsys-tile-button").nth(5).click()
+    expect(panel.get_by_label("seed", exact=True)).to_have_value("5")
+    both = at_home(home, "compare('P2', 'P3', step=9)").page
+    both.get_by_role("slider", name="step, slider", exact=True).first.press("ArrowLeft")
+    expect(both.locator(".lsys-both > .lsys-sentence")).to_contain_text("cell by cell they are drawn alike")
 
 
 # --- accessibility ----------------------------------------------------------------------------------------------------

@@ -121,7 +121,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready = False
-        self._opened = opened
+        self._opened = self._given = opened
         settings = {name: number_text(value) for name, value in opened.first.items()}
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=settings)
         with self._limited(), Task("The step was not shown"):
@@ -254,7 +254,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """Show the system of a text that was typed; its sliders start anew, the step and the angle stay where they can."""
         system = self._opened.read(content["text"])
-        new, old = opened(system, "" if system != self.system else self._opened.title), self._opened
+        new, old = opened(system, self._given.title if system == self._given.system else ""), self._opened
         found = {**self._model_of(new, new.steps), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found
