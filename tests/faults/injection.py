@@ -7,6 +7,7 @@ import errno
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import copy_context
 from functools import cache
 from pathlib import Path
 from types import FrameType, MappingProxyType
@@ -35,7 +36,10 @@ def lines_of(work: Work, rooms: Sequence[str]) -> list[Line]:
 
 
 def break_off(work: Work, rooms: Sequence[str], moment: int, fault: Callable[[], BaseException]) -> None:
-    """Do some work, and raise an error before the line that it comes to at a moment, counted from 0."""
+    """Do some work, and raise an error before the line that it comes to at a moment, counted from 0.
+
+    It is done in a context of its own: a task that is broken off in the line that ends it stays open there.
+    """
     left = moment
 
     def strike(_: FrameType) -> None:
@@ -46,7 +50,7 @@ def break_off(work: Work, rooms: Sequence[str], moment: int, fault: Callable[[],
 
     try:
         with _watched(rooms, strike):
-            work()
+            copy_context().run(work)
     except (KeyboardInterrupt, Exception):
         assert left < 0, "the work fails by itself"
 
