@@ -12,7 +12,7 @@ from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.engines.stepwise import ParentWord, Stepper, surviving
-from lsys_kit.errors import require
+from lsys_kit.errors import require, shown
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Name, names_in
 from lsys_kit.notation.model.modules import Module
@@ -94,7 +94,7 @@ def explain(derivation: Derivation, step: int) -> Explanation:
          production 2, a -> c: matches too, but production 1 stands before it
     """
     require(derivation, Derivation, "A derivation")
-    with Task(f"The explanation of step {step} was not finished"):
+    with Task(f"The explanation of step {shown(step)} was not finished"):
         return _explanation(derivation, step)
 
 

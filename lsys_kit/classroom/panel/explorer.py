@@ -85,7 +85,8 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
 
 def _given(step: int | None, angle: object, seed: int) -> dict[str, Any]:
     """The settings that are not left to the link."""
-    return {name: value for name, value, usual in ((STEP, step, None), (ANGLE, angle, None), (SEED, seed, 0)) if value != usual}
+    usual = isinstance(seed, int) and seed == 0
+    return {name: value for name, value in ((STEP, step), (ANGLE, angle), (SEED, None if usual else seed)) if value is not None}
 
 
 class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
