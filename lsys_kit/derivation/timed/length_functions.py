@@ -55,7 +55,7 @@ def length_functions(growing: Timed, texts: Mapping[str, str], given: Mapping[st
     values = {name: in_sympy(value) for name, value in zip(constants, growing.states.constants, strict=True)}
     values |= {name: in_sympy(given[name], name) if name in given else unknown_constant(name) for name in used}
     sizes = {name: _size(value) for name, value in values.items()}
-    sizes[AGE] = max(_size(end) for life in lives.values() for end in (life.inf, life.sup))
+    sizes[AGE] = max((_size(end) for life in lives.values() for end in (life.inf, life.sup)), default=0)
     symbols = {sympy.Symbol(name): value for name, value in {**values, AGE: the_age()}.items()}
     functions = {}
     for text, tree in trees.items():
