@@ -10,11 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from lsys_kit.files import marked_xml
-from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET, VERMILION, tinted
 from lsys_kit.pictures.svg import background, document
 
@@ -77,7 +75,7 @@ DESCRIPTION = (
 
 
 @dataclass(frozen=True)
-class HierarchyPicture:
+class HierarchyPicture(SVGPicture):
     """The languages of L-systems beside the Chomsky hierarchy."""
 
     @property
@@ -91,19 +89,6 @@ class HierarchyPicture:
         shapes = [*map(_ellipse, CHOMSKY), *map(_ellipse, PARALLEL), *map(_class_name, (*CHOMSKY, *PARALLEL)),
                   *map(_point, LANGUAGES)]
         return document(background(WIDTH, HEIGHT) + "".join(shapes), WIDTH, HEIGHT, self.text)
-
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg file.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
-
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return {"image/svg+xml": self.svg, "text/plain": self.text}
 
     def __repr__(self) -> str:
         return self.text

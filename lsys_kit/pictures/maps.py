@@ -11,22 +11,19 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
-from lsys_kit.files import marked_xml
 from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.display_list import MARGIN, ViewFrame
-from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.notebook import svg_bundle
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import background, described, document
@@ -52,7 +49,7 @@ ROUNDING = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class MapPicture:
+class MapPicture(SVGPicture):
     """A picture of the steps of a map system, side by side; or of one step while its cells come to rest.
 
     Attributes
@@ -97,19 +94,6 @@ class MapPicture:
         if kinds == 1:
             return "all cells have the same walls around them"
         return "cells of one colour have the same walls around them" + ", but for grey ones" * (kinds > len(FILLS))
-
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg file.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
-
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return svg_bundle(self.svg, self.text)
 
     def __repr__(self) -> str:
         return self.text

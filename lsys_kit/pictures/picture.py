@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from html import unescape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, current, supervised
 from lsys_kit.derivation.petri.pnml import pnml
@@ -26,7 +26,7 @@ from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
-from lsys_kit.pictures.formats.notebook import svg_bundle
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Picture:
+class Picture(SVGPicture):
     """A picture of one word, or of the steps of a filament below one another.
 
     Attributes
@@ -132,15 +132,12 @@ class Picture:
                        ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
                 "Films end in .gif or .apng, and are made by animate(...).")
 
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return svg_bundle(self.svg, repr(self))
-
     def __repr__(self) -> str:
         return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))
 
 
 @dataclass(frozen=True)
-class NetPicture:
+class NetPicture(SVGPicture):
     """A picture of a stage diagram.
 
     Attributes
@@ -173,9 +170,6 @@ class NetPicture:
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg),
                              ".pnml": lambda: marked_xml(pnml(self.net, self.tokens))})
-
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return unescape(self.svg.split('aria-label="')[1].split('"')[0])

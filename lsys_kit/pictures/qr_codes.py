@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
 from pathlib import Path
-from typing import Any
 
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.notebook import svg_bundle
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.svg import background, document
 
@@ -26,7 +25,7 @@ MOST_BYTES = 2_953
 
 
 @dataclass(frozen=True)
-class QRCode:
+class QRCode(SVGPicture):
     """The QR code of a text.
 
     Attributes
@@ -86,9 +85,6 @@ class QRCode:
             The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png)})
-
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return f"QR code of {len(self.text):,} characters, {len(self.rows)} by {len(self.rows)}"

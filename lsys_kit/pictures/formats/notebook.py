@@ -3,9 +3,36 @@
 from __future__ import annotations
 
 import base64
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from html import escape
+from pathlib import Path
 from typing import Any
+
+from lsys_kit.files import marked_xml
+from lsys_kit.pictures.formats.files import save_as
+
+
+class SVGPicture(ABC):
+    """A picture that is written as SVG; its text alternative is what `repr` says of it."""
+
+    @property
+    @abstractmethod
+    def svg(self) -> str:
+        """The picture as SVG text."""
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg file.
+
+        Raises
+        ------
+        ModelFileError
+            The extension is unknown, or the file cannot be written.
+        """
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return svg_bundle(self.svg, repr(self))
 
 
 def svg_bundle(svg: str, text: str) -> dict[str, Any]:

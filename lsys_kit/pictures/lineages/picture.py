@@ -13,19 +13,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from pathlib import Path
-from typing import Any
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
-from lsys_kit.files import marked_xml
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.display_list import MARGIN, WIDTH
 from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
-from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.notebook import svg_bundle
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.style.labels import svg_label, values_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
@@ -41,7 +37,7 @@ MOST_LINES, MOST_TICKS = 400, 14
 
 
 @dataclass(frozen=True)
-class LineagePicture:
+class LineagePicture(SVGPicture):
     """A picture of a lineage.
 
     Attributes
@@ -60,19 +56,6 @@ class LineagePicture:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
             return drawn_lineage(self.lineage, self.intervals)
-
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg file.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
-
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return svg_bundle(self.svg, repr(self))
 
     def __repr__(self) -> str:
         return f"lineage of {self.lineage}"
