@@ -12,15 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lsys_kit.geometry.relaxation import (
-    AT_REST,
-    MOST_ITERATIONS,
-    SHORTEST_TIME_STEP,
-    TIME_STEP,
-    Forces,
-    check_bounds,
-    summed_at_vertices,
-)
+from lsys_kit.geometry.relaxation import Forces, summed_at_vertices, until_rest
 from lsys_kit.geometry.scene import Floats, Integers
 
 SPACE_FORCES = Forces(rest=1.0, pressure=8.0)
@@ -81,30 +73,9 @@ def relax_in_space(points: Floats, tissue: SolidTissue, forces: Forces = SPACE_F
     ModelValueError
         The positions grow beyond all bounds.
     """
-    speeds, following = np.zeros_like(points), tissue.following
-    room = volumes(points, tissue, area_vectors(points, tissue, following))
-    yield points
-    for _ in range(MOST_ITERATIONS):
-        push = _force(points, tissue, following, room, forces) - forces.damping * speeds
-        pace, moved, left = _integrated(points, speeds, push, tissue, following, room)
-        speeds = speeds + push * pace
-        farthest = max(np.abs(moved - points).max(), np.abs(push).max() * TIME_STEP**2)
-        points, room = check_bounds(moved), left
-        yield points
-        if farthest < AT_REST:
-            return
-
-
-def _integrated(points: Floats, speeds: Floats, push: Floats, tissue: SolidTissue, following: Integers,
-                room: Floats) -> tuple[float, Floats, Floats]:
-    """One time step, short enough that no cell loses more than half of its volume: its length, the positions, the volumes."""
-    pace = TIME_STEP
-    while True:
-        moved = points + (speeds + push * pace) * pace
-        left = volumes(moved, tissue, area_vectors(moved, tissue, following))
-        if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < LEAST_VOLUME)).all():
-            return pace, moved, left
-        pace /= 2
+    following = tissue.following
+    return until_rest(points, forces.damping, lambda at: volumes(at, tissue, area_vectors(at, tissue, following)), LEAST_VOLUME,
+                      lambda at, room: _force(at, tissue, following, room, forces))
 
 
 def _force(points: Floats, tissue: SolidTissue, following: Integers, room: Floats, forces: Forces) -> Floats:

@@ -7,7 +7,7 @@ length of the wall; half of the force acts on either end. So a cell can be compr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -104,12 +104,33 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))
     [0.279 0.279] [0.078]
     """
-    speeds, following = np.zeros_like(points), tissue.following
-    room = areas(points, tissue)
+    following = tissue.following
+    return until_rest(points, forces.damping, lambda at: areas(at, tissue), LEAST_AREA,
+                      lambda at, room: force(at, tissue, following, room, forces))
+
+
+def until_rest(points: Floats, damping: float, room_at: Callable[[Floats], Floats], least: float,
+               force_at: Callable[[Floats, Floats], Floats]) -> Iterator[Floats]:
+    """The positions of vertices at first, and after each iteration until they are at rest, in the plane or in space.
+
+    Parameters
+    ----------
+    points
+        The initial positions.
+    damping
+        By what share of its speed each vertex is braked.
+    room_at
+        The areas or volumes of the cells for some positions.
+    least
+        The room below which a cell may be turned inside out.
+    force_at
+        The forces on the vertices for some positions, and the room that the cells have there.
+    """
+    speeds, room = np.zeros_like(points), room_at(points)
     yield points
     for _ in range(MOST_ITERATIONS):
-        push = force(points, tissue, following, room, forces) - forces.damping * speeds
-        pace, moved, left = _integrated(points, speeds, push, tissue, room)
+        push = force_at(points, room) - damping * speeds
+        pace, moved, left = _integrated(points, speeds, push, room, room_at, least)
         speeds = speeds + push * pace
         farthest = max(np.abs(moved - points).max(), np.abs(push).max() * TIME_STEP**2)
         points, room = check_bounds(moved), left
@@ -133,13 +154,14 @@ def with_finished(error: ModelValueError, finished: Sequence[Floats]) -> ModelVa
     return error.with_hint(f"This was step {step}.{kept} {error.hint}")
 
 
-def _integrated(points: Floats, speeds: Floats, push: Floats, tissue: Tissue, room: Floats) -> tuple[float, Floats, Floats]:
-    """One time step, short enough that no cell loses more than half of its area: its length, the positions and the areas."""
+def _integrated(points: Floats, speeds: Floats, push: Floats, room: Floats, room_at: Callable[[Floats], Floats],
+                least: float) -> tuple[float, Floats, Floats]:
+    """One time step, short enough that no cell loses more than half of its room: its length, the positions and the room."""
     pace = TIME_STEP
     while True:
         moved = points + (speeds + push * pace) * pace
-        left = areas(moved, tissue)
-        if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < LEAST_AREA)).all():
+        left = room_at(moved)
+        if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < least)).all():
             return pace, moved, left
         pace /= 2
 
