@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator
 
+from lsys_kit.notation.analysis.edge_checks import occurring_edges, unpaired_edges
 from lsys_kit.notation.analysis.problems import Problem, problem
 from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, FirstWall
 from lsys_kit.notation.model.maps import Edge
@@ -121,27 +122,9 @@ def _by_walls(production: CellworkProduction) -> tuple[tuple[Edge, ...], list[di
 
 def unused_parts(system: CellworkSystem) -> Iterator[Problem]:
     """Productions of edges that never occur, and markers that never find another half."""
-    occurring = _occurring(system)
+    occurring = occurring_edges((edge for wall in system.walls for edge in wall.edges), system.productions)
     for production in system.productions:
         if production.predecessor not in occurring:
             yield Problem("edge never occurs", production.at, {"production": production, "edge": production.predecessor})
-    markers = {marker.edge for marker in system.markers}
-    for edge in dict.fromkeys(marker.edge for marker in system.markers):
-        if edge.turned not in markers:
-            yield Problem("marker without partner", None, {"marker": edge, "partner": edge.turned})
-
-
-def _occurring(system: CellworkSystem) -> set[Edge]:
-    """The edges that can occur, each in its own direction."""
-    occurring: set[Edge] = set()
-    waiting = [edge for wall in system.walls for edge in wall.edges]
-    while waiting:
-        edge = waiting.pop()
-        edge = edge.turned if edge.arrow == "<" else edge
-        if edge in occurring:
-            continue
-        occurring.add(edge)
-        for production in system.productions:
-            if production.predecessor == edge:
-                waiting += (part if isinstance(part, Edge) else part.edge for part in production.successor)
-    return occurring
+    for edge in unpaired_edges(marker.edge for marker in system.markers):
+        yield Problem("marker without partner", None, {"marker": edge, "partner": edge.turned})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 
+from lsys_kit.notation.analysis.edge_checks import occurring_edges, unpaired_edges
 from lsys_kit.notation.analysis.problems import Problem, problem
 from lsys_kit.notation.model.expressions import TextSpan
 from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
@@ -81,27 +82,9 @@ def unused_parts(system: MapSystem) -> Iterator[Problem]:
     >>> [problem.code for problem in unused_parts(MapSystem((Edge("A"),) * 3, (EdgeProduction(Edge("C"), (Edge("A"),)),)))]
     ['wall never occurs']
     """
-    occurring = _occurring(system)
+    occurring = occurring_edges(system.axiom, system.productions)
     for production in system.productions:
         if production.predecessor not in occurring:
             yield Problem("wall never occurs", production.at, {"production": production, "wall": production.predecessor})
-    markers = {marker.edge for marker in system.markers}
-    for edge in dict.fromkeys(marker.edge for marker in system.markers):
-        if edge.turned not in markers:
-            yield Problem("marker without partner", None, {"wall": edge, "partner": edge.turned})
-
-
-def _occurring(system: MapSystem) -> set[Edge]:
-    """The walls that can occur, each in its own direction."""
-    successors = {production.predecessor: production for production in system.productions}
-    occurring: set[Edge] = set()
-    waiting = [*system.axiom]
-    while waiting:
-        edge = waiting.pop()
-        edge = edge.turned if edge.arrow == "<" else edge
-        if edge in occurring:
-            continue
-        occurring.add(edge)
-        if edge in successors:
-            waiting += (part if isinstance(part, Edge) else part.edge for part in successors[edge].successor)
-    return occurring
+    for edge in unpaired_edges(marker.edge for marker in system.markers):
+        yield Problem("marker without partner", None, {"wall": edge, "partner": edge.turned})
