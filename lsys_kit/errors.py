@@ -30,6 +30,8 @@ class LSystemError(Exception):
     ----------
     line, column, end
         The place, counted from 1; `end` is the column after the mistake. None where no text is at fault.
+    span
+        The offsets in `source` between which the mistake is, on one line; None where no text is at fault.
 
     Examples
     --------
@@ -52,6 +54,7 @@ class LSystemError(Exception):
         self.line: int | None = None
         self.column: int | None = None
         self.end: int | None = None
+        self.span: tuple[int, int] | None = None
         if source is not None and start is not None:
             start = min(start, len(source))
             line_start = source.rfind("\n", 0, start) + 1
@@ -60,6 +63,7 @@ class LSystemError(Exception):
             self.line = source.count("\n", 0, start) + 1
             self.column = start - line_start + 1
             self.end = max(min(line_end, end or start + 1) - line_start + 1, self.column + 1)
+            self.span = start, line_start + self.end - 1
 
     def moved(self, source: str, start: int, end: int) -> Self:
         """The same error at another place, perhaps in another text."""

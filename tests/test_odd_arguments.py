@@ -124,6 +124,23 @@ def test_an_odd_argument_is_used_or_refused(name: str, argument: str, odd: objec
         called(name, argument, odd)
 
 
+@pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
+@pytest.mark.parametrize("name", ["step", "angle", "seed"])
+def test_an_odd_setting_beside_a_link_is_used_or_refused(name: str, odd: object) -> None:
+    with suppress(LSystemError):
+        lsys_kit.explore(link(GROWING), **{name: odd})  # type: ignore[arg-type]
+
+
+def test_a_step_of_many_digits_has_no_explanation() -> None:
+    with pytest.raises(ModelValueError):
+        lsys_kit.explain(derive(GROWING, 1), 10**5000)
+
+
+def test_a_system_without_lives_is_continuous_or_refused() -> None:
+    with suppress(LSystemError):
+        lsys_kit.continuity(read("axiom: A B A"), {})
+
+
 @pytest.mark.parametrize("step", [-1, 4, 10**30, 10**5000, -10**5000], ids=["before", "beyond", "far", "very far", "far back"])
 @pytest.mark.parametrize("ask", [Derivation.counts, Derivation.origins, Derivation.ancestors, Derivation.sight])
 def test_a_step_that_a_derivation_lacks_is_refused(ask: Callable[..., object], step: int) -> None:

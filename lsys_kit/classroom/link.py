@@ -108,6 +108,16 @@ Links are made by link(system).
     return Linked(system, MappingProxyType(_values(system, content.settings)))
 
 
+def settings_given(step: object, angle: object, seed: object) -> dict[str, object]:
+    """The settings that somebody has given, which are not left to a link.
+
+    >>> settings_given(3, None, 0)
+    {'step': 3}
+    """
+    usual = isinstance(seed, int) and seed == 0
+    return {name: value for name, value in ((STEP, step), (ANGLE, angle), (SEED, None if usual else seed)) if value is not None}
+
+
 def _values(system: LSystem | MapSystem, settings: Mapping[str, object]) -> dict[str, Value]:
     """The exact values of settings, if the system has them."""
     constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else [*RANGES]

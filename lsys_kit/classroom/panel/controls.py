@@ -82,6 +82,15 @@ def _operates_on(name: str, expression: Expression) -> bool:
     return (direct and not tells_apart) or any(_operates_on(name, operand) for operand in expression.operands)
 
 
+def slider(name: str, values: Sequence[Value], first: Value, what: str = "the constant") -> dict[str, Any]:
+    """A slider as the browser needs it: the texts of its values, and the place of the first one.
+
+    >>> slider("c", (1, 2, 3), 2)
+    {'name': 'c', 'texts': ['1', '2', '3'], 'hint': 'the constant c', 'index': 1}
+    """
+    return {"name": name, "texts": [*map(number_text, values)], "hint": f"{what} {name}", "index": values.index(first)}
+
+
 MOST_VALUES = 2_000
 """A slider has no more values; of a finer range it offers every second, third, ..."""
 

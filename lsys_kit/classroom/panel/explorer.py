@@ -19,10 +19,10 @@ import traitlets
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.catalogue import entry, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
-from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked
+from lsys_kit.classroom.link import linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
-from lsys_kit.classroom.panel.controls import nearest, plain_number
+from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import save_page
@@ -75,18 +75,12 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
         what = map_system(title) if is_map_system(title) else catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
-        given: dict[str, Any] = {**there.settings, **_given(step, angle, seed), **constants}
+        given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
         return explore(there.system, **given)
     system = (read_map(what) if is_map(what) else read(what)) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
     return Explorer(opened(system, title, constants), step, angle, seed)
-
-
-def _given(step: int | None, angle: object, seed: int) -> dict[str, Any]:
-    """The settings that are not left to the link."""
-    usual = isinstance(seed, int) and seed == 0
-    return {name: value for name, value in ((STEP, step), (ANGLE, angle), (SEED, None if usual else seed)) if value is not None}
 
 
 class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
@@ -121,10 +115,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
-        self._ready = False
-        self._opened = self._given = opened
-        settings = {name: number_text(value) for name, value in opened.first.items()}
-        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=settings)
+        self._ready, self._opened, self._given = False, opened, opened
+        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened))
         with self._limited(), Task("The step was not shown"):
             self.model = self._model_of(self._opened, first)
         if step is None:
@@ -206,8 +198,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     def _model_of(self, what: Opened, first: int) -> dict[str, Any]:
         """What the browser needs of a system: its sliders and its first book."""
-        sliders = [{"name": name, "texts": [*map(number_text, what.values[name])], "hint": f"{what.hint} {name}",
-                    "index": what.values[name].index(value)} for name, value in what.first.items()]
+        sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
         made = what.book(what.first, self.seed, first)
         return {"book": made, "constants": sliders, "chance": made["chance"], "step": min(first, made["steps"]),
                 "angle": self.angle, "around": self.around, "above": self.above, "seed": self.seed}
@@ -240,17 +231,15 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
         """Answer what the browser asks, by its number; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
-        reply: dict[str, Any]
         try:
             with self._limited(), Task("It was not finished"):
-                reply = kinds[content["kind"]](content)
+                reply: dict[str, Any] = kinds[content["kind"]](content)
         except LSystemError as error:
-            reply = {"mistake": mistake(error)}
+            reply = {"mistake": _mistake(error)}
         self.send({"number": content["number"], **reply})
 
     def _book_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        values = self._values(content["constants"])
-        return {"book": self._opened.book(values, int(content["seed"]), self.model["step"])}
+        return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
 
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """Show the system of a text that was typed; its sliders start anew, the step and the angle stay where they can."""
@@ -259,7 +248,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         found = {**self._model_of(new, new.steps), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found
-            self.settings = {name: number_text(value) for name, value in new.first.items()}
+            self.settings = _texts(new)
             self.step = min(self.step, found["book"]["steps"])
             if new.angle != old.angle:
                 self.angle = new.angle
@@ -296,11 +285,11 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         return self.text
 
 
-def mistake(error: LSystemError) -> dict[str, Any]:
+def _texts(what: Opened) -> dict[str, str]:
+    return {name: number_text(value) for name, value in what.first.items()}
+
+
+def _mistake(error: LSystemError) -> dict[str, Any]:
     """An error as the browser needs it: what is wrong, what to try, and between which offsets of the text it stands."""
-    start = end = None
-    if error.source is not None and error.line and error.column and error.end:
-        line = sum(len(text) + 1 for text in error.source.split("\n")[:error.line - 1])
-        start, end = line + error.column - 1, line + error.end - 1
-    return {"message": error.message, "hint": error.hint or "", "start": start, "end": end, "line": error.line,
-            "column": error.column}
+    start, end = error.span or (None, None)
+    return {"message": error.message, "hint": error.hint or "", "start": start, "end": end}

@@ -19,9 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from lsys_kit.budget import current
-from lsys_kit.classroom.panel.books.book import book
+from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.bundle import compact, style
-from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
+from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, shown
 from lsys_kit.files import KIT_MARK, save_file
@@ -33,8 +33,6 @@ from lsys_kit.pictures.style.labels import escaped
 MOST_BOOKS, MOST_CHARACTERS = 2_000, 4_000_000
 """A page holds no more books, and no more than about so many characters of them before they are deflated; nor more than can be
 made in the time of one task."""
-USUAL_STEPS = 5
-"""The step that is shown first of a system that names none."""
 STYLE = """
 .lsys-page {
   margin: 0 auto; padding: 8px 12px 24px; max-width: 1500px; background: #fff; color: #22303c;
@@ -152,7 +150,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     values = {name: slider_values(span) for name, span in ranges.items()}
     start = {**{name: value for name, value in given.items() if name not in ranges},
              **{name: span.value for name, span in ranges.items()}}
-    wanted = _first_step(system) if step is None else step
+    wanted = first_step(system) if step is None else step
     began = time.thread_time()
     first = book(system, start, seed, title=title, least=wanted)
     live = live_constants(values, _room(len(json.dumps(first)), time.thread_time() - began))
@@ -160,8 +158,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     books = [_book(system, {**start, **dict(zip(live, chosen, strict=True))}, seed, title, wanted)
              for chosen in product(*(values[name] for name in live))]
     turn = real_from(angle, "angle") if angle is not None else float(system.angle)
-    model = {"constants": [{"name": name, "texts": [*map(number_text, values[name])], "hint": f"the constant {name}",
-                            "index": values[name].index(ranges[name].value)} for name in live],
+    model = {"constants": [slider(name, values[name], ranges[name].value) for name in live],
              "chance": False, "fixed": kept_text(fixed, seed if first["chance"] else None), "step": min(wanted, first["steps"]),
              "angle": round(turn, 1), "around": around, "above": above, "seed": seed}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
@@ -233,10 +230,6 @@ def _book(system: LSystem, settings: Mapping[str, object], seed: int, title: str
         return book(system, settings, seed, title=title, least=least)
     except LSystemError as error:
         return {"mistake": {"message": error.message, "hint": error.hint or ""}}
-
-
-def _first_step(system: LSystem) -> int:
-    return USUAL_STEPS if system.steps is None else system.steps
 
 
 def kept_text(fixed: Mapping[str, str], seed: int | None) -> str:

@@ -48,6 +48,16 @@ TIME_FOR_ASKED, TIME_FOR_LATER = 0.6, 0.2
 """The parts of the limit of time after which the steps that are asked for, and those beyond, are given up."""
 
 
+def first_step(system: LSystem) -> int:
+    """The step that is shown first of a system: its own, or a usual one.
+
+    >>> from lsys_kit.notation.read import read
+    >>> first_step(read("steps: 3\\naxiom: F")), first_step(read("axiom: F"))
+    (3, 5)
+    """
+    return USUAL_STEPS if system.steps is None else system.steps
+
+
 def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: int | None = None, *, title: str = "",
          least: int = 0) -> dict[str, Any]:
     """The book of a system, ready to be written as JSON.
@@ -113,7 +123,7 @@ class _Pages:
 
 def _derived(system: LSystem, given: dict[str, Any], seed: int | None, least: int) -> tuple[Derivation, str]:
     """The derivation as far as a book may hold it, and why it ends earlier than it should; "" where it does not."""
-    asked = USUAL_STEPS if system.steps is None else system.steps
+    asked = first_step(system)
     most, seconds = min(MOST_MODULES, current().modules), current().seconds
     with limits(modules=most):
         derivation = derive(system, 0, seed=seed, **given)

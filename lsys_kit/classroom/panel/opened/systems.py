@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
-from lsys_kit.classroom.panel.books.book import USUAL_STEPS, book
+from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
 from lsys_kit.classroom.panel.opened.opened import Viewing
@@ -46,7 +46,7 @@ class OpenedSystem:
 
     @property
     def steps(self) -> int:
-        return USUAL_STEPS if self.system.steps is None else self.system.steps
+        return first_step(self.system)
 
     @property
     def angle(self) -> float:
