@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -55,3 +55,21 @@ def write_notebook(lab: Lab) -> Callable[..., str]:
         return f"notebooks/{name}"
 
     return written
+
+
+@pytest.fixture
+def explored(browser: Browser) -> Iterator[Callable[..., Any]]:
+    """Opens a panel in a page without Jupyter: `explored("J4", 9, dark=True, context={"has_touch": True})`."""
+    from lsys_kit import explore
+    from tests.classroom.panel_page import open_panel
+
+    pages = []
+
+    def open_one(*what: Any, dark: bool = False, context: Mapping[str, Any] | None = None, **choices: Any) -> Any:
+        pages.append(open_panel(browser, explore(*what, **choices), dark, **(context or {})))
+        return pages[-1]
+
+    yield open_one
+    for each in pages:
+        assert each.errors == []
+        each.page.context.close()

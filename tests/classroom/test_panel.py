@@ -5,27 +5,13 @@ from __future__ import annotations
 import re
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import expect
 
-from lsys_kit import derive, explore, read, system, systems
+from lsys_kit import derive, read, system, systems
 from lsys_kit.derivation.core.states import States
-from tests.classroom.panel_page import PanelPage, open_panel
+from tests.classroom.panel_page import PanelPage
 
 SETTLED = [id for id in systems() if States(system(id)).traits.d0l]
-
-
-@pytest.fixture
-def opened(browser: Browser):
-    pages = []
-
-    def open_one(*what, dark=False, context=None, **choices):
-        pages.append(open_panel(browser, explore(*what, **choices), dark, **(context or {})))
-        return pages[-1]
-
-    yield open_one
-    for each in pages:
-        assert each.errors == []
-        each.page.context.close()
 
 
 def word_in(panel: PanelPage) -> str:
@@ -33,8 +19,8 @@ def word_in(panel: PanelPage) -> str:
 
 
 @pytest.mark.parametrize("id", SETTLED)
-def test_step_angle_view_and_mark_never_ask_the_kernel(opened, id):
-    panel = opened(id)
+def test_step_angle_view_and_mark_never_ask_the_kernel(explored, id):
+    panel = explored(id)
     for name in ("step", "angle", "around", "above"):
         slider = panel.control(name)
         if slider.count():
@@ -50,8 +36,8 @@ def test_step_angle_view_and_mark_never_ask_the_kernel(opened, id):
     assert set(panel.asked) <= {"save"}  # where they come to rest the kernel is told, and answers nothing
 
 
-def test_the_slider_of_the_step_changes_word_tokens_and_drawing(opened):
-    panel = opened("J4", 3)
+def test_the_slider_of_the_step_changes_word_tokens_and_drawing(explored):
+    panel = explored("J4", 3)
     assert word_in(panel) == "Al(1)Br(1)"
     panel.control("step").press("ArrowRight")
     expect(panel.at(".lsys-status")).to_contain_text("step 4: 2 modules; 2 of 5 stages occupied")
@@ -60,8 +46,8 @@ def test_the_slider_of_the_step_changes_word_tokens_and_drawing(opened):
     expect(panel.at("canvas")).to_have_attribute("data-step", "4")
 
 
-def test_a_number_is_typed_as_a_person_writes_it(opened):
-    panel = opened("P5", 3)
+def test_a_number_is_typed_as_a_person_writes_it(explored):
+    panel = explored("P5", 3)
     box = panel.page.get_by_label("dt", exact=True)
     assert box.input_value() == "0.7"
     for typed, shown in (("1,4", "1.4"), ("0.3000001", "0.3"), ("7/10", "0.7")):
@@ -73,8 +59,8 @@ def test_a_number_is_typed_as_a_person_writes_it(opened):
     expect(box).to_have_attribute("aria-invalid", "true")
 
 
-def test_a_constant_asks_once_for_each_setting_and_neighbours_are_fetched_ahead(opened):
-    panel = opened("J4", 9)
+def test_a_constant_asks_once_for_each_setting_and_neighbours_are_fetched_ahead(explored):
+    panel = explored("J4", 9)
     panel.control("lifeTimeB").press("ArrowRight")
     expect(panel.at(".lsys-word")).to_have_text("".join(map(str, derive(system("J4"), 9, lifeTimeB=3)[-1])))
     panel.page.wait_for_timeout(1200)
@@ -86,8 +72,8 @@ def test_a_constant_asks_once_for_each_setting_and_neighbours_are_fetched_ahead(
     assert panel.asked[asked:].count("book") == 0
 
 
-def test_a_changed_constant_keeps_the_mark(opened):
-    panel = opened("J4", 9)
+def test_a_changed_constant_keeps_the_mark(explored):
+    panel = explored("J4", 9)
     panel.page.get_by_label("mark", exact=True).select_option("B(1)")
     panel.control("lifeTimeA").press("ArrowRight")
     expect(panel.at(".lsys-status")).to_contain_text("of 6 stages")
@@ -97,8 +83,8 @@ def test_a_changed_constant_keeps_the_mark(opened):
     expect(pressed).to_have_attribute("aria-label", re.compile(r"^stage B\(1\)"))
 
 
-def test_a_setting_with_fewer_steps_does_not_forget_the_step_that_was_wanted(opened):
-    panel = opened(read("c = 2 in 0 .. 4\naxiom: A(1)\nA(t) : t/c < 9 -> A(t+1)"), 6)
+def test_a_setting_with_fewer_steps_does_not_forget_the_step_that_was_wanted(explored):
+    panel = explored(read("c = 2 in 0 .. 4\naxiom: A(1)\nA(t) : t/c < 9 -> A(t+1)"), 6)
     for _ in range(2):
         panel.control("c").press("ArrowLeft")
     expect(panel.at(".lsys-status")).to_contain_text("division by zero")
@@ -107,14 +93,14 @@ def test_a_setting_with_fewer_steps_does_not_forget_the_step_that_was_wanted(ope
     expect(panel.at(".lsys-status")).to_contain_text("step 6")
 
 
-def test_the_last_step_says_why_there_are_no_more(opened):
-    panel = opened("K5", 4)
+def test_the_last_step_says_why_there_are_no_more(explored):
+    panel = explored("K5", 4)
     panel.control("step").press("End")
     expect(panel.at(".lsys-status")).to_contain_text("Step 7 would have 195,311 modules; the limit is 100,000")
 
 
-def test_rules_are_changed_broken_and_mended(opened):
-    panel = opened("J1", 4)
+def test_rules_are_changed_broken_and_mended(explored):
+    panel = explored("J1", 4)
     panel.view("rules")
     rules = panel.page.get_by_label("rules of the model")
     first = rules.input_value()
@@ -132,8 +118,8 @@ def test_rules_are_changed_broken_and_mended(opened):
     expect(panel.at(".lsys-word")).to_have_text("".join(map(str, derive(system("J1"), 4)[-1])))
 
 
-def test_a_module_is_traced_through_all_views(opened):
-    panel = opened("J4", 10)
+def test_a_module_is_traced_through_all_views(explored):
+    panel = explored("J4", 10)
     panel.view("rules")
     panel.at('.lsys-module[data-position="2"]').click()
     expect(panel.at(".lsys-sentence")).to_have_text(
@@ -149,8 +135,8 @@ def test_a_module_is_traced_through_all_views(opened):
     expect(panel.at('[data-traced="daughter"]')).to_have_attribute("data-position", "3")
 
 
-def test_a_module_is_traced_by_the_keyboard(opened):
-    panel = opened("J4", 10)
+def test_a_module_is_traced_by_the_keyboard(explored):
+    panel = explored("J4", 10)
     word = panel.at(".lsys-word")
     for key, position in (("ArrowRight", "0"), ("ArrowRight", "1"), ("End", "11"), ("ArrowLeft", "10"), ("Home", "0")):
         word.press(key)
@@ -159,8 +145,8 @@ def test_a_module_is_traced_by_the_keyboard(opened):
     expect(panel.at("[data-traced]")).to_have_count(0)
 
 
-def test_a_cell_of_the_drawing_is_traced_by_the_pointer(opened):
-    panel = opened("J4", 10)
+def test_a_cell_of_the_drawing_is_traced_by_the_pointer(explored):
+    panel = explored("J4", 10)
     canvas = panel.at("canvas")
     box = canvas.bounding_box()
     canvas.click(position={"x": box["width"] / 2 + 17, "y": 38})
@@ -168,13 +154,13 @@ def test_a_cell_of_the_drawing_is_traced_by_the_pointer(opened):
         "Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
 
 
-def test_the_word_of_an_empty_drawing_says_so(opened):
-    panel = opened(read("axiom: A\nA -> A A"), 2)
+def test_the_word_of_an_empty_drawing_says_so(explored):
+    panel = explored(read("axiom: A\nA -> A A"), 2)
     expect(panel.at("canvas")).to_have_attribute("aria-label", re.compile("Drawing of step 2: 4 modules"))
 
 
-def test_play_goes_on_stops_and_begins_again(opened):
-    panel = opened("J1", 8)
+def test_play_goes_on_stops_and_begins_again(explored):
+    panel = explored("J1", 8)
     panel.page.get_by_label("speed", exact=True).select_option("fast")
     panel.page.get_by_role("button", name="play", exact=True).click()
     expect(panel.page.get_by_role("button", name="pause", exact=True)).to_be_visible()
@@ -186,8 +172,8 @@ def test_play_goes_on_stops_and_begins_again(opened):
     assert set(panel.asked) <= {"save"}
 
 
-def test_a_click_into_the_plot_goes_to_a_step(opened):
-    panel = opened("J4", 3)
+def test_a_click_into_the_plot_goes_to_a_step(explored):
+    panel = explored("J4", 3)
     panel.view("how many")
     plot = panel.at(".lsys-counts")
     box = plot.bounding_box()
@@ -196,8 +182,8 @@ def test_a_click_into_the_plot_goes_to_a_step(opened):
     expect(panel.at(".lsys-caption")).to_contain_text("1.3247")
 
 
-def test_nine_seeds_beside_each_other(opened):
-    panel = opened("K7", 3)
+def test_nine_seeds_beside_each_other(explored):
+    panel = explored("K7", 3)
     panel.view("nine seeds")
     tiles = panel.at(".lsys-tile-button")
     expect(tiles).to_have_count(9)
@@ -209,8 +195,8 @@ def test_nine_seeds_beside_each_other(opened):
     assert panel.at("canvas.lsys-canvas").screenshot() != before
 
 
-def test_nine_variants_of_which_one_is_taken_on(opened):
-    panel = opened("K5", 3)
+def test_nine_variants_of_which_one_is_taken_on(explored):
+    panel = explored("K5", 3)
     panel.view("nine variants")
     expect(panel.at(".lsys-tile-button")).to_have_count(9)
     panel.view("rules")
@@ -224,8 +210,8 @@ def test_nine_variants_of_which_one_is_taken_on(opened):
     assert panel.explorer.system == read(rules.input_value()) != before
 
 
-def test_what_is_taken_along(opened):
-    panel = opened("J4", 7)
+def test_what_is_taken_along(explored):
+    panel = explored("J4", 7)
     panel.page.get_by_role("button", name="code").click()
     code = panel.page.get_by_label("to be copied")
     expect(code).to_have_value('explore("J4", 7)')

@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
-from lsys_kit import explore
-from tests.classroom.panel_page import PanelPage, open_panel
+from tests.classroom.panel_page import PanelPage
 
 
 @pytest.fixture
-def opened(browser: Browser):
+def opened(explored):
+    """Opens a panel that asks the kernel for nothing."""
     pages = []
 
-    def open_one(*what, context=None, **choices):
-        pages.append(open_panel(browser, explore(*what, **choices), **(context or {})))
+    def open_one(*what, **more):
+        pages.append(explored(*what, **more))
         return pages[-1]
 
     yield open_one
     for each in pages:
-        assert each.errors == []
         assert set(each.asked) <= {"save"}
-        each.page.context.close()
 
 
 def canvas_of(panel: PanelPage) -> Locator:

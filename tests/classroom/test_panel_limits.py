@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import expect
 
-from lsys_kit import explore
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
-from tests.classroom.panel_page import PanelPage, open_panel
+from tests.classroom.panel_page import PanelPage
 from tests.test_hostile_names import HOSTILE
 
 CONTRASTS = """() => {
@@ -40,24 +39,10 @@ CONTRASTS = """() => {
 }"""
 
 
-@pytest.fixture
-def opened(browser: Browser):
-    pages = []
-
-    def open_one(*what, dark=False, context=None, **choices):
-        pages.append(open_panel(browser, explore(*what, **choices), dark, **(context or {})))
-        return pages[-1]
-
-    yield open_one
-    for each in pages:
-        assert each.errors == []
-        each.page.context.close()
-
-
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize("id", ["J4", "K5", "K19", "P9"])
-def test_every_text_can_be_read(opened, id, dark):
-    panel = opened(id, dark=dark)
+def test_every_text_can_be_read(explored, id, dark):
+    panel = explored(id, dark=dark)
     for title in ("rules", "how many", "nine variants"):
         panel.view(title)
     panel.at("canvas.lsys-canvas").press("n")
@@ -69,8 +54,8 @@ def test_every_text_can_be_read(opened, id, dark):
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_a_mistake_can_be_read(opened, dark):
-    panel = opened("J1", dark=dark)
+def test_a_mistake_can_be_read(explored, dark):
+    panel = explored("J1", dark=dark)
     panel.view("rules")
     panel.page.get_by_label("rules of the model").fill("axiom: a(t)")
     expect(panel.at(".lsys-mistake")).to_contain_text("I do not know")
@@ -85,8 +70,8 @@ def metrics(panel: PanelPage) -> dict[str, float]:
 
 
 @pytest.mark.slow
-def test_two_hundred_panels_made_and_closed_leave_nothing_behind(opened):
-    panel = opened("J4", 9)
+def test_two_hundred_panels_made_and_closed_leave_nothing_behind(explored):
+    panel = explored("J4", 9)
     turn = """async (times) => {
         window.panel?.close();
         for (let i = 0; i < times; i++) {
@@ -106,8 +91,8 @@ def test_two_hundred_panels_made_and_closed_leave_nothing_behind(opened):
 
 
 @pytest.mark.slow
-def test_ten_thousand_moves_of_a_slider_take_no_memory(opened):
-    panel = opened("J4", 9)
+def test_ten_thousand_moves_of_a_slider_take_no_memory(explored):
+    panel = explored("J4", 9)
     turn = """async (times) => {
         for (let i = 0; i < times; i++) {
             host.set("step", i % 21);
@@ -128,8 +113,8 @@ FOREIGN = ".lsys-panel script, .lsys-panel iframe, .lsys-panel img, .lsys-panel 
 
 
 @pytest.mark.parametrize("text", TYPED, ids=ascii)
-def test_what_is_typed_into_the_rules_stays_text(opened, text):
-    panel = opened("J1", 2)
+def test_what_is_typed_into_the_rules_stays_text(explored, text):
+    panel = explored("J1", 2)
     asked = []
     panel.page.on("dialog", lambda dialog: (asked.append(dialog.message), dialog.dismiss()))
     panel.view("rules")
@@ -142,8 +127,8 @@ def test_what_is_typed_into_the_rules_stays_text(opened, text):
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
-def test_a_name_is_shown_as_it_was_given_and_is_no_part_of_the_page(opened, text):
-    panel = opened(LSystem((Pattern(text), Pattern("F")), (Production((Pattern("F"),), (Pattern("F"), Pattern(text))),)), 2)
+def test_a_name_is_shown_as_it_was_given_and_is_no_part_of_the_page(explored, text):
+    panel = explored(LSystem((Pattern(text), Pattern("F")), (Production((Pattern("F"),), (Pattern("F"), Pattern(text))),)), 2)
     panel.at("canvas.lsys-canvas").press("n")
     expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step 2")
     assert panel.page.locator(FOREIGN).count() == 0

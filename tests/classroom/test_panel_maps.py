@@ -11,7 +11,6 @@ from playwright.sync_api import expect
 from lsys_kit import derive, explore, map_system, read_map
 from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.geometry.map_layout import initial_vertices, place_maps
-from tests.classroom.panel_page import open_panel
 from tests.classroom.test_map_book import FLAT
 
 MAPS = """
@@ -50,20 +49,6 @@ UNIT = 8
 @pytest.fixture(scope="module")
 def page(browser):
     return browser.new_page()
-
-
-@pytest.fixture
-def opened(browser):
-    pages = []
-
-    def open_one(*what, **more):
-        pages.append(open_panel(browser, explore(*what), **more))
-        return pages[-1]
-
-    yield open_one
-    for each in pages:
-        assert not each.errors
-        each.page.context.close()
 
 
 def asked(page, code, **given):
@@ -118,8 +103,8 @@ def test_whoever_points_at_the_middle_of_a_wall_finds_it(page, id):
     assert found == [*range(len(found))]
 
 
-def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(opened):
-    panel = opened("K30", 2)
+def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(explored):
+    panel = explored("K30", 2)
     expect(panel.at(".lsys-status")).to_have_text("step 2: 8 points, 10 walls, 3 cells; 4 of 4 stages occupied")
     assert panel.at(".lsys-module").all_inner_texts() == [f"{wall.label}>" for wall in derive(map_system("K30"), 2)[-1].walls]
     assert [panel.at(f"[data-place='{place}']").get_attribute("aria-label") for place in range(4)] == [
@@ -132,8 +117,8 @@ def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(opened):
     assert "book" not in panel.asked
 
 
-def test_directions_and_labels_can_be_left_out(opened):
-    panel = opened("K30", 3)
+def test_directions_and_labels_can_be_left_out(explored):
+    panel = explored("K30", 3)
     seen = [panel.page.evaluate(PIXELS)]
     for name in ("directions", "labels"):
         panel.page.get_by_label(name, exact=True).uncheck()
@@ -146,19 +131,19 @@ def test_directions_and_labels_can_be_left_out(opened):
     assert panel.page.evaluate(PIXELS) == seen[0]
 
 
-def test_walls_that_point_nowhere_have_no_directions_to_be_left_out(opened):
-    panel = opened("K28", 1)
+def test_walls_that_point_nowhere_have_no_directions_to_be_left_out(explored):
+    panel = explored("K28", 1)
     expect(panel.page.get_by_label("labels", exact=True)).to_be_visible()
     expect(panel.page.get_by_label("directions", exact=True)).to_be_hidden()
 
 
-def test_a_panel_of_cells_has_no_signs_of_walls(opened):
-    panel = opened("J4", 3)
+def test_a_panel_of_cells_has_no_signs_of_walls(explored):
+    panel = explored("J4", 3)
     assert panel.page.get_by_label("labels", exact=True).count() == 0
 
 
-def test_a_wall_is_traced_to_its_mother_and_its_daughters(opened):
-    panel = opened("K30", 1)
+def test_a_wall_is_traced_to_its_mother_and_its_daughters(explored):
+    panel = explored("K30", 1)
     panel.view("rules")
     panel.at("[data-position='0']").click()
     expect(panel.at(".lsys-sentence")).to_have_text(
@@ -172,8 +157,8 @@ def test_a_wall_is_traced_to_its_mother_and_its_daughters(opened):
     expect(panel.at("[data-traced='mother']")).to_have_text(["A>", "C>"])
 
 
-def test_a_wall_of_the_drawing_is_traced_by_a_click(opened):
-    panel = opened("K28", 0)
+def test_a_wall_of_the_drawing_is_traced_by_a_click(explored):
+    panel = explored("K28", 0)
     box = panel.at("canvas.lsys-canvas").bounding_box()
     found = set()
     for across, up in ((0, -1), (1, 0), (0, 1), (-1, 0)):
@@ -184,8 +169,8 @@ def test_a_wall_of_the_drawing_is_traced_by_a_click(opened):
     expect(panel.at(".lsys-module[data-traced='self']")).to_have_text("B")
 
 
-def test_a_force_that_is_moved_asks_for_another_book_and_changes_the_map(opened):
-    panel = opened("K29", 3)
+def test_a_force_that_is_moved_asks_for_another_book_and_changes_the_map(explored):
+    panel = explored("K29", 3)
     before = panel.page.evaluate(PIXELS)
     box = panel.page.get_by_role("textbox", name="pressure")
     box.fill("0.8")
@@ -197,8 +182,8 @@ def test_a_force_that_is_moved_asks_for_another_book_and_changes_the_map(opened)
     panel.page.wait_for_function(f"{PIXELS} === {before!r}")
 
 
-def test_rules_of_a_map_are_broken_and_mended_in_the_editor(opened):
-    panel = opened("K28", 2)
+def test_rules_of_a_map_are_broken_and_mended_in_the_editor(explored):
+    panel = explored("K28", 2)
     panel.view("rules")
     editor = panel.at("textarea.lsys-rules")
     text = map_system("K28").source
@@ -217,22 +202,22 @@ def test_rules_of_a_map_are_broken_and_mended_in_the_editor(opened):
 
 
 @pytest.mark.parametrize("dark", [False, True])
-def test_marked_walls_are_marked_in_word_and_drawing(opened, dark):
-    panel = opened("K32", 8, dark=dark)
+def test_marked_walls_are_marked_in_word_and_drawing(explored, dark):
+    panel = explored("K32", 8, dark=dark)
     before = panel.page.evaluate(PIXELS)
     panel.page.get_by_label("mark", exact=True).select_option("V")
     expect(panel.at(".lsys-marked")).to_have_text(["V>"] * 4)
     panel.page.wait_for_function(f"{PIXELS} !== {before!r}")
 
 
-def test_playing_ends_at_the_last_step(opened):
-    panel = opened("K30", 10)
+def test_playing_ends_at_the_last_step(explored):
+    panel = explored("K30", 10)
     panel.page.get_by_role("button", name="play", exact=True).click()
     expect(panel.at(".lsys-status")).to_contain_text("step 12: 28 points, 40 walls, 13 cells")
     expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-step", "12")
 
 
-def test_a_page_without_a_kernel_shows_a_map(opened, browser, tmp_path):
+def test_a_page_without_a_kernel_shows_a_map(explored, browser, tmp_path):
     file = tmp_path / "map.html"
     panel = explore("K29", 2)
     panel.pressure = 0.5
