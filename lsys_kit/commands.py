@@ -19,6 +19,7 @@ from lsys_kit.files import create_file
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.notation.model.maps import MapSystem
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.films import Film
     from lsys_kit.pictures.picture import Picture
@@ -136,12 +137,10 @@ def convert(options: argparse.Namespace) -> None:
 
 def print_link(options: argparse.Namespace) -> None:
     """Print the address of a model with its settings, and perhaps write it as a QR code."""
-    from lsys_kit.classroom.catalogue import is_map_system, map_system
     from lsys_kit.classroom.link import link
     from lsys_kit.pictures.qr_codes import qr_code
 
-    system = map_system(options.system) if is_map_system(options.system) else \
-        _named_system(options.system, options.notation, options.name)
+    system = _system_or_map(options)
     own = {"step": options.steps, "angle": options.angle, "seed": options.seed}
     settings = {name: value for name, value in own.items() if value is not None} | dict(options.settings)
     address = link(system, settings, options.base)
@@ -152,14 +151,16 @@ def print_link(options: argparse.Namespace) -> None:
 
 def write_page(options: argparse.Namespace) -> None:
     """Write the panel of a system into an HTML file that needs no kernel, and print what it shows first."""
-    from lsys_kit.classroom.panel.page import page, page_data, save_page
-    from lsys_kit.classroom.panel.view_model import ViewModel
+    from lsys_kit.classroom.panel.opened.kinds import opened
+    from lsys_kit.classroom.panel.opened.opened import Viewing
+    from lsys_kit.classroom.panel.page import page, save_page
 
-    system, constants = _named_system(options.system, options.notation, options.name), dict(options.settings)
-    seed, (id, title) = options.seed, _titles(options.system)
-    data = page_data(system, constants, seed or system.seed or 0, title=id, step=options.steps, angle=options.angle)
-    sight = ViewModel(system, seed).sight(data["model"]["step"], constants, data["model"]["angle"])
-    save_page(options.output, page(title, data, str(sight)))
+    system, (id, title) = _system_or_map(options), _titles(options.system)
+    what, seed = opened(system, id, dict(options.settings)), options.seed or getattr(system, "seed", None) or 0
+    chosen = Viewing(what.steps if options.steps is None else options.steps, what.first, seed, what.turned(options.angle))
+    data = what.page_data(chosen)
+    sight = what.sight(replace(chosen, step=data["model"]["step"]))
+    save_page(options.output, page(title or what.kind, data, str(sight)))
     print(f"{sight} {data['model']['fixed']}".strip())
 
 
@@ -171,7 +172,7 @@ def _titles(name: str) -> tuple[str, str]:
     try:
         known = entry(name)
     except ModelNameError:
-        return "", "L-system" if name == "-" or is_link(name) else Path(name).stem
+        return "", "" if name == "-" or is_link(name) else Path(name).stem
     return known.id, f"{known.id}: {known.title}"
 
 
@@ -201,6 +202,14 @@ def _system_with_constants(options: argparse.Namespace) -> LSystem:
     return replace(system, constants=tuple(
         replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
         for constant in system.constants))
+
+
+def _system_or_map(options: argparse.Namespace) -> LSystem | MapSystem:
+    """The system that the command line names, or the map system of the catalogue."""
+    from lsys_kit.classroom.catalogue import is_map_system, map_system
+
+    return map_system(options.system) if is_map_system(options.system) else \
+        _named_system(options.system, options.notation, options.name)
 
 
 def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem:

@@ -264,10 +264,16 @@ def test_page_takes_models_of_files_and_links_and_says_what_it_fixes(shell, mode
     assert shell("page", shell("link", "K5").out.strip(), "-n", "2", "-o", str(tmp_path / "a.html")).status == 0
 
 
+def test_page_shows_a_map_too(shell, tmp_path):
+    said = shell("page", "K28", "-n", "2", "-o", str(tmp_path / "a.html"))
+    assert said.out.startswith("Step 2: ")
+    assert said.out.endswith("Fixed on this page: stiffness = 1, rest = 0.1, pressure = 0.1, damping = 1.\n")
+
+
 def test_page_refuses_what_it_cannot_show(shell, tmp_path):
     target = str(tmp_path / "a.html")
     refused(shell("page", "J4", "-o", "j4.htm"), "j4.htm", "end in .html")
-    refused(shell("page", "K28", "-o", target), "map system")
+    refused(shell("page", "K34", "-o", target), "not on a sphere")
     refused(shell("page", "J4", "--set", "lifeTimeA=99", "-o", target), "outside its slider's range")
     refused(shell("page", "J4", "--angle", "x", "-o", target), "x")
     assert not Path(target).exists()
@@ -307,10 +313,11 @@ def test_a_converted_model_goes_into_a_new_file(shell, tmp_path):
     assert path.read_text(encoding="utf-8") == shell("convert", "K5", "--to", "abop").out
 
 
-def test_a_file_that_is_there_is_never_overwritten(shell, model, tmp_path):
-    path = model("mine\n", "mine.txt")
-    refused(shell("convert", "K5", "--to", "abop", "--output", path), f'"{path}" already exists', "overwritten")
-    assert Path(path).read_text() == "mine\n"
+def test_a_file_that_is_there_is_never_overwritten(shell, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("mine.txt").write_text("mine\n")
+    refused(shell("convert", "K5", "--to", "abop", "--output", "mine.txt"), '"mine.txt" already exists', "overwritten")
+    assert Path("mine.txt").read_text() == "mine\n"
     (tmp_path / "link").symlink_to(tmp_path / "nowhere")
     refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path / "link")), "already exists")
     refused(shell("convert", "K5", "--to", "abop", "--output", str(tmp_path)), "already exists")

@@ -19,7 +19,19 @@ from hypothesis import strategies as st
 from playwright.sync_api import Browser, Page, expect
 
 import lsys_kit.classroom.panel.page as panel_page
-from lsys_kit import ModelFileError, ModelNameError, ModelValueError, derive, limits, link, linked, read, system, systems
+from lsys_kit import (
+    ModelFileError,
+    ModelNameError,
+    ModelValueError,
+    derive,
+    explore,
+    limits,
+    link,
+    linked,
+    read,
+    system,
+    systems,
+)
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.page import deflated, live_constants, page, page_data, save_page, shared
 from lsys_kit.notation.fragments import unpacked
@@ -232,6 +244,24 @@ def test_steps_and_constants_are_moved_without_a_kernel(opened, j4: str) -> None
         press(shown, moved, "ArrowRight")
         word = str(derive(system("J4"), 10, lifeTimeA=a, lifeTimeB=b)[-1])
         expect(shown.locator(".lsys-word")).to_have_text(word.replace(" ", ""))
+
+
+@pytest.mark.parametrize("id", ["J4", "K5", "K19", "K7", "P5", "K28"])
+def test_texts_and_counts_of_a_page_are_those_of_the_kernel(opened, tmp_path: Path, id: str) -> None:
+    panel = explore(id)
+    panel.save(tmp_path / "saved.html")
+    shown, steps = opened((tmp_path / "saved.html").read_text("utf-8")), panel.model["book"]["steps"]
+    made = derive(panel.system, min(steps, 8)) if id == "K28" else derive(panel.system, min(steps, 8), seed=0)
+    for step, word in enumerate(made):
+        shown.get_by_label("step", exact=True).fill(str(step))
+        shown.get_by_label("step", exact=True).press("Enter")
+        texts = [wall.label for wall in word.walls] if id == "K28" else [*map(str, word)]
+        status(shown).to_contain_text(f"step {step}: ")
+        many = f"{len(texts):,} {'wall' if id == 'K28' else 'module'}{'s' * (len(texts) != 1)}"
+        status(shown).to_contain_text(many)
+        if len(texts) <= 240:
+            chips = shown.locator(".lsys-word [data-position]").all_inner_texts()
+            assert [chip.replace("\n", "") for chip in chips] == texts
 
 
 @pytest.mark.slow

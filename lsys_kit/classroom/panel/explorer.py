@@ -25,7 +25,7 @@ from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
-from lsys_kit.classroom.panel.page import save_page
+from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.fragments import is_link
@@ -175,7 +175,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     def _page(self) -> str:
         with self._limited():  # each book is a task of its own
-            return self._opened.page(self._chosen)
+            return page(self._opened.title or self._opened.kind, self._opened.page_data(self._chosen), self.text)
 
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:

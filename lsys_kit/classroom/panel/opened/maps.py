@@ -12,7 +12,7 @@ from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
 from lsys_kit.classroom.panel.books.maps import MapsAtRest, map_book, maps_at_rest, steps_of
 from lsys_kit.classroom.panel.opened.opened import Viewing
-from lsys_kit.classroom.panel.page import deflated, kept_text, page, shared
+from lsys_kit.classroom.panel.page import deflated, kept_text, shared
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.map_layout import scenes
@@ -76,7 +76,7 @@ class OpenedMap:
         There is no such force, or it is too small or too great; or the map covers a sphere.
     """
 
-    hint = "the force of cells and walls:"
+    hint, kind = "the force of cells and walls:", "map L-system"
 
     def __init__(self, system: MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
         if system.sphere:
@@ -115,15 +115,14 @@ class OpenedMap:
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
 
-    def page(self, chosen: Viewing) -> str:
-        """A page on which the forces stay as they are: cells come to rest in the kernel."""
+    def page_data(self, chosen: Viewing) -> dict[str, Any]:
+        """On a page the forces stay as they are: cells come to rest in the kernel."""
         made = self.book(chosen.values, 0, chosen.step)
         fixed = made["settings"]
         model = {"constants": [], "chance": False, "fixed": kept_text(fixed, None), "step": min(chosen.step, made["steps"]),
                  "angle": 0, "around": 0, "above": 0, "seed": 0}
         own = {"notation": MAP.name, "text": str(self.system), "angle": 0}
-        data = {"model": model, "mode": "map", "system": own, "fixed": fixed, "books": deflated(shared([made]))}
-        return page(self.title or "A map L-system", data, str(self.sight(chosen)))
+        return {"model": model, "mode": "map", "system": own, "fixed": fixed, "books": deflated(shared([made]))}
 
     def link(self, chosen: Viewing) -> str:
         return link(self.system, {STEP: chosen.step, **chosen.values})

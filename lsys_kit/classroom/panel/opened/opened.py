@@ -20,9 +20,9 @@ class Viewing:
     values: Mapping[str, Value]
     seed: int
     angle: float
-    around: int
-    above: int
-    mark: str
+    around: int = 0
+    above: int = 0
+    mark: str = ""
 
 
 class Sight(Protocol):
@@ -45,6 +45,8 @@ class Opened(Protocol):
         For each slider its first value, and all its values.
     hint
         What the sliders are, for a tip: "the constant".
+    kind
+        What its page is called, if it is not in the catalogue.
     """
 
     system: Any
@@ -52,6 +54,7 @@ class Opened(Protocol):
     first: Mapping[str, Value]
     values: Mapping[str, Sequence[Value]]
     hint: str
+    kind: str
 
     @property
     def steps(self) -> int:
@@ -85,8 +88,8 @@ class Opened(Protocol):
         """A picture of it for a page without a kernel, by the type of the data: in base 64, or SVG text."""
         ...
 
-    def page(self, chosen: Viewing) -> str:
-        """A page that shows it without a kernel."""
+    def page_data(self, chosen: Viewing) -> dict[str, Any]:
+        """What a page that shows it without a kernel has to know."""
         ...
 
     def link(self, chosen: Viewing) -> str:

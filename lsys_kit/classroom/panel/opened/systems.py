@@ -12,7 +12,7 @@ from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
 from lsys_kit.classroom.panel.opened.opened import Viewing
-from lsys_kit.classroom.panel.page import page, page_data
+from lsys_kit.classroom.panel.page import page_data
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
@@ -34,7 +34,7 @@ class OpenedSystem:
         A constant is unknown, or its value lies outside of its slider's range.
     """
 
-    hint = "the constant"
+    hint, kind = "the constant", "L-system"
 
     def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
         self.system, self.title = system, title
@@ -71,10 +71,9 @@ class OpenedSystem:
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
 
-    def page(self, chosen: Viewing) -> str:
-        data = page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
+    def page_data(self, chosen: Viewing) -> dict[str, Any]:
+        return page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
                          angle=chosen.angle, around=chosen.around, above=chosen.above)
-        return page(self.title or "An L-system", data, str(self.sight(chosen)))
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
