@@ -253,9 +253,10 @@ def supervised() -> Iterator[None]:
     program again, unless that is written for it, and in a browser there are none.
 
     An error may be swallowed there, as in a finalizer, or by the garbage collector; then it is raised again, but not so soon
-    that what is put in order on the way out is disturbed.
+    that what is put in order on the way out is disturbed. Nothing is printed of the one that was swallowed.
     """
     now, left, before, tracer = _task.get(), CALLS_BETWEEN_CHECKS, sys.getprofile(), sys.gettrace()
+    report = sys.unraisablehook
     if now is None:
         yield
         return
@@ -277,6 +278,11 @@ def supervised() -> Iterator[None]:
         sys.settrace(tracer)
         sys.setprofile(look)
 
+    def report_others(swallowed: sys.UnraisableHookArgs) -> None:
+        if not isinstance(swallowed.exc_value, _UsedUp):
+            report(swallowed)
+
+    sys.unraisablehook = report_others
     sys.setprofile(look)
     try:
         yield
@@ -284,6 +290,7 @@ def supervised() -> Iterator[None]:
         raise used_up.error from None
     finally:
         sys.setprofile(before)
+        sys.unraisablehook = report
         if sys.gettrace() is go_on:
             sys.settrace(tracer)
 

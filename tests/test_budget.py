@@ -107,10 +107,17 @@ def test_what_knows_of_no_budget_is_supervised() -> None:
     assert sys.getprofile() is before
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_an_error_that_a_finalizer_swallows_is_raised_again() -> None:
-    """The library works on, until it makes more calls than a person waits for; what it leaves is put in order."""
-    put_in_order = []
+def test_an_error_that_a_finalizer_swallows_is_raised_again_and_not_printed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The library works on, until it makes more calls than a person waits for; what it leaves is put in order. Its own errors
+    are still reported."""
+    put_in_order: list[str] = []
+    printed: list[type[BaseException]] = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda swallowed: printed.append(swallowed.exc_type))
+    reported = sys.unraisablehook
+
+    class Wrong:
+        def __del__(self) -> None:
+            raise ValueError
 
     class Finalized:
         def __del__(self) -> None:
@@ -118,6 +125,7 @@ def test_an_error_that_a_finalizer_swallows_is_raised_again() -> None:
                 abs(-1)
 
     def endless() -> None:
+        Wrong()
         Finalized()
         try:
             for _ in range(10**7):
@@ -130,3 +138,4 @@ def test_an_error_that_a_finalizer_swallows_is_raised_again() -> None:
         endless()
     assert len(put_in_order) == 100
     assert (sys.getprofile(), sys.gettrace()) == hooks
+    assert (printed, sys.unraisablehook) == ([ValueError], reported)
