@@ -154,6 +154,33 @@ def test_a_cell_of_the_drawing_is_traced_by_the_pointer(explored):
         "Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
 
 
+def test_what_the_mouse_is_on_is_lit_until_it_leaves(explored):
+    panel = explored("J4", 10)
+    canvas = panel.at("canvas")
+    box = canvas.bounding_box()
+    for target, self in ((panel.at('.lsys-module[data-position="2"]'), "2"), (panel.at('.lsys-module[data-position="5"]'), "5")):
+        target.hover()
+        expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", self)
+        expect(panel.at(".lsys-sentence")).to_contain_text(f"Module {int(self) + 1} of step 10")
+    canvas.hover(position={"x": box["width"] / 2 + 17, "y": 38})
+    expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step 0, Al(1) stands in the axiom")
+    panel.at(".lsys-status").hover()
+    expect(panel.at(".lsys-sentence")).to_have_text("")
+    expect(panel.at("[data-traced]")).to_have_count(0)
+    stage = panel.at(".lsys-stage").first
+    stage.hover()
+    expect(stage).to_have_class(re.compile("lsys-lit"))
+    expect(stage).to_have_attribute("aria-pressed", "false")
+
+
+def test_what_was_clicked_stays_lit_wherever_the_mouse_is(explored):
+    panel = explored("J4", 10)
+    panel.at('.lsys-module[data-position="2"]').click()
+    panel.at('.lsys-module[data-position="5"]').hover()
+    panel.at(".lsys-status").hover()
+    expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", "2")
+
+
 def test_the_word_of_an_empty_drawing_says_so(explored):
     panel = explored(read("axiom: A\nA -> A A"), 2)
     expect(panel.at("canvas")).to_have_attribute("aria-label", re.compile("Drawing of step 2: 4 modules"))

@@ -1,7 +1,7 @@
 // The drawing of a step on a canvas: a filament's rows, or what the turtle draws, turned, moved and brought nearer by the browser alone.
 
 import { made } from "../views/controls.js";
-import { onKey } from "../views/keys.js";
+import { onKey, onMouse } from "../views/keys.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
 import { rowBetween, strokesBetween } from "./gliding.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
@@ -17,7 +17,7 @@ const GLIDE = 350; // milliseconds from one step to the next
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
-// `told` has { view(), turned(around, above), traced(step, position) }.
+// `told` has { view(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
 export function drawingView(parent, told) {
   const canvas = made("canvas", { class: "lsys-canvas", tabindex: 0, role: "img" });
   const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
@@ -33,7 +33,7 @@ export function drawingView(parent, told) {
     [near, shift, glide] = [1, [0, 0], null];
     const turning = inSpace() ? "Drag or arrow keys turn it. " : "";
     hint.textContent = `${turning}Plus, minus or the wheel bring it nearer, ${inSpace() ? "Shift and arrows" : "arrows"} move it, Home puts it back. `
-      + `Click a ${{ filament: "cell", map: "wall" }[book.data.mode] ?? "part"} to trace it; N and P go to the next and the one before.`;
+      + `Point at a ${{ filament: "cell", map: "wall" }[book.data.mode] ?? "part"} or click it to trace it; N and P go to the next and the one before.`;
     canvas.classList.toggle("lsys-turned", inSpace());
     if (isMap() && !signs) hint.before((signs = wallSigns(() => draw())).element);
     signs?.offer(book);
@@ -189,13 +189,12 @@ export function drawingView(parent, told) {
     else turn(arrow[0] * TURN, arrow[1] * TURN);
   }
 
-  function trace(event) {
+  // The step and the position of the module that is drawn where the pointer is.
+  function moduleAt(event) {
     const { x, y } = placeOf(event);
-    if (isFilament()) {
-      const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
-      if (cell) told.traced(cell.step, cell.position);
-      else told.traced(now.step, -1);
-    } else told.traced(now.step, shapeAt(shapes, frame, x, y, REACH));
+    if (!isFilament()) return [now.step, fault ? -1 : shapeAt(shapes, frame, x, y, REACH)];
+    const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
+    return cell ? [cell.step, cell.position] : [now.step, -1];
   }
 
   function placeOf(event) {
@@ -236,9 +235,10 @@ export function drawingView(parent, told) {
 
   const released = (event) => {
     pointers.delete(event.pointerId);
-    if (event.type === "pointerup" && pressed?.still) trace(event);
+    if (event.type === "pointerup" && pressed?.still) told.traced(...moduleAt(event));
     pressed = null;
   };
+  onMouse(canvas, (event) => now && !glide && told.pointed(...(event ? moduleAt(event) : [now.step, -1])));
   canvas.addEventListener("pointerup", released);
   canvas.addEventListener("pointercancel", released);
   canvas.addEventListener("wheel", (event) => {

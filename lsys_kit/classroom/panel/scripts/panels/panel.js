@@ -28,7 +28,7 @@ export function openPanel(element, host, compared = null) {
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
   const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, shownTheme = "", boxed = null, underway = null;
+  let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
   let constants = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
@@ -54,12 +54,13 @@ export function openPanel(element, host, compared = null) {
   const view = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", !compared],
     ["drawing", "drawing", true], ["counts", "how many", false], ["seeds", "nine seeds", false], ["variants", "nine variants", false]], () => show());
   const rules = rulesView(view.rules.body, (text) => newRules(text));
-  const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way));
-  const net = netView(view.stages.body, (place) => toggleMark(place));
+  const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way), (position) => point({ step: host.get("step"), position }));
+  const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
   const drawing = drawingView(view.drawing.body, {
     view: () => [host.get("around"), host.get("above")],
     turned: (right, up) => change({ around: right, above: up }),
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
+    pointed: (at, position) => point({ step: at, position }),
   });
   const counts = countsView(view.counts.body, goTo);
   const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
@@ -139,7 +140,7 @@ export function openPanel(element, host, compared = null) {
 
   function turnTo(next) {
     book = next;
-    traced = null;
+    traced = pointed = null;
     theme = themeOf(root);
     shownTheme = JSON.stringify(theme);
     host.set("step", Math.min(wanted, book.steps)); // a setting with fewer steps does not forget which was wanted
@@ -169,10 +170,22 @@ export function openPanel(element, host, compared = null) {
     if (traced && at === host.get("step")) word.reveal(position);
   }
 
+  // What the mouse is on, { step, position } or { place }, is lit until it leaves, unless something was chosen by a click.
+  function point(at) {
+    const next = at.position >= 0 || at.place >= 0 ? at : null;
+    if (JSON.stringify(next) === JSON.stringify(pointed)) return;
+    pointed = next;
+    light();
+  }
+
+  const followed = () => traced ?? (pointed?.position >= 0 ? pointed : null);
+  const chosen = () => place(host.get("mark"))?.place ?? pointed?.place ?? -1;
+
   // -- what is seen ---------------------------------------------------------------------------------------------------
 
   function show() {
     if (!book) return;
+    pointed = null;
     const now = Math.min(host.get("step"), book.steps), tokens = book.tokens(now);
     step.show(now);
     angle.show(Math.round(host.get("angle") * 10));
@@ -200,8 +213,8 @@ export function openPanel(element, host, compared = null) {
   }
 
   function look() {
-    const marked = place(host.get("mark")), now = host.get("step");
-    const states = new Set(book.data.states.flatMap((state, i) => (marked && state[2] === marked.place ? [i] : [])));
+    const marked = chosen(), traced = followed(), now = host.get("step");
+    const states = new Set(book.data.states.flatMap((state, i) => (state[2] === marked ? [i] : [])));
     return { theme, marked: states, lit: litAt(book, traced, now), litAt: (at) => litAt(book, traced, at), current: now };
   }
 
@@ -213,10 +226,10 @@ export function openPanel(element, host, compared = null) {
 
   // Light what is marked and traced everywhere but in the drawing.
   function lightAround(looks) {
-    const states = book.word(looks.current);
+    const states = book.word(looks.current), traced = followed();
     word.light(looks.marked, looks.lit);
     const lit = new Set([...looks.lit.keys()].map((position) => book.data.states[states[position]][2]));
-    net.light(place(host.get("mark"))?.place ?? -1, lit);
+    net.light(place(host.get("mark"))?.place ?? -1, lit, pointed?.place ?? -1);
     rules.light(placesOf(book, traced));
     sentence.textContent = traced ? told(book, traced) : "";
   }

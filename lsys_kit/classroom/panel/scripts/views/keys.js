@@ -1,4 +1,4 @@
-// Keys that are pressed in a panel are the panel's: a notebook that listens to the whole page would take the arrows for its cells.
+// Keys and the mouse. Keys that are pressed in a panel are the panel's: a notebook that listens to the whole page would take the arrows for its cells.
 
 const handlers = new WeakMap();
 
@@ -20,4 +20,20 @@ export function ownKeys(root) {
   };
   window.addEventListener("keydown", pressed, true);
   return () => window.removeEventListener("keydown", pressed, true);
+}
+
+// Call a handler where the mouse moves over an element with no button pressed, once for each frame, and with null when it leaves.
+// A finger does not point before it touches.
+export function onMouse(element, handler) {
+  let latest = null, waiting = 0;
+  const later = (event) => {
+    if (event && (event.pointerType !== "mouse" || event.buttons)) return;
+    latest = event;
+    waiting = waiting || requestAnimationFrame(() => {
+      waiting = 0;
+      if (element.isConnected) handler(latest);
+    });
+  };
+  element.addEventListener("pointermove", later);
+  element.addEventListener("pointerleave", () => later(null));
 }

@@ -2,12 +2,13 @@
 
 import { drawn } from "./controls.js";
 import { fillColour, lineColour } from "../drawing/colours.js";
-import { onKey } from "./keys.js";
+import { onKey, onMouse } from "./keys.js";
 
 const LEGIBLE = 0.82; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
 
-export function netView(parent, chosen) {
+// `chosen` learns of the place that was clicked, `pointed` of the one that the mouse is on, or of -1.
+export function netView(parent, chosen, pointed) {
   let net, places = new Map();
 
   function open(next, theme) {
@@ -45,6 +46,7 @@ export function netView(parent, chosen) {
       drawn("title", {}, place.name), ring, circle, label, tokens);
     const toggle = () => chosen(place.place);
     group.addEventListener("click", toggle);
+    onMouse(group, (event) => pointed(event ? place.place : -1));
     onKey(group, (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
       event.preventDefault();
@@ -64,10 +66,10 @@ export function netView(parent, chosen) {
     }
   }
 
-  function light(marked, lit) {
+  function light(marked, lit, under) {
     for (const [number, { group }] of places) {
       group.setAttribute("aria-pressed", String(number === marked));
-      group.classList.toggle("lsys-lit", lit.has(number));
+      group.classList.toggle("lsys-lit", lit.has(number) || number === under);
     }
   }
 

@@ -1,11 +1,12 @@
 // The word of a step: each module on the tint of its symbol; a long word without its middle.
 
 import { made } from "./controls.js";
-import { onKey } from "./keys.js";
+import { onKey, onMouse } from "./keys.js";
 
 const MOST = 240; // modules that are shown
 
-export function wordView(parent, told) {
+// `told` learns of the module that was chosen, `pointed` of the one that the mouse is on, or of -1.
+export function wordView(parent, told, pointed) {
   const box = made("div", { class: "lsys-word", tabindex: 0, role: "application", "aria-roledescription": "word" });
   const help = "Arrow keys go from module to module; Escape ends that.";
   parent.append(box);
@@ -49,10 +50,11 @@ export function wordView(parent, told) {
     for (const [position, element] of chips) element.classList.toggle("lsys-different", positions.has(position));
   }
 
+  const moduleAt = (event) => Number(event.target.closest("[data-position]")?.dataset.position ?? -1);
   box.addEventListener("click", (event) => {
-    const found = event.target.closest("[data-position]");
-    if (found) told(Number(found.dataset.position));
+    if (moduleAt(event) >= 0) told(moduleAt(event));
   });
+  onMouse(box, (event) => pointed(event ? moduleAt(event) : -1));
   onKey(box, (event) => {
     const way = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 10, ArrowUp: -10 }[event.key];
     if (!way && !["Home", "End", "Escape"].includes(event.key)) return;
