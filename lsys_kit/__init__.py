@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from lsys_kit.budget import limits
     from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
+    from lsys_kit.classroom.lessons.predict import predict
+    from lsys_kit.classroom.lessons.vote import vote
+    from lsys_kit.classroom.lessons.worksheet import worksheet
     from lsys_kit.classroom.link import link, linked
     from lsys_kit.classroom.panel.comparison import compare
     from lsys_kit.classroom.panel.explorer import explore
@@ -61,11 +64,11 @@ _HOMES = {
     "growth": "derivation.growth.growth", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
-    "qr_code": "pictures.qr_codes",
+    "predict": "classroom.lessons.predict", "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
     "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
-    "variants": "classroom.variants",
+    "variants": "classroom.variants", "vote": "classroom.lessons.vote", "worksheet": "classroom.lessons.worksheet",
     "write": "notation.write",
 }
 
@@ -96,6 +99,7 @@ __all__ = [
     "map_system",
     "map_systems",
     "pnml",
+    "predict",
     "qr_code",
     "read",
     "read_cellwork",
@@ -105,6 +109,8 @@ __all__ = [
     "systems",
     "timed",
     "variants",
+    "vote",
+    "worksheet",
     "write",
 ]
 

@@ -89,6 +89,6 @@ def _scripts() -> Mapping[str, Traversable]:
 
 
 @cache
-def style() -> str:
-    """The style of the panel."""
-    return (files(__package__) / "scripts" / "panel.css").read_text(encoding="utf-8")
+def style(name: str = "panel") -> str:
+    """The style of a sheet, after the colours that all share."""
+    return "".join((files(__package__) / "scripts" / f"{each}.css").read_text(encoding="utf-8") for each in ("colours", name))

@@ -1,0 +1,107 @@
+"""Predict, then reveal: a question with a box, and what answers it appears only after something was typed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import traitlets
+from ipywidgets import VBox, Widget
+
+from lsys_kit.classroom.lessons.displayed import forget_figure, media, widget
+from lsys_kit.classroom.lessons.widget import MOST_TYPED, LessonWidget, boxed_html, prose_html, prose_text
+from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.errors import ModelValueError, shown
+
+_STORED = ("image/svg+xml", "image/png", "text/latex")
+"""What a stored notebook keeps of what is revealed, beside its HTML and its text."""
+
+
+def predict(question: str, what: object) -> Prediction:
+    """Ask a question, and show what answers it only after something was typed, or on request.
+
+    Whatever is typed will do, and none of it is judged: it stays beside what is then shown.
+
+    Parameters
+    ----------
+    question
+        A sentence; a part between backticks is code.
+    what
+        Anything that a notebook can show: a panel, a picture, a derivation, a text.
+
+    Raises
+    ------
+    ModelValueError
+        The question is no text.
+
+    Examples
+    --------
+    >>> predict("How many cells has step 6?", "21 cells")
+    How many cells has step 6?
+    21 cells
+    """
+    if not isinstance(question, str) or not question.strip():
+        raise ModelValueError(f'A question must be a text such as "How many cells has step 6?", not {shown(question)}')
+    return Prediction(question.strip(), what)
+
+
+class Prompt(LessonWidget):
+    """The question of a prediction, and the box for it.
+
+    Attributes
+    ----------
+    typed
+        The prediction; empty before there is one, or where there was none.
+    revealed
+        Whether the answer is to be shown.
+    """
+
+    _esm = bundled("prediction")
+    _css = style("lessons")
+    question = traitlets.Unicode().tag(sync=True)
+    typed = traitlets.Unicode().tag(sync=True)
+    revealed = traitlets.Bool(False).tag(sync=True)
+
+    @traitlets.validate("typed")
+    def _shortened(self, proposal: Any) -> str:
+        return str(proposal["value"])[:MOST_TYPED]
+
+    def __repr__(self) -> str:
+        return prose_text(self.question)
+
+
+class Prediction(VBox):  # type: ignore[misc]
+    """The question that `predict` asks, and below it, once it is revealed, what answers it.
+
+    Attributes
+    ----------
+    prompt
+        The question and the box: what was typed is `prompt.typed`.
+    """
+
+    def __init__(self, question: str, what: object) -> None:
+        self.prompt, self._what = Prompt(question=question), what
+        self._media = media(what)
+        forget_figure(what)
+        super().__init__([self.prompt])
+        self.prompt.observe(self._reveal, "revealed")
+
+    def _reveal(self, _: object) -> None:
+        if len(self.children) == 1:
+            self.children = (self.prompt, widget(self._what))
+
+    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+        """The live question; for a page without a kernel the question with its answer."""
+        bundle = super()._repr_mimebundle_(**options)
+        pictures = {kind: self._media[kind] for kind in _STORED if kind in self._media}
+        asked = {"text/html": boxed_html(f"<p>{prose_html(self.prompt.question)}</p>") + self._media["text/html"]
+                 } if "text/html" in self._media else {}
+        return {**dict(bundle or {}), **pictures, **asked, "text/plain": repr(self)}
+
+    def close(self) -> None:
+        """Close the question, and what it shows."""
+        for each in (self.prompt, *([self._what] if isinstance(self._what, Widget) else [])):
+            each.close()
+        super().close()
+
+    def __repr__(self) -> str:
+        return f"{self.prompt!r}\n{self._media['text/plain']}"

@@ -1,0 +1,157 @@
+"""Voting: the question with which a lesson begins, asked again at its end.
+
+The first time nothing says whether the choice is right. It is kept as long as the kernel lives, and shown when the question
+comes again; only then is there a reply.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+import traitlets
+
+from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
+from lsys_kit.classroom.lessons.declared import lesson
+from lsys_kit.classroom.lessons.lesson import Vote
+from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
+from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.errors import require
+from lsys_kit.pictures.draw import draw
+from lsys_kit.pictures.formats.notebook import svg_bundle
+
+LETTERS = "ABCD"
+"""The names of the options."""
+NONE = -1
+"""No option has been chosen."""
+
+
+def vote(number: str, again: bool = False) -> VoteBox:
+    """The question of a lesson with its four options, to vote for one of them.
+
+    Parameters
+    ----------
+    number
+        The number of the lesson, such as "01".
+    again
+        Whether this is the second vote, which shows the first one and replies to the choice.
+
+    Raises
+    ------
+    ModelNameError
+        There is no such lesson.
+
+    Examples
+    --------
+    >>> vote("01")
+    The rules are a -> ab and b -> a, and the first word is a. In each step all cells live through the same hour. Which \
+program grows the filament?
+      A  Program 1: a, aa, aaaa. An a makes a b, and a b becomes an a, so each a becomes aa.
+      B  Program 2: a, ab, abb. In each step one rule replaces one cell.
+      C  Program 3: a, ab, aba. Whatever was there before the step is replaced, and nothing else.
+      D  More than one of them: it depends on which rule is written first.
+    """
+    found = lesson(number)
+    require(again, bool, 'True or False for "again"')
+    return VoteBox(found.vote, _ballot(found.number), again)
+
+
+class Ballot(traitlets.HasTraits):  # type: ignore[misc]
+    """The two votes on one question: the numbers of the options, from 0 on."""
+
+    first = traitlets.Int(NONE)
+    second = traitlets.Int(NONE)
+
+
+@cache
+def _ballot(_: int) -> Ballot:
+    """The ballot of a lesson, the same as long as the kernel lives."""
+    return Ballot()
+
+
+class VoteBox(LessonWidget):
+    """The question that `vote` shows.
+
+    Attributes
+    ----------
+    chosen
+        The number of the option that was chosen, from 0 on, or -1.
+    """
+
+    _esm = bundled("vote")
+    _css = style("lessons")
+    asked = traitlets.Dict().tag(sync=True)
+    chosen = traitlets.Int(NONE, min=NONE, max=len(LETTERS) - 1).tag(sync=True)
+    said = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, vote: Vote, ballot: Ballot, again: bool) -> None:
+        self._vote, self._ballot, self._again = vote, ballot, again
+        self._picture = _picture(vote.picture)
+        image = {"picture": _address(self._picture), "described": self._picture["text/plain"]} if self._picture else {}
+        super().__init__(asked={"question": vote.question, "options": [each.text for each in vote.options], **image})
+        traitlets.link((ballot, "second" if again else "first"), (self, "chosen"))
+        ballot.observe(self._tell)
+        self._tell()
+
+    def _tell(self, _: object = None) -> None:
+        self.said = _reply(self._vote, self._ballot) if self._again else _receipt(self._ballot)
+
+    def _stored(self) -> dict[str, Any]:
+        options = "".join(f"<li>{prose_html(each.text)}</li>" for each in self._vote.options)
+        image = self._picture.get("text/html", "")
+        html = boxed_html(f"<p>{prose_html(self._vote.question)}</p>", image, f'<ol type="A">{options}</ol>')
+        return {"text/html": html, "text/plain": repr(self)}
+
+    def close(self) -> None:
+        """Close the widget, and hear of no more votes."""
+        self._ballot.unobserve(self._tell)
+        super().close()
+
+    def __repr__(self) -> str:
+        options = (f"  {letter}  {prose_text(each.text)}" for letter, each in zip(LETTERS, self._vote.options, strict=True))
+        described = [f"[{self._picture['text/plain']}]"] if self._picture else []
+        return "\n".join([prose_text(self._vote.question), *described, *options])
+
+
+def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
+    """The picture of a vote, by media types."""
+    if not choices:
+        return {}
+    id, step = choices["system"], choices.get("step")
+    read = map_system if is_map_system(id) else cellwork_system if is_cellwork_system(id) else system
+    drawn = draw(read(id), step, **{name: value for name, value in choices.items() if name not in ("system", "step")})
+    return svg_bundle(drawn.svg, repr(drawn))
+
+
+def _address(picture: Mapping[str, Any]) -> str:
+    """The picture as an address in itself."""
+    return f"data:image/svg+xml;base64,{base64.b64encode(picture['image/svg+xml'].encode()).decode()}"
+
+
+def _receipt(ballot: Ballot) -> dict[str, str]:
+    """What is said after the first vote: nothing of what is right."""
+    if ballot.first == NONE:
+        return {}
+    return {"text": f"Your vote, {LETTERS[ballot.first]}, is kept. The question comes again at the end of the lesson."}
+
+
+def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
+    """What is said before and after the second vote."""
+    before = f"Your first vote was {LETTERS[ballot.first]}." if ballot.first != NONE else "You have not voted the first time."
+    if ballot.second == NONE:
+        return {"before": before}
+    option = vote.options[ballot.second]
+    return {"before": before, "verdict": "Right" if option.right else "Not right", "text": option.reply,
+            "changed": _change(vote, ballot)}
+
+
+def _change(vote: Vote, ballot: Ballot) -> str:
+    """How the second vote differs from the first."""
+    if ballot.first == NONE:
+        return ""
+    if ballot.first == ballot.second:
+        return "You voted the same way the first time."
+    back = "You were right the first time." if vote.options[ballot.first].right else ""
+    return f"You have changed your vote from {LETTERS[ballot.first]} to {LETTERS[ballot.second]}. {back}".rstrip()

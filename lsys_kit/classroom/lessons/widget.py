@@ -1,0 +1,55 @@
+"""What the widgets of a lesson share: their style, their prose, and what a stored notebook shows of them."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import anywidget
+
+from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
+from lsys_kit.pictures.style.labels import escaped
+
+MOST_TYPED = 1_000
+"""What is typed into a box is cut off here."""
+_MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
+
+
+class LessonWidget(anywidget.AnyWidget):  # type: ignore[misc]
+    """A widget that is displayed by its script, and stored as text."""
+
+    def _stored(self) -> dict[str, Any]:
+        """What a page without a kernel shows, by media types."""
+        return {"text/plain": repr(self)}
+
+    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+        bundle = super()._repr_mimebundle_(**options)
+        return {**dict(bundle[0] if isinstance(bundle, tuple) else bundle or {}), **self._stored()}
+
+    def close(self) -> None:
+        """Close the widget, and what the browser keeps of it."""
+        self.layout.close()
+        super().close()
+
+
+def boxed_html(*parts: str) -> str:
+    """Parts of HTML in a box in which dollar signs begin no formula."""
+    return f'<div class="{PLAIN_TEXT}">{"".join(parts)}</div>'
+
+
+def prose_html(text: str) -> str:
+    """A text as HTML; a part between backticks is code, and one between asterisks is emphasised.
+
+    >>> prose_html("What does `F[+F]` make in *Anabaena* < 5?")
+    'What does <code>F[+F]</code> make in <i>Anabaena</i> &lt; 5?'
+    """
+    return _MARKED.sub(lambda found: f"<code>{found[1]}</code>" if found[1] else f"<i>{found[2]}</i>", escaped(text))
+
+
+def prose_text(text: str) -> str:
+    """A text without those marks.
+
+    >>> prose_text("What does `F[+F]` make in *Anabaena*?")
+    'What does F[+F] make in Anabaena?'
+    """
+    return _MARKED.sub(r"\1\2", text)

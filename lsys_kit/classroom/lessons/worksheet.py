@@ -1,0 +1,133 @@
+"""Worksheets: a table with cells to fill, and a check that says which are right and gives none away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import traitlets
+
+from lsys_kit.classroom.lessons.answers import MOST_CHARACTERS, is_right
+from lsys_kit.classroom.lessons.declared import table
+from lsys_kit.classroom.lessons.lesson import Blank, Table
+from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
+from lsys_kit.classroom.panel.bundle import bundled, style
+
+RIGHT, NOT_YET, MISSING = "right", "not yet", "not filled in yet"
+"""What is said of a cell."""
+
+
+def worksheet(number: str, id: str) -> Worksheet:
+    """A table of a lesson, to be filled in and checked cell by cell.
+
+    Parameters
+    ----------
+    number
+        The number of the lesson, such as "01".
+    id
+        The id of the table.
+
+    Raises
+    ------
+    ModelNameError
+        There is no such lesson, or it has no such table.
+
+    Examples
+    --------
+    >>> print(worksheet("01", "counts"))
+    How many cells? The rules a -> ab, b -> a, from the axiom a
+      step  all at once  rule after rule
+      0     1            1
+      1     ____         ____
+      2     ____         ____
+      3     ____         ____
+      4     ____         ____
+    """
+    return Worksheet(table(number, id))
+
+
+class Worksheet(LessonWidget):
+    """The table that `worksheet` shows.
+
+    Attributes
+    ----------
+    entries
+        What is in the cells to be filled, row by row, when they were last checked.
+    """
+
+    _esm = bundled("worksheet")
+    _css = style("lessons")
+    sheet = traitlets.Dict().tag(sync=True)
+    asked = traitlets.Dict().tag(sync=True)
+    result = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, table: Table) -> None:
+        self._table = table
+        rows = [[None if isinstance(cell, Blank) else cell for cell in row] for row in table.rows]
+        super().__init__(sheet={"title": table.title, "columns": list(table.columns), "rows": rows})
+        self.observe(self._check, "asked")
+
+    @property
+    def entries(self) -> list[str]:
+        """What is in the cells to be filled, row by row, when they were last checked."""
+        given = [str(each)[:MOST_CHARACTERS + 1] for each in self.asked.get("entries", ())]
+        return (given + [""] * len(self._table.blanks))[:len(self._table.blanks)]
+
+    def _check(self, _: object) -> None:
+        marks = marked(self._table, self.entries)
+        self.result = {"number": self.asked.get("number", 0), "marks": marks, "text": summary(self._table, marks)}
+
+    def _stored(self) -> dict[str, Any]:
+        head = "".join(f"<th>{prose_html(each)}</th>" for each in self._table.columns)
+        rows = "".join("<tr>" + "".join(f"<td>{_cell_html(cell)}</td>" for cell in row) + "</tr>" for row in self._table.rows)
+        title = f"<caption>{prose_html(self._table.title)}</caption>"
+        html = boxed_html(f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>")
+        return {"text/html": html, "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        cells = [self._table.columns, *([_cell_text(cell) for cell in row] for row in self._table.rows)]
+        texts = [[prose_text(cell) for cell in row] for row in cells]
+        widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
+        lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in texts)
+        return "\n".join([prose_text(self._table.title), *(f"  {line}" for line in lines)])
+
+
+def marked(table: Table, entries: Sequence[str]) -> list[str]:
+    """What is said of each cell that was to be filled.
+
+    >>> marked(table("01", "counts"), ["2", "2", "3", "5"])
+    ['right', 'right', 'right', 'not yet', 'not filled in yet', 'not filled in yet', 'not filled in yet', 'not filled in yet']
+    """
+    given = [*entries, *[""] * len(table.blanks)]
+    return [MISSING if not entry.strip() else RIGHT if is_right(entry, blank.right, blank.within) else NOT_YET
+            for entry, (_, _, blank) in zip(given, table.blanks, strict=False)]
+
+
+def summary(table: Table, marks: Sequence[str]) -> str:
+    """What is said of the whole table: how much is right, and the first cell that is not.
+
+    >>> summary(table("01", "counts"), marked(table("01", "counts"), ["2", "2", "3", "5"]))
+    '3 of 8 cells are right, 4 are not filled in yet. Look again at row 2, rule after rule.'
+    """
+    right, missing, total = marks.count(RIGHT), marks.count(MISSING), len(marks)
+    if right == total:
+        return "All cells are right." if total > 1 else "The cell is right."
+    parts = [f"{right} of {total} cell{'s' * (total > 1)} {'is' if right == 1 else 'are'} right"]
+    if missing:
+        parts.append(f"{missing} {'is' if missing == 1 else 'are'} not filled in yet")
+    again = f" Look again at {_place(table, marks.index(NOT_YET))}." if NOT_YET in marks else ""
+    return f"{', '.join(parts)}.{again}"
+
+
+def _place(table: Table, number: int) -> str:
+    """Where a cell stands, by the names of its row and column."""
+    row, column, _ = table.blanks[number]
+    return f"row {table.rows[row][0]}, {prose_text(table.columns[column])}"
+
+
+def _cell_text(cell: str | Blank) -> str:
+    return "____" if isinstance(cell, Blank) else cell
+
+
+def _cell_html(cell: str | Blank) -> str:
+    return "&nbsp;" * 8 if isinstance(cell, Blank) else prose_html(cell)

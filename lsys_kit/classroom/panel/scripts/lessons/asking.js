@@ -1,0 +1,35 @@
+// What the questions of a lesson share: their frame, keys that stay in it, and a kernel that may be gone.
+
+import { made } from "../views/controls.js";
+import { ownKeys } from "../views/keys.js";
+
+const GONE = "The kernel does not answer. Run the cell again.";
+
+// Build a question in a cell's output. `build` is given the frame and returns what is to be told after a change of some traits
+// of the model; `render` returns how all of it is undone.
+export function question(model, el, name, traits, build) {
+  const root = made("section", { class: "lsys-lesson", "aria-label": name });
+  el.append(root);
+  const tell = build(root), release = ownKeys(root);
+  for (const trait of traits) model.on(`change:${trait}`, tell);
+  tell();
+  return () => {
+    for (const trait of traits) model.off(`change:${trait}`, tell);
+    release();
+    root.remove();
+  };
+}
+
+// Tell the kernel what was done, or say in `status` that there is none.
+export function told(model, values, status) {
+  for (const [name, value] of Object.entries(values)) model.set(name, value);
+  model.save_changes();
+  if (model.comm_live === false) status.replaceChildren(GONE);
+}
+
+let last = 0;
+
+// An id of the page that nothing else has.
+export function freshId() {
+  return `lsys-lesson-${(last += 1)}-${Math.floor(Math.random() * 1e9)}`;
+}

@@ -1,0 +1,92 @@
+"""Votes, predictions and tables to fill in JupyterLab, Notebook 7 and Voila: by mouse and keyboard, in light and dark."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.lab import Lab
+from tests.browser.test_panel_in_jupyter import AXE, HOMES, show
+
+WORDS = ("vote('01')", "predict('How many cells has step 6 of `J1`?', explore('J1', 6))",
+         "predict('What is its word?', derive(system('J1'), 3))", "worksheet('01', 'counts')", "vote('01', again=True)")
+
+
+@pytest.fixture
+def at_home(browser: Browser, lab: Lab, write_notebook, pytestconfig):
+    """Opens a notebook with these words in one of the three homes, and keeps a picture of it at the end."""
+    pages, folder = [], pytestconfig.getoption("screenshots")
+
+    def opened(home, *sources, name="words", **context):
+        page = browser.new_context(**{"viewport": {"width": 1440, "height": 1000}, **context}).new_page()
+        pages.append((page, f"{name}-{home.__name__}"))
+        home(page, lab, write_notebook(f"{name}_{home.__name__}.ipynb", *map(show, sources)))
+        expect(page.locator(".lsys-lesson").first).to_be_visible(timeout=90_000)
+        return page
+
+    yield opened
+    for page, name in pages:
+        if folder:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            page.screenshot(path=Path(folder) / f"{name}.png")
+        page.context.close()
+
+
+def options(page: Page, again: bool = False):
+    return page.get_by_role("region", name="vote").nth(int(again)).get_by_role("button")
+
+
+@HOMES
+def test_a_vote_is_kept_and_judged_only_the_second_time(at_home, home):
+    page = at_home(home, "vote('01')", "vote('01', again=True)", name="vote")
+    first, second = (page.get_by_role("region", name="vote").nth(n) for n in (0, 1))
+    expect(second.locator(".lsys-before")).to_have_text("You have not voted the first time.")
+    options(page).nth(0).press("Enter")
+    expect(options(page).nth(0)).to_have_attribute("aria-pressed", "true")
+    expect(first.get_by_role("status")).to_have_text("Your vote, A, is kept. The question comes again at the end of the lesson.")
+    expect(second.locator(".lsys-before")).to_have_text("Your first vote was A.")
+    options(page, again=True).nth(0).click()
+    expect(second.get_by_role("status")).to_contain_text("✗ Not right.")
+    options(page, again=True).nth(2).press(" ")
+    expect(second.get_by_role("status")).to_contain_text("✓ Right.")
+    expect(second.get_by_role("status")).to_contain_text("You have changed your vote from A to C.")
+    expect(options(page).nth(0)).to_have_attribute("aria-pressed", "true")
+
+
+@HOMES
+def test_what_answers_a_question_appears_after_a_prediction(at_home, home):
+    page = at_home(home, WORDS[1], WORDS[2], name="predict")
+    first, second = (page.get_by_role("region", name="prediction").nth(n) for n in (0, 1))
+    box = first.get_by_role("textbox", name="How many cells has step 6 of J1?")
+    expect(first.get_by_role("button", name="Show", exact=True)).to_be_disabled()
+    expect(page.locator(".lsys-panel")).to_have_count(0)
+    box.fill("<b>21</b> $x$")
+    box.press("Enter")
+    expect(first.get_by_role("status")).to_have_text("You said: <b>21</b> $x$")
+    expect(page.locator(".lsys-panel canvas[data-drawn]").first).to_be_visible()
+    expect(page.get_by_text("al al br al br")).to_have_count(0)
+    second.get_by_role("button", name="I have no idea, show me").click()
+    expect(second.get_by_role("status")).to_have_text("You wanted to see it.")
+    expect(page.get_by_text("al al br al br")).to_be_visible()
+
+
+@HOMES
+def test_a_table_says_which_cells_are_right_and_gives_none_away(at_home, home):
+    page = at_home(home, WORDS[3], name="worksheet")
+    for (row, column), entry in {("1", "all at once"): "2", ("1", "rule after rule"): " 2 ", ("2", "all at once"): "4"}.items():
+        page.get_by_role("textbox", name=f"step {row}: {column}").fill(entry)
+    page.get_by_role("textbox", name="step 2: all at once").press("Enter")
+    sheet = page.get_by_role("region", name="table to fill")
+    expect(sheet.get_by_role("status")).to_have_text(
+        "2 of 8 cells are right, 5 are not filled in yet. Look again at row 2, all at once.")
+    expect(sheet.locator('[data-mark="right"]')).to_have_text(["✓ right"] * 2)
+    expect(sheet.locator('[data-mark="not yet"]')).to_have_text("✗ not yet")
+    box = page.get_by_role("textbox", name="step 2: all at once")
+    expect(box).to_have_attribute("aria-invalid", "true")
+    box.fill("3")
+    expect(box).to_have_attribute("aria-invalid", "false")
+    sheet.get_by_role("button", name="Check").click()
+    expect(sheet.get_by_role("status")).to_have_text("3 of 8 cells are right, 5 are not filled in yet.")
