@@ -18,11 +18,15 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
 
+from lsys_kit.classroom.students_copy import students_copy
 from lsys_kit.errors import ModelFileError
 from lsys_kit.files import replace_file
 
 COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
-"""The folders of the course: lessons, exercises, and the live references of notations and turtle commands."""
+"""The folders of the course: lessons, exercises, and the live references of notations and turtle commands. The teacher's pages,
+in `notebooks/teacher`, are not for students and never copied."""
+LESSONS = "notebooks"
+"""The folder of those that a student gets without what they show."""
 FOLDER = "lsys_kit_course"
 """The default folder of the user."""
 MANIFEST = ".lsys_kit_course.json"
@@ -95,7 +99,7 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
         for part in dict.fromkeys(str(parent) for name in files for parent in reversed(PurePosixPath(name).parents)):
             _made_folder(folder / part)
         manifest = _manifest(folder)
-        copied = tuple(_copied(folder, name, path.read_bytes(), manifest) for name, path in files.items())
+        copied = tuple(_copied(folder, name, _content(name, path), manifest) for name, path in files.items())
         replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
     except OSError as fault:
         raise ModelFileError(f"The course cannot be copied to {folder}: {fault.strerror or fault}",
@@ -114,6 +118,12 @@ def copy_report(folder: str | Path, copied: tuple[Copied, ...]) -> str:
     parts = [f"{number} file{'s' * (number > 1)} {word}" for word, number in numbers.items() if number]
     news = [f"You have changed {file.name}; its new version is {file.beside}." for file in copied if file.beside]
     return "\n".join([f"The course is in {folder}{': ' * bool(parts)}{', '.join(parts)}.", *news])
+
+
+def _content(name: str, path: Path) -> bytes:
+    """What is copied of a file: a lesson without what it shows, anything else as it is."""
+    content = path.read_bytes()
+    return students_copy(content) if name.rpartition("/")[0] == LESSONS and name.endswith(".ipynb") else content
 
 
 def _made_folder(path: Path) -> None:

@@ -6,7 +6,9 @@ import json
 import os
 from pathlib import Path
 
+import nbformat
 import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from lsys_kit.classroom.course import MANIFEST, Copied, copy_course, copy_report, course_files
 from lsys_kit.errors import ModelFileError
@@ -50,6 +52,35 @@ def test_the_course_opens_with_the_first_lesson():
 def test_a_new_folder_gets_every_file(kit, tmp_path):
     assert what(copy_course(tmp_path / "mine", kit)) == {LESSON: "new", EXERCISE: "new"}
     assert contents(tmp_path / "mine") == {LESSON: "version 1", EXERCISE: "version 1"}
+
+
+def test_a_lesson_is_copied_without_what_it_shows_and_says_how_a_cell_is_run(kit, tmp_path):
+    cells = [new_markdown_cell("# All at once", id="title"),
+             new_code_cell("derive(x)", id="word", execution_count=3, outputs=[new_output("stream", text="0 ar")])]
+    for name in (LESSON, EXERCISE):
+        (kit / name).write_text(nbformat.writes(new_notebook(cells=cells)))
+    copy_course(tmp_path / "mine", kit)
+    lesson, exercise = (nbformat.read(tmp_path / "mine" / name, as_version=4) for name in (LESSON, EXERCISE))
+    nbformat.validate(lesson)
+    assert [cell.id for cell in lesson.cells] == ["title", "how-to-run-a-cell", "word"]
+    assert "Shift + Enter" in lesson.cells[1].source
+    assert (lesson.cells[2].outputs, lesson.cells[2].execution_count) == ([], None)
+    assert exercise.cells[1].outputs[0].text == "0 ar"
+
+
+def test_the_teachers_pages_are_not_copied(kit, tmp_path):
+    (kit / "notebooks" / "teacher").mkdir()
+    (kit / "notebooks" / "teacher" / "01_lesson.md").write_text("The answer is C.")
+    copy_course(tmp_path / "mine", kit)
+    assert not (tmp_path / "mine" / "notebooks" / "teacher").exists()
+    assert not any(name.startswith("notebooks/teacher") for name in course_files())
+
+
+def test_every_lesson_that_comes_with_the_kit_is_copied_unrun(tmp_path):
+    copy_course(tmp_path)
+    for path in (tmp_path / "notebooks").glob("*.ipynb"):
+        cells = nbformat.read(path, as_version=4).cells
+        assert not any(cell.get("outputs") or cell.get("execution_count") for cell in cells)
 
 
 def test_copying_twice_changes_nothing(kit, mine):

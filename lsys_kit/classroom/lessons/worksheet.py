@@ -112,7 +112,7 @@ def summary(table: Table, marks: Sequence[str]) -> str:
     right, missing, total = marks.count(RIGHT), marks.count(MISSING), len(marks)
     if right == total:
         return "All cells are right." if total > 1 else "The cell is right."
-    parts = [f"{right} of {total} cell{'s' * (total > 1)} {'is' if right == 1 else 'are'} right"]
+    parts = [f"{right} of {total} cell{'s' * (total > 1)} {'is' if 1 in (right, total) else 'are'} right"]
     if missing:
         parts.append(f"{missing} {'is' if missing == 1 else 'are'} not filled in yet")
     again = f" Look again at {_place(table, marks.index(NOT_YET))}." if NOT_YET in marks else ""
