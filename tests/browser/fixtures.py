@@ -32,7 +32,7 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture
 def open_notebook(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
-    """Opens a notebook of the course: `open_notebook("notebooks/01_parallel_rewriting.ipynb")`."""
+    """Opens a notebook of the course: `open_notebook("notebooks/01_all_at_once.ipynb")`."""
     folder, tabs = pytestconfig.getoption("screenshots"), []
 
     def open_one(name: str, **context: Any) -> OpenNotebook:

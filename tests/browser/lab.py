@@ -167,7 +167,7 @@ def opened(browser: Browser, lab: Lab, name: str, shots: Path | None = None, **c
     Parameters
     ----------
     name
-        From the folder of the course: "notebooks/01_parallel_rewriting.ipynb".
+        From the folder of the course: "notebooks/01_all_at_once.ipynb".
     **context
         For playwright's `new_context`, such as `viewport`.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Locator, expect
 
-LESSONS = ("01_parallel_rewriting", "02_stages_and_life_spans")
+LESSONS = ("01_all_at_once", "02_stages_and_life_spans")
 
 
 def seen(panel: Locator) -> tuple[str, ...]:
