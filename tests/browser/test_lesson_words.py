@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.lab import Lab
-from tests.browser.test_panel_in_jupyter import AXE, HOMES, show
+from tests.browser.test_panel_in_jupyter import HOMES, show
 
 WORDS = ("vote('01')", "predict('How many cells has step 6 of `J1`?', explore('J1', 6))",
          "predict('What is its word?', derive(system('J1'), 3))", "worksheet('01', 'counts')", "vote('01', again=True)")
@@ -46,7 +45,8 @@ def test_a_vote_is_kept_and_judged_only_the_second_time(at_home, home):
     expect(second.locator(".lsys-before")).to_have_text("You have not voted the first time.")
     options(page).nth(0).press("Enter")
     expect(options(page).nth(0)).to_have_attribute("aria-pressed", "true")
-    expect(first.get_by_role("status")).to_have_text("Your vote, A, is kept. The question comes again at the end of the lesson.")
+    expect(first.get_by_role("status")).to_have_text(
+        "Your vote, A, is kept. The question comes again at the end of the lesson.")
     expect(second.locator(".lsys-before")).to_have_text("Your first vote was A.")
     options(page, again=True).nth(0).click()
     expect(second.get_by_role("status")).to_contain_text("✗ Not right.")

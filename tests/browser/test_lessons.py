@@ -1,36 +1,85 @@
-"""The lessons in a real JupyterLab: every slider moves by keyboard and changes the word, the tokens and the drawing."""
+"""Every lesson in a real JupyterLab: a prediction is answered, a vote is cast, and every slider moves something that is seen."""
 
 from __future__ import annotations
 
 import pytest
 from playwright.sync_api import Locator, expect
 
-LESSONS = ("01_all_at_once", "02_stages_and_life_spans")
+from tests.browser.lab import OpenNotebook
+from tests.notebooks.rebuild import ROOT
 
-
-def seen(panel: Locator) -> tuple[str, ...]:
-    """The word, the tokens of the stages, and the number of the drawing."""
-    tokens = panel.locator("[data-place]").evaluate_all("found => found.map(stage => stage.getAttribute('aria-label')).join()")
-    return panel.locator(".lsys-word").inner_text(), tokens, panel.locator("canvas.lsys-canvas").get_attribute("data-drawn")
+LESSONS = sorted(path.stem for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+PATIENCE = 200
+"""How often one looks whether a view has changed."""
+SEEN = """panel => [
+    ...panel.querySelectorAll(".lsys-word"), ...panel.querySelectorAll(".lsys-status")].map(view => view.innerText).concat(
+    [...panel.querySelectorAll("[data-place]")].map(stage => stage.getAttribute("aria-label")),
+    [...panel.querySelectorAll("canvas.lsys-canvas")].map(canvas => canvas.dataset.drawn)).join("\\n")"""
 
 
 @pytest.mark.parametrize("lesson", LESSONS)
-def test_every_slider_of_a_lesson_moves_by_keyboard(open_notebook, lesson):
+def test_a_lesson_is_worked_through(open_notebook, lesson):
     notebook = open_notebook(f"notebooks/{lesson}.ipynb")
     notebook.run_all()
     assert notebook.cell_errors() == []
-    for number in notebook.cells_showing("explore("):
-        panel = notebook.output(number).locator(".lsys-panel")
-        expect(panel.locator("canvas[data-drawn]").first).to_be_visible()
-        sliders = panel.locator(".lsys-control:not([hidden]) .lsys-range")
-        for index in range(sliders.count()):
-            before = seen(panel)
-            sliders.nth(index).press("ArrowRight")
-            expect(panel.locator(".lsys-word")).not_to_have_text(before[0])
-            expect(panel.locator("canvas.lsys-canvas")).not_to_have_attribute("data-drawn", before[2])
-            assert seen(panel)[1] != before[1]
-            sliders.nth(index).press("ArrowLeft")
-            expect(panel.locator(".lsys-word")).to_have_text(before[0])
+    answer_predictions(notebook)
+    cast_votes(notebook)
+    check_worksheets(notebook)
+    for number in sorted({*notebook.cells_showing("explore("), *notebook.cells_showing("compare(")}):
+        panels = notebook.output(number).locator(".lsys-panel")
+        expect(panels.first).to_be_visible()
+        for place in range(panels.count()):
+            move_every_slider(panels.nth(place))
         notebook.shot(f"{lesson}-{number}")
     assert notebook.cell_errors() == []
     assert notebook.console == []
+
+
+def answer_predictions(notebook: OpenNotebook) -> None:
+    """Type something for the first prediction, and ask to see all others."""
+    for place, number in enumerate(notebook.cells_showing("predict(")):
+        asked = notebook.output(number).get_by_role("region", name="prediction")
+        if place:
+            asked.get_by_role("button", name="I have no idea, show me").click()
+        else:
+            asked.get_by_role("textbox").fill("21")
+            asked.get_by_role("button", name="Show", exact=True).click()
+            expect(asked.get_by_role("status")).to_have_text("You said: 21")
+        expect(notebook.output(number).locator(".widget-html, .widget-html-math, .lsys-panel").first).to_be_visible()
+
+
+def cast_votes(notebook: OpenNotebook) -> None:
+    """Vote for the first option, and for the second at the end."""
+    for place, number in enumerate(notebook.cells_showing("vote(")):
+        box = notebook.output(number).get_by_role("region", name="vote")
+        box.get_by_role("button").nth(place).click()
+        expect(box.get_by_role("status")).to_contain_text(("Your vote, A, is kept.", "ight.")[place])
+
+
+def check_worksheets(notebook: OpenNotebook) -> None:
+    """Fill a table with what is hardly right, and let it be checked."""
+    for number in notebook.cells_showing("worksheet("):
+        sheet = notebook.output(number).get_by_role("region", name="table to fill")
+        sheet.get_by_role("textbox").first.fill("no idea")
+        sheet.get_by_role("button", name="Check").click()
+        expect(sheet.get_by_role("status")).to_contain_text("Look again at row")
+
+
+def move_every_slider(panel: Locator) -> None:
+    """Each slider changes the word, the stage diagram or the drawing, and is put back."""
+    sliders = panel.locator(".lsys-control:not([hidden]) .lsys-range")
+    for index in range(sliders.count()):
+        slider, before = sliders.nth(index), panel.evaluate(SEEN)
+        there, back = ("ArrowLeft", "ArrowRight") if slider.input_value() == slider.get_attribute("max") else (
+            "ArrowRight", "ArrowLeft")
+        slider.press(there)
+        await_change(panel, before)
+        slider.press(back)
+
+
+def await_change(panel: Locator, before: str) -> None:
+    for _ in range(PATIENCE):
+        if panel.evaluate(SEEN) != before:
+            return
+        panel.page.wait_for_timeout(50)
+    raise AssertionError(f"The slider changes nothing:\n{before}")

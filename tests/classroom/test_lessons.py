@@ -29,7 +29,7 @@ from lsys_kit import (
 from lsys_kit.classroom.lessons.answers import is_right, number_of
 from lsys_kit.classroom.lessons.declaration import lesson_from
 from lsys_kit.classroom.lessons.declared import FOLDER, lesson, names, table
-from lsys_kit.classroom.lessons.displayed import html, media, widget
+from lsys_kit.classroom.lessons.displayed import html, media
 from lsys_kit.classroom.lessons.lesson import Blank, Option, Table, Vote
 from lsys_kit.classroom.lessons.vote import Ballot, VoteBox
 from lsys_kit.classroom.lessons.widget import prose_html, prose_text
@@ -77,6 +77,7 @@ def test_every_lesson_can_be_read(name):
     (("vote", "options", 2, "right"), "yes", 'vote, option 3, "right" must be true or false'),
     (("vote", "options", 1, "reply"), ..., 'vote, option 2 has no "reply"'),
     (("vote", "picture"), {"step": 3}, 'a picture needs the id of its "system"'),
+    (("vote", "picture"), {"system": "K5", "rules": "axiom: F"}, 'or its "rules"'),
     (("vote", "picture"), {"system": "K5", "colour": "red"}, 'a picture has no "colour"'),
     (("tables",), {}, '"tables" must be a list'),
     (("tables",), DECLARED["tables"] * 2, "two tables have the same id"),
@@ -231,7 +232,8 @@ def test_only_true_and_false_say_whether_a_vote_is_the_second():
         vote("01", again=1)
 
 
-@pytest.mark.parametrize("picture", [{"system": "K5", "step": 3}, {"system": "K28"}, {"system": "K33", "step": 1}])
+@pytest.mark.parametrize("picture", [{"system": "K5", "step": 3}, {"system": "K28"}, {"system": "K33", "step": 1},
+                                     {"rules": "axiom: F\nF -> F+F", "step": 2, "angle": 60}])
 def test_a_vote_may_have_a_picture_with_its_text(picture):
     box = VoteBox(Vote("Which?", OPTIONS, picture), Ballot(), False)
     assert box.asked["picture"].startswith("data:image/svg+xml;base64,")

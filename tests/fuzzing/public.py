@@ -105,8 +105,8 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 
 FUNCTIONS = (
     "animate", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "explain", "explore",
-    "figure", "growth", "lineage", "link", "linked", "map_system", "pnml", "qr_code", "read", "read_cellwork", "read_map",
-    "stages", "system", "systems", "map_systems", "timed", "variants", "write",
+    "figure", "growth", "lineage", "link", "linked", "map_system", "pnml", "predict", "qr_code", "read", "read_cellwork",
+    "read_map", "stages", "system", "systems", "map_systems", "timed", "variants", "vote", "worksheet", "write",
 )
 """The public functions; `limits` is about each of them."""
 

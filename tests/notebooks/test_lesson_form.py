@@ -1,4 +1,4 @@
-"""Every lesson has the form of a lesson: a vote, predictions, a table to fill, a panel, the vote again, and a teacher's page."""
+"""Every lesson has its form: a vote, predictions, a table to fill, a panel, the vote again, and a page for the teacher."""
 
 from __future__ import annotations
 

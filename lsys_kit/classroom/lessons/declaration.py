@@ -15,7 +15,7 @@ OPTIONS = 4
 """How many options a vote has."""
 _NAME = re.compile(r"\d\d_[a-z0-9_]+")
 _ID = re.compile(r"[a-z0-9-]+")
-_PICTURE = ("system", "step", "angle", "cells")
+_PICTURE = ("system", "rules", "step", "angle", "cells")
 
 
 def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
@@ -49,8 +49,8 @@ def _vote(where: str, entries: Mapping[str, Any]) -> Vote:
         raise ModelFileError(f"{where}: there must be {OPTIONS} options, and one of them must have right = true")
     if unknown := [key for key in found["picture"] if key not in _PICTURE]:
         raise ModelFileError(f'{where}: a picture has no "{unknown[0]}"', hint=f"It may have: {', '.join(_PICTURE)}.")
-    if found["picture"] and "system" not in found["picture"]:
-        raise ModelFileError(f'{where}: a picture needs the id of its "system"')
+    if found["picture"] and ("system" in found["picture"]) == ("rules" in found["picture"]):
+        raise ModelFileError(f'{where}: a picture needs the id of its "system", or its "rules"')
     return Vote(found["question"], options, found["picture"])
 
 
@@ -138,9 +138,9 @@ def _entries(where: str, value: object) -> dict[str, Any]:
 Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
 """For each entry how it is read, and what it is when it is left out; `...` where it may not be left out."""
 _LESSON: Shape = {
-    "number": (_number, ...), "title": (_text, ...), "question": (_text, ...), "minutes": (_number, ...), "track": (_texts, ...),
-    "objectives": (_texts, ...), "summary": (_text, ...), "systems": (_texts, ...), "points": (_texts, ...),
-    "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...),
+    "number": (_number, ...), "title": (_text, ...), "question": (_text, ...), "minutes": (_number, ...),
+    "track": (_texts, ...), "objectives": (_texts, ...), "summary": (_text, ...), "systems": (_texts, ...),
+    "points": (_texts, ...), "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
 _OPTION: Shape = {"text": (_text, ...), "reply": (_text, ...), "right": (_truth, False)}

@@ -13,6 +13,7 @@ from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.pictures.style.labels import escaped
 
 _IMAGES: Mapping[str, str] = {"image/svg+xml": "svg+xml", "image/png": "png", "image/jpeg": "jpeg"}
+_STYLE = "line-height:1.4;overflow-x:auto;margin:4px 0"
 
 
 def media(what: object) -> dict[str, Any]:
@@ -26,7 +27,7 @@ def media(what: object) -> dict[str, Any]:
     from IPython.core.formatters import DisplayFormatter
     from IPython.core.interactiveshell import InteractiveShell
 
-    formatter = InteractiveShell.instance().display_formatter if InteractiveShell.initialized() else DisplayFormatter()
+    formatter: Any = InteractiveShell.instance().display_formatter if InteractiveShell.initialized() else DisplayFormatter()
     data, _ = formatter.format(what)
     found = {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
     return found if _is_the_kits(what) else {kind: value for kind, value in found.items() if kind != "text/html"}
@@ -37,7 +38,7 @@ def widget(what: object) -> Any:
     if isinstance(what, Widget):
         return what
     data = media(what)
-    if "text/html" in data or not ("text/latex" in data):
+    if "text/html" in data or "text/latex" not in data:
         return HTML(html(data))
     return HTMLMath(f"<div>{escaped(data['text/latex'])}</div>")
 
@@ -49,7 +50,7 @@ def html(data: Mapping[str, Any]) -> str:
     for kind, form in _IMAGES.items():
         if kind in data:
             return _image(form, data[kind], data["text/plain"])
-    return f'<pre class="{PLAIN_TEXT}" style="line-height:1.4;overflow-x:auto;margin:4px 0">{escaped_lines(data["text/plain"])}</pre>'
+    return f'<pre class="{PLAIN_TEXT}" style="{_STYLE}">{escaped_lines(data["text/plain"])}</pre>'
 
 
 def escaped_lines(text: str) -> str:

@@ -24,8 +24,8 @@ class Option:
 
 @dataclass(frozen=True)
 class Vote:
-    """The question of a vote, its four options, and how its picture is drawn: the arguments of `draw`, with the id of the
-    system as `system` and the step as `step`; empty for no picture."""
+    """The question of a vote, its four options, and how its picture is drawn: the arguments of `draw`, with the id of a system
+    as `system` or its text as `rules`, and the step as `step`; empty for no picture."""
 
     question: str
     options: tuple[Option, ...]

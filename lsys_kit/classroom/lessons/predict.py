@@ -80,14 +80,15 @@ class Prediction(VBox):  # type: ignore[misc]
 
     def __init__(self, question: str, what: object) -> None:
         self.prompt, self._what = Prompt(question=question), what
-        self._media = media(what)
+        self._media, self._shown = media(what), tuple[Any, ...]()
         forget_figure(what)
         super().__init__([self.prompt])
         self.prompt.observe(self._reveal, "revealed")
 
     def _reveal(self, _: object) -> None:
-        if len(self.children) == 1:
-            self.children = (self.prompt, widget(self._what))
+        if not self._shown:
+            self._shown = (widget(self._what),)
+            self.children = (self.prompt, *self._shown)
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live question; for a page without a kernel the question with its answer."""
@@ -99,7 +100,7 @@ class Prediction(VBox):  # type: ignore[misc]
 
     def close(self) -> None:
         """Close the question, and what it shows."""
-        for each in (self.prompt, *([self._what] if isinstance(self._what, Widget) else [])):
+        for each in {self.prompt, *self._shown, *([self._what] if isinstance(self._what, Widget) else [])}:
             each.close()
         super().close()
 

@@ -19,6 +19,10 @@ from lsys_kit.classroom.lessons.lesson import Vote
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.errors import require
+from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.formats.notebook import svg_bundle
 
@@ -46,8 +50,9 @@ def vote(number: str, again: bool = False) -> VoteBox:
     Examples
     --------
     >>> vote("01")
-    The rules are a -> ab and b -> a, and the first word is a. In each step all cells live through the same hour. Which \
-program grows the filament?
+    Three programs were given the same two rules, a -> ab and b -> a, and the same first cell a. In each step all cells live \
+through the same hour. One of the programs drew this picture. Which program is right?
+    [steps 0 to 5; the last: 32 cells, width 64, height 1]
       A  Program 1: a, aa, aaaa. An a makes a b, and a b becomes an a, so each a becomes aa.
       B  Program 2: a, ab, abb. In each step one rule replaces one cell.
       C  Program 3: a, ab, aba. Whatever was there before the step is replaced, and nothing else.
@@ -58,7 +63,7 @@ program grows the filament?
     return VoteBox(found.vote, _ballot(found.number), again)
 
 
-class Ballot(traitlets.HasTraits):  # type: ignore[misc]
+class Ballot(traitlets.HasTraits):
     """The two votes on one question: the numbers of the options, from 0 on."""
 
     first = traitlets.Int(NONE)
@@ -119,10 +124,17 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
     """The picture of a vote, by media types."""
     if not choices:
         return {}
-    id, step = choices["system"], choices.get("step")
-    read = map_system if is_map_system(id) else cellwork_system if is_cellwork_system(id) else system
-    drawn = draw(read(id), step, **{name: value for name, value in choices.items() if name not in ("system", "step")})
+    drawn = draw(_pictured(choices), choices.get("step"),
+                 **{name: value for name, value in choices.items() if name in ("angle", "cells")})
     return svg_bundle(drawn.svg, repr(drawn))
+
+
+def _pictured(choices: Mapping[str, Any]) -> LSystem | MapSystem | CellworkSystem:
+    """The system of a picture: from its rules, or from the catalogue."""
+    if "rules" in choices:
+        return read(choices["rules"])
+    id = choices["system"]
+    return map_system(id) if is_map_system(id) else cellwork_system(id) if is_cellwork_system(id) else system(id)
 
 
 def _address(picture: Mapping[str, Any]) -> str:
