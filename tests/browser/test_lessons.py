@@ -1,4 +1,4 @@
-"""Every lesson in a real JupyterLab: a prediction is answered, a vote is cast, and every slider moves something that is seen."""
+"""Every lesson in a real JupyterLab: a prediction is answered, a vote cast, and every slider moves something that is seen."""
 
 from __future__ import annotations
 
