@@ -158,10 +158,10 @@ def test_what_the_mouse_is_on_is_lit_until_it_leaves(explored):
     panel = explored("J4", 10)
     canvas = panel.at("canvas")
     box = canvas.bounding_box()
-    for target, self in ((panel.at('.lsys-module[data-position="2"]'), "2"), (panel.at('.lsys-module[data-position="5"]'), "5")):
-        target.hover()
-        expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", self)
-        expect(panel.at(".lsys-sentence")).to_contain_text(f"Module {int(self) + 1} of step 10")
+    for position in (2, 5):
+        panel.at(f'.lsys-module[data-position="{position}"]').hover()
+        expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", str(position))
+        expect(panel.at(".lsys-sentence")).to_contain_text(f"Module {position + 1} of step 10")
     canvas.hover(position={"x": box["width"] / 2 + 17, "y": 38})
     expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step 0, Al(1) stands in the axiom")
     panel.at(".lsys-status").hover()
