@@ -43,6 +43,9 @@ if TYPE_CHECKING:
         ModelSyntaxError,
         ModelValueError,
     )
+    from lsys_kit.experiments.plot import plot
+    from lsys_kit.experiments.runs import ensemble, sweep
+    from lsys_kit.experiments.table import Table
     from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
     from lsys_kit.notation.dialects.map.dialect import read_map
     from lsys_kit.notation.read import read
@@ -60,6 +63,7 @@ _HOMES = {
     "check": "classroom.exercises.check", "compare": "classroom.panel.comparison",
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "draw_hierarchy": "pictures.hierarchy",
+    "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth.growth", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
@@ -79,6 +83,7 @@ __all__ = [
     "ModelNameError",
     "ModelSyntaxError",
     "ModelValueError",
+    "Table",
     "animate",
     "cellwork_system",
     "cellwork_systems",
@@ -88,6 +93,7 @@ __all__ = [
     "derive",
     "draw",
     "draw_hierarchy",
+    "ensemble",
     "explain",
     "explore",
     "figure",
@@ -98,6 +104,7 @@ __all__ = [
     "linked",
     "map_system",
     "map_systems",
+    "plot",
     "pnml",
     "predict",
     "qr_code",
@@ -105,6 +112,7 @@ __all__ = [
     "read_cellwork",
     "read_map",
     "stages",
+    "sweep",
     "system",
     "systems",
     "timed",

@@ -1,0 +1,171 @@
+"""Measures: what is asked of each run, one number a step.
+
+A measure is named, so that a lesson needs no programming: a quantity below, or a symbol, whose modules are then counted. Or it
+is a function of a derivation, which looks at its last word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
+from numbers import Real
+from typing import Any, NamedTuple, TypeAlias
+
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.growth.growth import growth
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, shown
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.style.labels import polar_symbols
+
+Measurable: TypeAlias = Derivation | Word
+"""What is measured: a word, or the last word of a derivation, which often is not even built."""
+Asked: TypeAlias = "str | Callable[[Any], object] | Mapping[str, object] | Iterable[object]"
+"""A measure as a person gives it, or several, perhaps with names of their own."""
+
+
+class Measure(NamedTuple):
+    """A measure: the name of its column, and the function that finds its value."""
+
+    name: str
+    value: Callable[[Any], object]
+
+
+def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
+    """The measures that a person asks for.
+
+    Raises
+    ------
+    ModelNameError
+        A name is neither that of a measure nor a symbol of the system, or stands twice.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> [each.name for each in measures_of(["height", "F"], read("axiom: F"))]
+    ['height', 'F']
+    """
+    found = tuple(Measure(name, _function(name, each, system)) for name, each in _named(asked))
+    names = [each.name for each in found]
+    for name in names:
+        if names.count(name) > 1:
+            raise ModelNameError(f'Two measures are called "{name}"',
+                                 hint='Give them names of their own: measure={"first": ..., "second": ...}.')
+    if not found:
+        raise ModelValueError("Nothing is measured", hint=f"Measures are: {', '.join(MEASURES)}, or a symbol to count.")
+    return found
+
+
+def _named(asked: Any) -> Iterator[tuple[str, object]]:
+    """Measures with the names of their columns."""
+    if isinstance(asked, Mapping):
+        for name, each in asked.items():
+            if not isinstance(name, str):
+                raise ModelValueError(f"The name of a measure is a text, not {shown(name)}")
+            yield name, each
+    elif isinstance(asked, list | tuple):
+        yield from (pair for each in asked for pair in _named(each))
+    elif isinstance(asked, str):
+        yield asked, asked
+    elif callable(asked):
+        name = getattr(asked, "__name__", "")
+        yield (name if name.isidentifier() else "measure"), asked
+    else:
+        raise ModelValueError(f"A measure is a name such as \"modules\", or a function of a derivation, not {shown(asked)}")
+
+
+def _function(name: str, asked: object, system: LSystem) -> Callable[[Any], object]:
+    if callable(asked):
+        return partial(_called, name, asked)
+    if not isinstance(asked, str):
+        raise ModelValueError(f'The measure "{name}" must be a name or a function, not {shown(asked)}')
+    if asked in MEASURES:
+        return MEASURES[asked]
+    counted = symbols_named(asked, system)
+    if not counted:
+        known = [*MEASURES, *symbols(system)]
+        raise ModelNameError(f'"{asked}" is neither a measure nor a symbol of the system',
+                             hint=suggestion(asked, known) or f"Measures are: {', '.join(MEASURES)}, or a symbol to count.")
+    return partial(count, counted)
+
+
+def symbols_named(name: str, system: LSystem) -> frozenset[str]:
+    """The symbol with a name, or both polarities of a cell.
+
+    >>> from lsys_kit.notation.read import read
+    >>> sorted(symbols_named("a", read("axiom: ar\\nar -> al b\\nal -> b ar")))
+    ['al', 'ar']
+    """
+    if name in symbols(system):
+        return frozenset({name})
+    return frozenset(symbol for symbol, (letter, _) in polar_symbols(system).items() if letter == name)
+
+
+def count(wanted: frozenset[str], what: Measurable) -> int:
+    """How many modules have one of some symbols."""
+    if isinstance(what, Word):
+        return sum(number for symbol, number in what.counts().items() if symbol in wanted)
+    modules = what.states.modules
+    return sum(number for state, number in what.counts(what.steps).items() if modules[state].symbol in wanted)
+
+
+def _modules(what: Measurable) -> int:
+    return len(what) if isinstance(what, Word) else sum(what.counts(what.steps).values())
+
+
+def _cells(what: Measurable) -> int:
+    return len(scene_of(what).cells)
+
+
+def _strokes(what: Measurable) -> int:
+    return len(scene_of(what).segments)
+
+
+def _height(what: Measurable) -> float:
+    return scene_of(what).height
+
+
+def _width(what: Measurable) -> float:
+    return scene_of(what).width
+
+
+def _rate(what: Measurable) -> float:
+    states = what.states
+    names = [constant.name for constant in states.system.constants]
+    values: Mapping[str, Value] = dict(zip(names, states.constants, strict=True))
+    return growth(states.system, **values).rate
+
+
+MEASURES: Mapping[str, Callable[[Measurable], float]] = {
+    "modules": _modules, "length": _modules, "cells": _cells, "strokes": _strokes, "height": _height, "width": _width,
+    "rate": _rate,
+}
+"""The quantities that have names: the number of modules, which is the length of the word; the cells of a filament and the
+strokes of the turtle; the extent of the drawing in the units of the model; the growth per step in the long run (see
+`growth`)."""
+
+
+def _called(name: str, function: Callable[[Any], object], what: Measurable) -> object:
+    """What a person's function says of a derivation."""
+    try:
+        return number(function(what), name)
+    except LSystemError:
+        raise
+    except Exception as fault:
+        raise ModelValueError(f'The measure "{name}" failed with {type(fault).__name__}: {fault}') from fault
+
+
+def number(value: Any, name: str) -> object:
+    """A measured value as a plain number.
+
+    >>> import numpy as np
+    >>> number(np.int64(3), "size")
+    3
+    """
+    plain = value.item() if hasattr(value, "item") and getattr(value, "shape", None) == () else value
+    if isinstance(plain, Real):
+        return plain
+    raise ModelValueError(f'The measure "{name}" must give a number, not {shown(plain)}')

@@ -1,0 +1,261 @@
+"""Plots of what a lesson counts and measures: of systems over their steps, of timed systems over time, of stages, of tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import islice
+from typing import Any
+
+from lsys_kit.budget import Task, counted
+from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.growth.growth import Growth
+from lsys_kit.derivation.maps.development import Development
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
+from lsys_kit.experiments.charts import column_label, measured_label
+from lsys_kit.experiments.measures import Asked, Measure, measures_of
+from lsys_kit.experiments.table import Table
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.notation.model.arithmetic import is_symbolic
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.plots.bars import Share, ShareChart
+from lsys_kit.pictures.plots.chart import Axis, Plot, finite, name_label
+from lsys_kit.pictures.plots.curves import Curve, CurveChart
+from lsys_kit.pictures.plots.lettering import literal, mathematics
+from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text
+from lsys_kit.pictures.style.palette import BLUE, SERIES, colour_of
+from lsys_kit.worlds.derive import derive
+
+MOST_CURVES, DEFAULT_STEPS, MOST_STEPS = 6, 10, 5_000
+"""The most kinds of modules that have curves of their own; the steps of a system that does not say how many; the most steps."""
+MOMENTS = 360
+"""At so many moments a timed system is measured."""
+
+
+def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = False, **choices: Any) -> Plot:
+    """Plot what is counted or measured.
+
+    Parameters
+    ----------
+    what
+        A system or a derivation: curves over its steps. A timed system (see `timed`): curves over time. Several of these, in a
+        dictionary with their names: a curve for each. The stages of a system (see `stages`), or its `growth`: their
+        frequencies, at a step or in the long run. A table of `ensemble` or `sweep`: see `Table.plot`. A map system: its cells
+        and walls.
+    n
+        The number of steps, or the time, to which curves go; the step at which stages are counted.
+    measure
+        What is measured, one thing or a list, as for `ensemble`; of a table the column. By default how often each kind of
+        module occurs, of several systems the length of their words, and of a timed system the width of the drawing, which is
+        the length of a filament.
+    log
+        Whether the scale is logarithmic, on which equal factors are equal distances.
+    **choices
+        For systems `seed`, `arithmetic`, `field` and new values of constants, as for `derive`.
+
+    Returns
+    -------
+    Plot
+        A picture with a line of text; it can be saved as .svg, .png or .pdf.
+
+    Raises
+    ------
+    ModelNameError
+        A measure, a column or a constant is unknown.
+    ModelValueError
+        It cannot be plotted, or a number is too great.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> alga = read("axiom: a\\na -> a b\\nb -> a")
+    >>> plot(alga, 12)
+    2 curves (a, b) of modules, step n from 0 to 12, largest 233
+    >>> plot({"alga": alga, "powers of two": read("axiom: a\\na -> a a")}, 8)
+    2 curves (alga, powers of two) of length of the word, step n from 0 to 8, largest 256
+    """
+    require(log, bool, 'True or False for "log"')
+    with Task("The plot was not made"):
+        return _plot(what, n, measure, log, choices)
+
+
+def _plot(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> Plot:
+    if isinstance(what, Table):
+        _refuse(choices, n, "A table has its steps and constants")
+        return what.plot(measure, log)
+    if isinstance(what, Stages | Growth):
+        _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
+        if measure is not None or log:
+            raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
+        return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
+    if isinstance(what, MapSystem | Development):
+        return Plot(_map_chart(what, n, measure, log, choices))
+    return Plot(_curve_chart(what, n, measure, log, choices))
+
+
+def _refuse(choices: Mapping[str, Any], n: object, why: str) -> None:
+    if choices or n is not None:
+        name = next(iter(choices), "n")
+        raise ModelNameError(f'{why}: there is no choice "{name}" here')
+
+
+def _curve_chart(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> CurveChart:
+    """Curves of one system, or of several."""
+    if not isinstance(what, Mapping):
+        run = _run(what, n, choices)
+        return _chart_of_runs([("", run)], measure, log)
+    if not what:
+        raise ModelValueError("There is nothing to plot", hint='Name what is compared: {"with": ..., "without": ...}.')
+    runs = [(_name_label(str(name)), _run(each, n, choices)) for name, each in islice(what.items(), MOST_CURVES + 1)]
+    if len(runs) > MOST_CURVES:
+        raise ModelValueError(f"More than {MOST_CURVES} curves cannot be told apart", hint="Plot some of them.")
+    if len({isinstance(run, Derivation) for _, run in runs}) > 1:
+        raise ModelValueError("Steps and time do not stand along one axis", hint="Plot derivations, or timed systems.")
+    return _chart_of_runs(runs, measure, log)
+
+
+class _Course:
+    """A timed system up to a time."""
+
+    def __init__(self, system: Timed, end: Any) -> None:
+        self.system, self.end, self.states = system, end, system.states
+
+
+def _run(what: Any, n: Any, choices: dict[str, Any]) -> Derivation | _Course:
+    """What is measured: a derivation, or a timed system up to a time."""
+    if isinstance(what, Timed):
+        _refuse(choices, None, "The constants of a timed system are chosen when it is made")
+        end = number_from(5 if n is None else n, "n")
+        if is_symbolic(end) or end <= 0:
+            raise ModelValueError(f"The time must be a number above 0, not {shown(n)}")
+        return _Course(what, end)
+    if isinstance(what, Derivation):
+        _refuse(choices, n, "The steps and constants of a derivation are chosen already")
+        return what
+    if not isinstance(what, LSystem):
+        raise ModelValueError("Systems, derivations, timed systems, stages, growth and tables can be plotted, "
+                              f"not {type(what).__name__}")
+    steps = whole_number(n, "The number of steps") if n is not None else DEFAULT_STEPS if what.steps is None else what.steps
+    if steps > MOST_STEPS:
+        raise ModelLimitError(f"A plot shows at most {MOST_STEPS:,} steps", limit=MOST_STEPS, needed=steps)
+    return derive(what, steps, **choices)
+
+
+def _chart_of_runs(runs: Sequence[tuple[str, Any]], measure: Any, log: bool) -> CurveChart:
+    """The curves of some runs, of which one may be measured in several ways."""
+    first = runs[0][1]
+    course = isinstance(first, _Course)
+    asked = measure if measure is not None else "width" if course else "length" if len(runs) > 1 else _kinds(first)
+    curves: list[Curve] = []
+    names: list[str] = []
+    for name, run in runs:
+        measures = measures_of(asked, run.states.system)
+        names = [each.name for each in measures]
+        if len(runs) > 1 and len(names) > 1:
+            raise ModelValueError("Of several systems one thing is measured", hint=f'Choose one: measure="{names[0]}".')
+        points = _points(run, measures)
+        for each, along in zip(measures, points, strict=True):
+            label = name if len(runs) > 1 else _measure_label(each.name, run.states.system) if len(names) > 1 else ""
+            curves.append(Curve(along, _colour(each.name, run.states.system, len(curves), len(runs)), label))
+    counts = all(value == int(value) for curve in curves for _, value in curve.points)
+    up = measured_label(names[0]) if len(names) == 1 else "modules" if measure is None else "value"
+    if names == ["width"] and all(drawing_mode(run.states.system) is DrawingMode.FILAMENT for _, run in runs):
+        up = "length of the filament"
+    across = Axis("time $t$") if course else Axis(column_label("step"), True)
+    return CurveChart(tuple(curves), across, Axis(up, counts, log), unbroken=course)
+
+
+def _name_label(name: str) -> str:
+    """The name of a curve; where it gives a constant its value, the constant is mathematics.
+
+    >>> _name_label("t_s = 0.1"), _name_label("with the meta-rule")
+    ('$\\\\mathit{t}_{\\\\mathrm{s}}$ = 0.1', 'with the meta-rule')
+    """
+    before, equals, value = name.partition(" = ")
+    return f"{name_label(before)} = {literal(value)}" if equals and before.isidentifier() else literal(name)
+
+
+def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tuple[tuple[float, float], ...]]:
+    """For each measure its values at all steps or moments."""
+    if isinstance(run, Derivation):
+        places: list[Any] = [*range(len(run))]
+        seen = [run.to(step) for step in counted(places, 1)]
+    else:
+        places = [run.end * place / MOMENTS for place in map(number_from, range(MOMENTS + 1))]
+        seen = [run.system.word(place) for place in counted(places, 1)]  # type: ignore[misc]
+    found = [finite([each.value(one) for one in counted(seen, 1)], f'The measure "{each.name}"') for each in measures]
+    return [tuple(zip(map(float, places), values, strict=True)) for values in found]
+
+
+def _kinds(run: Derivation) -> list[str]:
+    """The kinds of modules that occur, if their curves can be told apart; else all modules together."""
+    system, modules = run.states.system, run.states.modules
+    met = {modules[state].symbol for step in counted(range(len(run)), 1) for state in run.counts(step)}
+    pairs = polar_symbols(system)
+    kinds = [*dict.fromkeys(pairs[symbol][0] if symbol in pairs else symbol for symbol in symbols(system)
+                            if symbol in met and symbol[0].isalnum())]
+    return kinds if 1 <= len(kinds) <= MOST_CURVES else ["modules"]
+
+
+def _measure_label(name: str, system: LSystem) -> str:
+    """The label of a curve among several of one system."""
+    return mathematics(*label_parts(name, system)) if name in symbols(system) or name[:1].isupper() else \
+        measured_label(name).removeprefix("number of ")
+
+
+def _colour(name: str, system: LSystem, place: int, runs: int) -> str:
+    """The colour of a symbol for its counts; else the next one."""
+    if runs == 1 and (members := [symbol for symbol, (letter, _) in polar_symbols(system).items() if letter == name] or
+                      [symbol for symbol in symbols(system) if symbol == name]):
+        return colour_of(members[0], system)
+    return BLUE if runs == 1 and place == 0 else SERIES[place % len(SERIES)]
+
+
+def _map_chart(what: MapSystem | Development, n: Any, measure: Any, log: bool, choices: Mapping[str, Any]) -> CurveChart:
+    """The cells and walls of a map system."""
+    _refuse(choices, n if isinstance(what, Development) else None, "A map system has no constants")
+    if measure is not None:
+        raise ModelValueError("Of a map system cells and walls are counted, and nothing else is measured")
+    found = what if isinstance(what, Development) else derive(what, 5 if n is None else n)
+    counts = [tuple(map(float, column)) for column in zip(*found.counts, strict=True)]
+    kinds = (1, "walls"), (2, "cells")
+    curves = tuple(Curve(tuple(enumerate(counts[place])), SERIES[place], label) for place, label in kinds)
+    return CurveChart(curves, Axis(column_label("step"), True), Axis("number", True, log))
+
+
+def _stage_shares(net: Stages, n: Any) -> ShareChart:
+    """The share of each stage at a step."""
+    system = net.system
+    steps = whole_number(n, "The step") if n is not None else DEFAULT_STEPS if system.steps is None else system.steps
+    amounts = finite(net.expected(steps), "A stage")
+    labels = [mathematics(*place_parts(place, system)) for place in net.places]
+    return _shares(list(zip(labels, amounts, (colour_of(place.symbol, system) for place in net.places), strict=True)),
+                   f"at step {steps:,}", "stages")
+
+
+def _long_run(found: Growth) -> ShareChart:
+    """The share of each state in the long run."""
+    shares = found.frequencies
+    if shares is None:
+        raise ModelValueError("The frequencies do not settle in the long run: they go on swinging, or the word vanishes")
+    system = found.table.system
+    labels = [_module_label(module, system) for module in found.states]
+    return _shares(list(zip(labels, shares, (colour_of(module.symbol, system) for module in found.states), strict=True)),
+                   "in the long run", "states")
+
+
+def _module_label(module: Module, system: LSystem) -> str:
+    return mathematics(*label_parts(module.symbol, system), values_text(module))
+
+
+def _shares(found: Sequence[tuple[str, float, str]], when: str, kinds: str) -> ShareChart:
+    whole = sum(amount for _, amount, _ in found)
+    if not whole:
+        raise ModelValueError(f"There is no module {when}")
+    if len(found) > 40:
+        raise ModelLimitError(f"A plot shows at most 40 {kinds}, and here are {len(found):,}", limit=40, needed=len(found))
+    return ShareChart(tuple(Share(label, amount / whole, colour) for label, amount, colour in found), when, kinds)

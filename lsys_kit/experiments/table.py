@@ -1,0 +1,233 @@
+"""Tables: what runs have come to, a row for each run and step, as data are kept tidily (Wickham, Tidy Data, 2014)."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from html import escape
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+from lsys_kit.budget import Task
+from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
+from lsys_kit.experiments.charts import chart_of
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.pictures.plots.chart import Plot
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+MOST_SHOWN = 10
+"""How many rows of a long table are shown: its first ones and its last ones."""
+SUMMARY = ("runs", "mean", "sd", "least", "median", "greatest")
+"""The columns of a summary."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table: what varied, what was measured, and a row for each run and step.
+
+    Attributes
+    ----------
+    columns
+        The names of the columns: first what varied, such as a seed, a constant or the step, then what was measured.
+    rows
+        The values, exact where the model computes exactly.
+    keys
+        How many of the columns say what varied.
+    remarks
+        What there is to say of runs that are not in the table.
+
+    Examples
+    --------
+    >>> table = Table(("seed", "step", "F"), ((0, 2, 9), (1, 2, 25)), 2)
+    >>> table
+    seed  step   F
+       0     2   9
+       1     2  25
+    2 rows
+    >>> table["F"], table.where(seed=1).rows
+    ((9, 25), ((1, 2, 25),))
+    """
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Any, ...], ...]
+    keys: int
+    remarks: tuple[str, ...] = field(default=())
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """The columns that were measured."""
+        return self.columns[self.keys:]
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """What varied and has more than one value here."""
+        return tuple(name for name in self.columns[:self.keys] if len(set(self[name])) > 1)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, column: str) -> tuple[Any, ...]:
+        """The values of a column.
+
+        Raises
+        ------
+        ModelNameError
+            There is no such column.
+        """
+        place = self._place(column)
+        return tuple(row[place] for row in self.rows)
+
+    def _place(self, column: object) -> int:
+        if isinstance(column, str) and column in self.columns:
+            return self.columns.index(column)
+        raise ModelNameError(f"There is no column {shown(column)}",
+                             hint=suggestion(str(column), self.columns) or f"Columns are: {', '.join(self.columns)}.")
+
+    def where(self, **values: object) -> Table:
+        """The rows in which some columns have given values.
+
+        >>> Table(("p", "F"), ((Fraction(1, 2), 3), (1, 5)), 1).where(p=0.5)["F"]
+        (3,)
+        """
+        wanted = {self._place(name): number_from(value, name) for name, value in values.items()}
+        chosen = (row for row in self.rows if all(row[place] == value for place, value in wanted.items()))
+        return replace(self, rows=tuple(chosen))
+
+    def summary(self, column: str | None = None) -> Table:
+        """The distribution of a measured column over the seeds: how many runs, their mean and standard deviation, the least,
+        the median and the greatest value; a row for each setting of all that varied besides.
+
+        Parameters
+        ----------
+        column
+            What was measured; by default the first of that.
+
+        Examples
+        --------
+        >>> table = Table(("seed", "step", "F"), ((0, 2, 9), (1, 2, 25), (2, 2, 20)), 2)
+        >>> table.summary("F")
+        step  runs  mean       sd  least  median  greatest
+           2     3    18  8.18535      9      20        25
+        1 row
+        """
+        place = self._place(self.measured(column))
+        settings = [index for index in range(self.keys) if self.columns[index] != "seed"]
+
+        def setting(row: tuple[Any, ...]) -> tuple[Any, ...]:
+            return tuple(row[index] for index in settings)
+
+        groups = groupby(sorted(self.rows, key=setting), key=setting)
+        rows = tuple((*given, *_described([row[place] for row in group])) for given, group in groups)
+        return Table((*(self.columns[index] for index in settings), *SUMMARY), rows, len(settings))
+
+    def measured(self, column: object = None) -> str:
+        """The name of a measured column; by default the first one."""
+        if column is None:
+            return self.measures[0]
+        if self._place(column) < self.keys:
+            raise ModelNameError(f'"{column}" was varied, not measured', hint=f"Measured were: {', '.join(self.measures)}.")
+        return str(column)
+
+    def plot(self, column: str | None = None, log: bool = False) -> Plot:
+        """A plot of a measured column: over seeds its distribution, over steps or one constant a curve, over two constants a
+        grid of colours and numbers.
+
+        Parameters
+        ----------
+        column
+            What was measured; by default the first of that.
+        log
+            Whether curves have a logarithmic scale, on which equal factors are equal distances.
+
+        Raises
+        ------
+        ModelValueError
+            More than two constants vary, or nothing does.
+
+        Examples
+        --------
+        >>> Table(("d", "step", "cells"), ((1, 5, 32), (2, 5, 4), (3, 5, 2)), 2).plot()
+        1 curve of cells, d from 1 to 3, largest 32
+        """
+        require(log, bool, 'True or False for "log"')
+        name, keys = self.measured(column), self.varied
+        places = [self._place(key) for key in keys]
+        with Task("The plot was not made"):
+            return Plot(chart_of(keys, [tuple(row[place] for place in places) for row in self.rows], name, self[name], log))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a data frame of pandas, which has to be installed; fractions become doubles."""
+        frames = _library("pandas")
+        return frames.DataFrame({name: list(map(_plain, self[name])) for name in self.columns})
+
+    def to_xarray(self) -> xarray.Dataset:
+        """What was measured as arrays over what varied, for xarray, which has to be installed with pandas; fractions become
+        doubles."""
+        _library("xarray")
+        frame = self.to_pandas()
+        found: xarray.Dataset = frame.set_index(list(self.columns[:self.keys])).to_xarray()
+        return found
+
+    def __repr__(self) -> str:
+        lines = [self.columns, *self._shown_rows()]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        table = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in lines]
+        return "\n".join([*table, self._count, *self.remarks])
+
+    def _repr_html_(self) -> str:
+        head = "".join(f'<th scope="col">{escape(name)}</th>' for name in self.columns)
+        body = "".join(f"<tr>{''.join(f'<td>{escape(text)}</td>' for text in row)}</tr>" for row in self._shown_rows())
+        notes = "".join(f"<p>{escape(remark)}</p>" for remark in self.remarks)
+        caption = f'<caption style="caption-side:bottom">{self._count}</caption>'
+        return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{notes}"
+
+    @property
+    def _count(self) -> str:
+        return f"{len(self):,} row{'s' * (len(self) != 1)}"
+
+    def _shown_rows(self) -> Iterator[tuple[str, ...]]:
+        """The texts of the rows; of a long table the middle is left out."""
+        half = MOST_SHOWN // 2
+        if len(self.rows) <= MOST_SHOWN:
+            yield from (tuple(map(value_text, row)) for row in self.rows)
+            return
+        yield from (tuple(map(value_text, row)) for row in self.rows[:half])
+        yield ("...",) * len(self.columns)
+        yield from (tuple(map(value_text, row)) for row in self.rows[-half:])
+
+
+def value_text(value: Any) -> str:
+    """A value of a table as it is shown: doubles with six digits.
+
+    >>> value_text(Fraction(7, 10)), value_text(2 / 3), value_text(12)
+    ('0.7', '0.666667', '12')
+    """
+    return f"{value:.6g}" if isinstance(value, float) else number_text(value)
+
+
+def _plain(value: Any) -> Any:
+    return float(value) if isinstance(value, Fraction) else value
+
+
+def _described(values: Sequence[Any]) -> tuple[Any, ...]:
+    """The columns of a summary."""
+    spread = statistics.stdev(map(float, values)) if len(values) > 1 else 0.0
+    mean = statistics.fmean(values)
+    return len(values), mean, spread, min(values), statistics.median(values), max(values)
+
+
+def _library(name: str) -> Any:
+    """A library that need not be there."""
+    from importlib import import_module
+
+    try:
+        return import_module(name)
+    except ImportError:
+        raise ModelValueError(f"{name} is not installed", hint=f"Install it: pip install {name}.") from None
