@@ -18,6 +18,7 @@ FEW_EXAMPLES = 5
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
+os.environ["TQDM_DISABLE"] = "1"  # a progress bar that appears on a slow machine alone would be an output that differs
 os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's plot cells show nothing
 
 

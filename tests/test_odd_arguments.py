@@ -18,6 +18,7 @@ from lsys_kit import (
     ModelValueError,
     cellwork_system,
     derive,
+    ensemble,
     growth,
     lineage,
     link,
@@ -62,6 +63,9 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "read": lambda: ("axiom: a", "abop", "x"), "read_map": lambda: ("map: A>A>",),
     "vote": lambda: ("01", False), "worksheet": lambda: ("01", "counts"),
     "stages": lambda: (GROWING,), "system": lambda: ("J1",), "systems": tuple, "timed": lambda: (AGEING,),
+    "ensemble": lambda: (GROWING, 2, "b"), "sweep": lambda: (GROWING, {"c": [1, 2]}, "b"), "plot": lambda: (GROWING, 2, "b"),
+    "plot over time": lambda: (timed(AGEING), 2, "modules"), "plot a table": lambda: (ensemble(GROWING, 2),),
+    "plot stages": lambda: (stages(GROWING), 2), "plot maps": lambda: (map_system("K30"), 1),
     "write": lambda: (GROWING, "abop"), "draw a stage diagram": lambda: (stages(GROWING),),
     "draw a lineage": lambda: (lineage(GROWING, 1),), "draw a map": lambda: (map_system("K30"), 1),
     "draw in space": lambda: (read("axiom: F&F"), 1), "lineage in time": lambda: (timed(AGEING), 1),
@@ -70,6 +74,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
 """For each public function arguments that it takes."""
 CHOICES: Mapping[str, tuple[str, ...]] = {
     "derive": ("seed", "arithmetic", "c"), "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c"),
+    "ensemble": ("arithmetic", "c"), "sweep": ("arithmetic", "seed"), "plot": ("seed", "arithmetic", "c"),
     "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"), "limits": ("modules", "bytes", "seconds"),
     "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",), "draw in space": ("angle", "marked"),
     "draw a cellwork": ("azimuth", "elevation", "cell", "generation", "pressure"),
@@ -77,6 +82,8 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""
 METHODS: Mapping[str, Callable[[Any], object]] = {
+    "column": lambda odd: ensemble(GROWING, 2)[odd], "where": lambda odd: ensemble(GROWING, 2).where(seed=odd),
+    "summary": lambda odd: ensemble(GROWING, 2).summary(odd), "plot of a table": lambda odd: ensemble(GROWING, 2).plot(odd),
     "lengths": lambda odd: growth(GROWING).lengths(odd),
     "fired": lambda odd: stages(GROWING).fired(odd), "expected of": lambda odd: stages(GROWING).expected(1, odd),
     "coded": lambda odd: derive(GROWING, 1)[1].coded(odd), "length": lambda odd: growth(GROWING).length(odd),

@@ -241,7 +241,8 @@ def _long_run(found: Growth) -> ShareChart:
     """The share of each state in the long run."""
     shares = found.frequencies
     if shares is None:
-        raise ModelValueError("The frequencies do not settle in the long run: they go on swinging, or the word vanishes")
+        raise ModelValueError("The frequencies do not settle in the long run: they go on swinging, or the word vanishes",
+                              hint="Look at a step: plot(stages(system), 20).")
     system = found.table.system
     labels = [_module_label(module, system) for module in found.states]
     return _shares(list(zip(labels, shares, (colour_of(module.symbol, system) for module in found.states), strict=True)),

@@ -170,7 +170,8 @@ def _bar(runs: int, shown: bool) -> Any:
     """A progress bar, which vanishes when all is done."""
     from tqdm.auto import tqdm
 
-    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=not shown or None)
+    hidden = {} if shown else {"disable": True}  # where nothing is said, TQDM_DISABLE of the environment decides
+    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, **hidden)
 
 
 def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Outcome], stopped: str) -> Table:

@@ -6,7 +6,6 @@ import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from html import escape
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,7 @@ from lsys_kit.experiments.charts import chart_of
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.pictures.plots.chart import Plot
+from lsys_kit.pictures.style.labels import escaped, visible
 
 if TYPE_CHECKING:
     import pandas
@@ -176,15 +176,15 @@ class Table:
         return found
 
     def __repr__(self) -> str:
-        lines = [self.columns, *self._shown_rows()]
+        lines = [tuple(map(visible, self.columns)), *self._shown_rows()]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         table = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in lines]
         return "\n".join([*table, self._count, *self.remarks])
 
     def _repr_html_(self) -> str:
-        head = "".join(f'<th scope="col">{escape(name)}</th>' for name in self.columns)
-        body = "".join(f"<tr>{''.join(f'<td>{escape(text)}</td>' for text in row)}</tr>" for row in self._shown_rows())
-        notes = "".join(f"<p>{escape(remark)}</p>" for remark in self.remarks)
+        head = "".join(f'<th scope="col">{escaped(name)}</th>' for name in self.columns)
+        body = "".join(f"<tr>{''.join(f'<td>{escaped(text)}</td>' for text in row)}</tr>" for row in self._shown_rows())
+        notes = "".join(f"<p>{escaped(remark)}</p>" for remark in self.remarks)
         caption = f'<caption style="caption-side:bottom">{self._count}</caption>'
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{notes}"
 

@@ -30,6 +30,7 @@ from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
 from lsys_kit.pictures.spheres import sphere_picture
+from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project
@@ -179,13 +180,13 @@ def state_colours(what: Derivation | Word) -> Mapping[int, str]:
     return {state: colour_of(module.symbol, what.states.system) for state, module in enumerate(what.states.modules)}
 
 
-def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, **choices: Any) -> Axes:
+def figure(what: Picture | Plot | LSystem | Derivation | Word, ax: Axes | None = None, **choices: Any) -> Axes:
     """Draw into a matplotlib figure, to be combined with other plots.
 
     Parameters
     ----------
     what
-        A picture, or what `draw` takes.
+        A picture, or what `draw` takes; or what `plot` returns.
     ax
         The axes to draw into, in the plane: what is in space is seen from the front. By default those of a new figure.
     **choices
@@ -217,8 +218,13 @@ def figure(what: Picture | LSystem | Derivation | Word, ax: Axes | None = None, 
     if ax is not None and ax.name == "3d":
         raise ModelValueError("A drawing needs axes in the plane, and these are in space",
                               hint="A plant in space can be kept as .glb, which other programs turn.")
+    if isinstance(what, Plot):
+        if choices:
+            raise ModelNameError(f'There is no option "{next(iter(choices))}" here',
+                                 hint="What a plot shows is chosen when it is made.")
+        return painted(what, new_axes() if ax is None else ax)
     picture = what if isinstance(what, Picture) else draw(what, **choices)
     if not isinstance(picture, Picture):
-        raise ModelValueError("Only the drawing of a system, a derivation or a word goes into a figure",
+        raise ModelValueError("Only a plot, or the drawing of a system, a derivation or a word goes into a figure",
                               hint="Keep other pictures as .svg.")
     return plotted(picture, new_axes() if ax is None else ax)

@@ -98,7 +98,8 @@ class TestMeasures:
         assert all(2 * row[2] + 1 == row[3] for row in table.rows)
 
     @pytest.mark.parametrize(("measure", "said"), [
-        ("hieght", 'Did you mean "height"'), ("Q", "Measures are: modules"), ([], "Nothing is measured"), (7, "A measure is a name"),
+        ("hieght", 'Did you mean "height"'), ("Q", "Measures are: modules"), ([], "Nothing is measured"),
+        (7, "A measure is a name"),
         ({"a": 7}, "must be a name or a function"), ({1: "F"}, "name of a measure is a text"), (["F", "F"], 'called "F"'),
         ({"seed": "F"}, 'called "seed"'), (lambda _: "many", "must give a number"), (lambda _: 1 / 0, "ZeroDivisionError")])
     def test_a_wrong_measure_is_explained(self, measure: Any, said: str) -> None:
@@ -149,7 +150,7 @@ class TestWhatIsFinished:
     def test_if_no_run_is_finished_the_error_says_why(self) -> None:
         with limits(modules=2), pytest.raises(ModelLimitError, match="more than 2 modules"):
             ensemble(PLANT, 3, steps=3)
-        with pytest.raises(ModelValueError, match="divides by zero|zero"):
+        with pytest.raises(ModelValueError, match=r"zero"):
             sweep(read("p = 1\naxiom: A(1)\nA(x) -> A(x/p)"), {"p": [0]}, steps=1)
 
     def test_an_interrupt_keeps_what_is_finished(self) -> None:
@@ -292,5 +293,5 @@ class TestTables:
 
     def test_a_library_that_is_missing_is_named(self, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setitem(__import__("sys").modules, "pandas", None)
-        with pytest.raises(ModelValueError, match="pandas is not installed. Install it"):
+        with pytest.raises(ModelValueError, match=r"pandas is not installed\. Install it"):
             self.TABLE.to_pandas()

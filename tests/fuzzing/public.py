@@ -58,7 +58,7 @@ EXTREME: tuple[object, ...] = (
 NAMES = (
     "steps", "n", "seed", "arithmetic", "angle", "marked", "cells", "tokens", "positions", "intervals", "iterations",
     "stiffness", "pressure", "azimuth", "cell", "generation", "polarity", "durations", "seconds", "hint", "solution", "ax",
-    "c", "d", "dt", "lifeTimeA", "notation", "name", "x", "settings", "base",
+    "c", "d", "dt", "lifeTimeA", "measure", "executor", "progress", "log", "over", "notation", "name", "x", "settings", "base",
 )
 """Names of arguments, and of constants."""
 
@@ -104,9 +104,10 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 
 
 FUNCTIONS = (
-    "animate", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "explain", "explore",
-    "figure", "growth", "lineage", "link", "linked", "map_system", "pnml", "predict", "qr_code", "read", "read_cellwork",
-    "read_map", "stages", "system", "systems", "map_systems", "timed", "variants", "vote", "worksheet", "write",
+    "animate", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "ensemble", "explain",
+    "explore", "figure", "growth", "lineage", "link", "linked", "map_system", "map_systems", "plot", "pnml", "predict",
+    "qr_code", "read", "read_cellwork", "read_map", "stages", "sweep", "system", "systems", "timed", "variants", "vote",
+    "worksheet", "write",
 )
 """The public functions; `limits` is about each of them."""
 
@@ -139,7 +140,7 @@ def wrong_call(error: TypeError) -> bool:
 
 
 METHODS = ("word", "length", "counts", "lengths", "counts_of", "recurrence_of", "expected", "tokens", "origins", "ancestors",
-           "column", "sight", "to", "save", "coded")
+           "column", "sight", "to", "save", "coded", "summary", "where", "plot")
 ATTRIBUTES = ("svg", "png", "mesh", "text", "gif", "lengths", "notes", "matrix", "recurrence", "characteristic", "polynomial",
               "generating_function", "closed_form", "rate", "frequencies", "counts", "divisions", "places")
 """What results offer."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import os
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -42,6 +43,7 @@ def rebuilt(path: Path) -> str:
     """The text of a notebook, run again where it stands."""
     stored = nbformat.read(path, as_version=4)
     run = nbformat.from_dict(json.loads(json.dumps(stored)))
+    os.environ["TQDM_DISABLE"] = "1"  # a progress bar says how busy the machine was
     NotebookClient(run, timeout=SECONDS, kernel_name="python3", store_widget_state=False, record_timing=False,
                    resources={"metadata": {"path": str(path.parent)}}).execute()
     return normalised(run, stored)

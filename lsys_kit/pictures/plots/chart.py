@@ -16,7 +16,7 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.files import KIT_MARK, marked_png, marked_xml
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.plots.lettering import literal
+from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET
 from lsys_kit.pictures.svg import background, document
 
@@ -97,9 +97,9 @@ class Plot(SVGPicture):
     @cached_property
     def svg(self) -> str:
         """The plot as SVG text."""
-        from lsys_kit.pictures.plots.renderer import svg_elements
-
         with Task("The plot was not drawn"):
+            from lsys_kit.pictures.plots.renderer import svg_elements
+
             height = self.chart.height
             body = svg_elements(_figure(self.chart), WIDTH, height)
             return document(background(WIDTH, height) + body, WIDTH, height, self.text)
@@ -131,6 +131,13 @@ class Plot(SVGPicture):
 
     def __repr__(self) -> str:
         return self.text
+
+
+def painted(plot: Plot, ax: Axes) -> Axes:
+    """The axes with a plot drawn into them."""
+    with Task("The figure was not drawn"):
+        plot.chart.paint(ax)
+    return ax
 
 
 def _figure(chart: Chart) -> Figure:
@@ -207,7 +214,5 @@ def name_label(name: str) -> str:
     >>> name_label("t_div"), name_label("height of it")
     ('$\\\\mathit{t}_{\\\\mathrm{div}}$', 'height of it')
     """
-    from lsys_kit.pictures.plots.lettering import mathematics
-
     letter, _, subscript = name.partition("_")
     return mathematics(letter, subscript) if letter.isalnum() and letter.isascii() else literal(name)

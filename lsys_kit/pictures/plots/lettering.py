@@ -15,7 +15,10 @@ from lsys_kit.pictures.style.labels import visible
 
 SUBSCRIPT, LOWERED = 0.7, 0.25
 """The size of a subscript and how far it is lowered, to the size of the text."""
+MOST_LETTERS = 32
+"""A longer label is cut short."""
 _ATOM = re.compile(r"_\{\\mathrm\{(?P<sub>[^{}]*)\}\}|\\mathit\{(?P<name>[^{}]*)\}|(?P<letter>[A-Za-z])|(?P<other>[^A-Za-z])")
+_DOLLAR = re.compile(r"(?<!\\)\$")
 _PLAIN = re.compile(r"[A-Za-z0-9]+")
 
 
@@ -33,19 +36,20 @@ def mathematics(letter: str, subscript: str = "", values: str = "") -> str:
     >>> mathematics("t", "div"), mathematics("a", "", "(2)"), mathematics("+")
     ('$\\\\mathit{t}_{\\\\mathrm{div}}$', '$\\\\mathit{a}$(2)', '+')
     """
-    if not _PLAIN.fullmatch(letter) or "$" in subscript + values:
+    if not _PLAIN.fullmatch(letter) or "$" in subscript + values or len(letter + subscript + values) > MOST_LETTERS:
         return literal(f"{letter}{subscript and '_' + subscript}{values}")
     lowered = f"_{{\\mathrm{{{subscript}}}}}" if _PLAIN.fullmatch(subscript) else literal(subscript)
     return f"$\\mathit{{{letter}}}{lowered}${values}"
 
 
 def literal(text: str) -> str:
-    """A text in which no sign begins mathematics.
+    """A text in which no sign begins mathematics, no longer than a label may be.
 
-    >>> literal("a$b")
-    'a＄b'
+    >>> print(literal("a$b"), literal("x" * 50))
+    a\\$b xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…
     """
-    return visible(text).replace("$", "＄")
+    short = text if len(text) <= MOST_LETTERS else f"{text[:MOST_LETTERS - 1]}…"
+    return visible(short).replace("$", "\\$")
 
 
 def parts(text: str) -> Iterator[Part]:
@@ -55,9 +59,9 @@ def parts(text: str) -> Iterator[Part]:
     [Part(text='time ', italic=False, lowered=False), Part(text='t', italic=True, lowered=False), \
 Part(text='div', italic=False, lowered=True)]
     """
-    for number, piece in enumerate(text.split("$")):
+    for number, piece in enumerate(_DOLLAR.split(text)):
         if number % 2 == 0:
-            yield from [Part(piece)] if piece else []
+            yield from [Part(piece.replace("\\$", "$"))] if piece else []
             continue
         for found in _ATOM.finditer(piece):
             if found["sub"] is not None:

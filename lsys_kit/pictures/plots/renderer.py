@@ -54,7 +54,7 @@ class SVGRenderer(RendererBase):
     def get_text_width_height_descent(self, s: str, prop: Any, ismath: Any) -> tuple[float, float, float]:
         """The extent of a label."""
         size = prop.get_size_in_points()
-        return width(s, size), (ASCENT + DESCENT) * size, DESCENT * size
+        return width(_label(s, ismath), size), (ASCENT + DESCENT) * size, DESCENT * size
 
     def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
         """Draw a path, filled or not."""
@@ -81,10 +81,10 @@ class SVGRenderer(RendererBase):
         size = prop.get_size_in_points()
         name, share = _ANCHORS.get(mtext.get_horizontalalignment() if mtext else "", ("", 0.0))
         held = f' text-anchor="{name}"' if name else ""
-        bold = ' font-weight="bold"' if prop.get_weight() == "bold" else ""
-        across, down = round(10 * (x + share * width(s, size))), round(10 * y)
+        label = _label(s, ismath)
+        across, down = round(10 * (x + share * width(label, size))), round(10 * y)
         self.elements.append(f'<text x="{across}" y="{down}" font-size="{10 * size:.0f}" '
-                             f'fill="{to_hex(gc.get_rgb())}"{held}{bold}>{spans(s, 10 * size)}</text>')
+                             f'fill="{to_hex(gc.get_rgb())}"{held}>{spans(label, 10 * size)}</text>')
 
 
 def svg_elements(figure: Figure, width: int, height: int) -> str:
@@ -92,6 +92,11 @@ def svg_elements(figure: Figure, width: int, height: int) -> str:
     renderer = SVGRenderer(width, height)
     figure.draw(renderer)
     return f'<g font-family="sans-serif">{"".join(renderer.elements)}</g>'
+
+
+def _label(text: str, mathematical: object) -> str:
+    """A text as a label has it: matplotlib has unmasked the signs of one without mathematics."""
+    return text if mathematical else text.replace("$", "\\$")
 
 
 def _path_data(path: Path, transform: Any) -> str:
