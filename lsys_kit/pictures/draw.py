@@ -29,8 +29,8 @@ from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
-from lsys_kit.pictures.spheres import sphere_picture
 from lsys_kit.pictures.plots.chart import Plot, painted
+from lsys_kit.pictures.spheres import sphere_picture
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project

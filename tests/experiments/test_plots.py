@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -100,7 +101,7 @@ class TestCurves:
         right, small, large = points(PLOTS["continuity"]())
         assert all(length == pytest.approx(2.1673 ** time, rel=1e-4) for time, length in right)
         for wrong, sign in ((small, 1), (large, -1)):
-            jumps = [after[1] - before[1] - 0.02 for before, after in zip(wrong, wrong[1:], strict=False)]
+            jumps = [after[1] - before[1] - 0.02 for before, after in pairwise(wrong)]
             assert max(sign * jump for jump in jumps) > 0.1
 
     def test_a_measure_is_plotted_over_the_steps(self) -> None:
@@ -130,7 +131,7 @@ class TestCurves:
 
     def test_labels_keep_their_distance(self) -> None:
         places = spread([5.0, 5.0, 5.0, 100.0], 18)
-        assert min(b - a for a, b in zip(places, places[1:], strict=False)) == 18
+        assert min(b - a for a, b in pairwise(places)) == 18
         assert sum(places[:3]) == 15
 
 
@@ -194,7 +195,8 @@ class TestRefusals:
         (lambda: plot(stages(read("axiom: A\nA -> *")), 3), "no module at step 3"),
         (lambda: plot(map_system("K28"), 2, "cells"), "nothing else is measured"),
         (lambda: plot(map_system("K28"), 2, d=1), "no constants"), (lambda: ensemble(ALGA, 1).plot(), "Only one setting"),
-        (lambda: ensemble(ALGA, 2).plot("seed"), "varied, not measured"), (lambda: plot(ensemble(ALGA, 2), 3), "no choice \"n\""),
+        (lambda: ensemble(ALGA, 2).plot("seed"), "varied, not measured"),
+        (lambda: plot(ensemble(ALGA, 2), 3), "no choice \"n\""),
         (lambda: sweep(ALGA, {"d": [1, 2], "k": [1, 2]}, steps=[1, 2]).plot(), r"table\.where\(step = 1\)"),
         (lambda: sweep(ALGA, {"d": range(1, 20)}, steps=range(3)).plot(), "cannot be told apart"),
         (lambda: figure(plot(ALGA, 2), n=3), "chosen when it is made")])
