@@ -217,8 +217,10 @@ class TestWhoeverMakesTheRuns:
 
     @pytest.mark.slow
     def test_limits_hold_in_other_processes_too(self) -> None:
-        with limits(modules=700), ProcessPoolExecutor(2) as executor:
-            one, other = ensemble(PLANT, 100, "F", steps=4), ensemble(PLANT, 100, "F", steps=4, executor=executor)
+        with ProcessPoolExecutor(2) as executor:
+            ensemble(PLANT, 100, "F", steps=4, executor=executor)  # its processes begin without the limit
+            with limits(modules=700):
+                one, other = ensemble(PLANT, 100, "F", steps=4), ensemble(PLANT, 100, "F", steps=4, executor=executor)
         assert one == other
         assert one.remarks
 

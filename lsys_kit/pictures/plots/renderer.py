@@ -21,7 +21,11 @@ if TYPE_CHECKING:
 
 ASCENT, DESCENT = 0.76, 0.24
 """How far letters reach above the baseline and below it, to the size of the text."""
-_ANCHORS = {"center": ("middle", 0.5), "right": ("end", 1.0)}
+NUDGE = 1e-5
+"""Added before a coordinate is rounded: one half way between two tenths, but for the last digit, is always rounded up."""
+_HELD = {"left": "", "center": ' text-anchor="middle"', "right": ' text-anchor="end"'}
+_BELOW = {"baseline": 0.0, "bottom": -DESCENT, "center": (ASCENT - DESCENT) / 2, "center_baseline": ASCENT / 2, "top": ASCENT}
+"""How far the baseline lies below the point by which a text is aligned, to its size."""
 _COMMANDS = {Path.MOVETO: "M", Path.LINETO: "L", Path.CURVE3: "Q", Path.CURVE4: "C", Path.CLOSEPOLY: "Z"}
 
 
@@ -68,7 +72,7 @@ class SVGRenderer(RendererBase):
     def draw_markers(self, gc: Any, marker_path: Path, marker_trans: Any, path: Path, trans: Any, rgbFace: Any = None) -> None:  # noqa: N803
         """Draw markers, all of which are dots: strokes without length and with round ends."""
         broad = marker_path.get_extents(marker_trans).width
-        places = (trans + self._down).transform(path.vertices).round().astype(int).tolist()
+        places = ((trans + self._down).transform(path.vertices) + NUDGE).round().astype(int).tolist()
         if broad and rgbFace is not None:
             dots = "".join(f"M{x} {y}h0" for x, y in places)
             faint = "" if rgbFace[3] == 1 else f' stroke-opacity="{rgbFace[3]:.2g}"'
@@ -77,14 +81,15 @@ class SVGRenderer(RendererBase):
 
     def draw_text(self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False,
                   mtext: Any = None) -> None:
-        """Write a label, held at the point by which it is aligned, since a page may have other letters."""
+        """Write a label at the point by which it is aligned: what surrounds a text differs a little between versions of
+        matplotlib, and a page may have other letters."""
         size = prop.get_size_in_points()
-        name, share = _ANCHORS.get(mtext.get_horizontalalignment() if mtext else "", ("", 0.0))
-        held = f' text-anchor="{name}"' if name else ""
-        label = _label(s, ismath)
-        across, down = round(10 * (x + share * width(label, size))), round(10 * y)
-        self.elements.append(f'<text x="{across}" y="{down}" font-size="{10 * size:.0f}" '
-                             f'fill="{to_hex(gc.get_rgb())}"{held}>{spans(label, 10 * size)}</text>')
+        across, up = mtext.get_transform().transform(mtext.get_unitless_position())
+        down = self.height - up + _BELOW[mtext.get_verticalalignment()] * size
+        place = f'x="{round(10 * across + NUDGE)}" y="{round(10 * down + NUDGE)}"'
+        self.elements.append(f'<text {place} font-size="{10 * size:.0f}" '
+                             f'fill="{to_hex(gc.get_rgb())}"{_HELD[mtext.get_horizontalalignment()]}>'
+                             f"{spans(_label(s, ismath), 10 * size)}</text>")
 
 
 def svg_elements(figure: Figure, width: int, height: int) -> str:
@@ -106,7 +111,7 @@ def _path_data(path: Path, transform: Any) -> str:
 
 
 def _numbers(corners: Any) -> str:
-    return " ".join(map(str, corners.round().astype(int).tolist()))
+    return " ".join(map(str, (corners + NUDGE).round().astype(int).tolist()))
 
 
 def _stroke(gc: Any) -> str:
