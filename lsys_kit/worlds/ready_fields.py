@@ -1,4 +1,4 @@
-"""Ready-made fields: light, space, water, an outline, and a fixed function of the place.
+"""Ready-made fields: light, shadows, space, water, an outline, and a fixed function of the place.
 
 A text names one, as in `field: light(0.25)`.
 """
@@ -21,13 +21,16 @@ from lsys_kit.notation.model.expressions import function_of
 from lsys_kit.notation.model.fields import PLACE
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.worlds.fields import Field, Question, Surroundings
-from lsys_kit.worlds.neighbours import crossings, depths_in_outline, least_clearance
+from lsys_kit.worlds.neighbours import around_spheres, counts_in_pyramids, crossings, depths_in_outline, least_clearance
 from lsys_kit.worlds.rounding import rounded
 
 _SLANT = pi / 4
 SKY = ((0.2, (0.0, 1.0, 0.0)), *((0.1, (sin(_SLANT) * cos(turn), cos(_SLANT), sin(_SLANT) * sin(turn)))
                                  for turn in (eighth * pi / 4 for eighth in range(8))))
 """The directions from which light comes, each with its part: straight from above, and at 45 degrees from eight sides."""
+
+MOST_LAYERS = 64
+"""So many layers down at most a shadow reaches."""
 
 
 class Light:
@@ -54,6 +57,41 @@ class Light:
             check_budget()
             found += part * self.transmittance ** crossings(places, np.array(direction), scene)
         return found
+
+
+class Shadows:
+    """How much light from above reaches a place: each sphere shades a pyramid of voxels below it, which widens layer by layer.
+
+    The shadow propagation of Palubicki and others, Self-organizing tree models for image synthesis (2009). The voxel of a
+    sphere gets the shadow a; those q layers below it, up to q voxels to each side, get a / b^q. What is left of the light is
+    1 - s, and at least 0, where shadows add up to s. A sphere around the very place is the asker's own and does not shade it.
+
+    Parameters
+    ----------
+    size
+        How wide a voxel is.
+    a, b
+        The shadow of a sphere in its own voxel, above 0, and by what it is divided from layer to layer, above 1.
+    depth
+        How many layers down a shadow reaches.
+    """
+
+    def __init__(self, size: float = 1.0, a: float = 0.2, b: float = 2.0, depth: float = 4) -> None:
+        if not (size > 0 and a > 0 and b > 1):
+            raise ModelValueError(f"The field shadows(size, a, b, depth) needs a size above 0, a above 0 and b above 1, "
+                                  f"not {size:g}, {a:g} and {b:g}")
+        if depth != floor(depth) or not 0 <= depth <= MOST_LAYERS:
+            raise ModelValueError(f"A shadow reaches down a whole number of layers from 0 to {MOST_LAYERS}, not {depth:g}")
+        self.size, self.a, self.b, self.depth = size, a, b, int(depth)
+
+    def answer(self, questions: Sequence[Question], scene: Surroundings) -> Floats:
+        """The part of the light that reaches each place."""
+        places = _places(questions)
+        found = 1 + self.a * around_spheres(places, scene)
+        for layer, count in enumerate(counts_in_pyramids(places, scene.centres, self.size, self.depth)):
+            found -= self.a / self.b ** layer * count
+        light: Floats = np.maximum(found, 0.0)
+        return light
 
 
 class Space:
@@ -133,7 +171,8 @@ class Place:
         return [values[0] if len(values) == 1 else values for values in found]
 
 
-_NAMED: Mapping[str, Callable[..., Field]] = {"light": Light, "polygon": Polygon, "space": Space, "water": Water}
+_NAMED: Mapping[str, Callable[..., Field]] = {
+    "light": Light, "polygon": Polygon, "shadows": Shadows, "space": Space, "water": Water}
 """The fields that are shaped by numbers, by name."""
 
 

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.notation.model.arithmetic import Value
 
 DECIMALS = 9
 """The number of decimals to which measured values are rounded."""
+_PARTS = 10 ** DECIMALS
+_READ_OFF = 1e6
+"""Below, a double times the parts is so exact that the nearest whole number is the one meant."""
 
 
 def rounded(value: float, arithmetic: str = "exact") -> Value:
@@ -20,4 +24,8 @@ def rounded(value: float, arithmetic: str = "exact") -> Value:
     if not math.isfinite(value):
         return value
     nearest = round(value, DECIMALS) + 0.0
-    return nearest if arithmetic == "float" else number_from(nearest)
+    if arithmetic == "float":
+        return nearest
+    if abs(nearest) >= _READ_OFF:
+        return number_from(nearest)
+    return int(nearest) if nearest.is_integer() else Fraction(round(nearest * _PARTS), _PARTS)

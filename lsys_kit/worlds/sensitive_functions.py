@@ -1,12 +1,12 @@
 """The sensitive functions of GROGRA: what a module can ask about the shoots around it (Kurth's lecture slides on GROGRA).
 
 A shoot is a stroke. A module belongs to the last shoot drawn before it on its own branch, and asks from the tip of that shoot;
-before the first shoot it asks from the position of the turtle. The functions have the numbers that GROGRA gives them.
+before the first shoot it asks from the position of the turtle. The functions have the numbers that GROGRA gives them. Each
+answers any number of standpoints at once; what one is answered does not depend on who else asks.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,41 +17,40 @@ import numpy as np
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
 from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.worlds.neighbours import NEARNESS, tree_of
+from lsys_kit.worlds.boxes import Boxes, Cones, counts_in_cones, nearest_in_cones, steepest_lines
+from lsys_kit.worlds.neighbours import NEARNESS, lengths_of
+
+NO_SHOOT = -1
+"""The number of the shoot before the first one."""
+FIRST_LOOK = 64
+"""Among so many of the nearest points one in a cone is looked for first."""
+_NEAR = 4
+"""How many points a shoot and its mother have."""
 
 
 @dataclass(frozen=True)
-class EndPoints:
-    """The start and end points of some shoots.
+class Things:
+    """The start and end points of some shoots, their start points, or the shoots themselves seen from the front.
 
     Attributes
     ----------
-    places
-        Shape (n, 3).
+    lows, highs
+        Shape (n, 2) or (n, 3): the least and the greatest coordinates of each.
     owners
-        Shape (n,): the number of the shoot of each point.
+        Shape (n,): the number of the shoot of each.
     """
 
-    places: Floats
+    lows: Floats
+    highs: Floats
     owners: Integers
 
+    def __len__(self) -> int:
+        return len(self.owners)
+
     @cached_property
-    def tree(self) -> Any:
-        """Their k-d tree."""
-        return tree_of(self.places)
-
-    def nearest(self, tip: Floats, near: Sequence[int]) -> float:
-        """The distance of the nearest point from a tip, except those of some shoots; infinite if there is none.
-
-        Each of these shoots has two points, so that one more is sure to be another's.
-        """
-        if not len(self.places):
-            return math.inf
-        distances, numbers = self.tree.query(tip, k=[*range(1, 2 * len(near) + 2)])
-        for distance, number in zip(distances.tolist(), numbers.tolist(), strict=True):
-            if math.isfinite(distance) and self.owners[number] not in near:
-                return float(distance)
-        return math.inf
+    def boxes(self) -> Boxes:
+        """Their hierarchy of boxes, with their k-d tree."""
+        return Boxes(self.lows, self.highs)
 
 
 class Shoots:
@@ -73,89 +72,157 @@ class Shoots:
     """
 
     def __init__(self, strokes: Segments, mothers: Sequence[int]) -> None:
-        self.ends, self.mothers = strokes.ends.reshape(-1, 2, 3), mothers
+        self.ends, self.mothers = strokes.ends.reshape(-1, 2, 3), np.array([*mothers, NO_SHOOT], np.int64)
         self.lengths: Floats = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
         self.colours = np.where(strokes.colours == OWN, FIRST_COLOUR, strokes.colours)
-        self._points: dict[tuple[float, float | None], EndPoints] = {}
+        self._things: dict[tuple[object, ...], Things] = {}
 
     def chosen(self, least: float, colour: float | None = None) -> Integers:
         """The numbers of the shoots with at least some length, and of a colour if one is given."""
         return np.flatnonzero((self.lengths >= least - NEARNESS) & (True if colour is None else self.colours == colour))
 
-    def points(self, least: float, colour: float | None = None) -> EndPoints:
-        """The start and end points of the same shoots, for which a tree is built once."""
-        if (least, colour) not in self._points:
-            numbers = self.chosen(least, colour)
-            self._points[least, colour] = EndPoints(self.ends[numbers].reshape(-1, 3), np.repeat(numbers, 2))
-        return self._points[least, colour]
+    def points(self, least: float, colour: float | None = None) -> Things:
+        """The start and end points of the same shoots; their boxes are built once."""
+        return self._once(("points", least, colour), lambda numbers: self.ends[numbers].reshape(-1, 1, 3), 2)
+
+    def starts(self, least: float) -> Things:
+        """Their start points."""
+        return self._once(("starts", least, None), lambda numbers: self.ends[numbers, :1])
+
+    def fronts(self, least: float) -> Things:
+        """The shoots themselves, seen from the front."""
+        return self._once(("fronts", least, None), lambda numbers: self.ends[numbers][:, :, ::2])
+
+    def _once(self, key: tuple[str, float, float | None], corners: Callable[[Integers], Floats], each: int = 1) -> Things:
+        if key not in self._things:
+            numbers = self.chosen(*key[1:])
+            found = corners(numbers)
+            self._things[key] = Things(found.min(axis=1), found.max(axis=1), np.repeat(numbers, each))
+        return self._things[key]
 
 
 @dataclass(frozen=True)
-class Query:
-    """The standpoint of a module that asks.
+class Standpoints:
+    """Where modules ask from.
 
     Attributes
     ----------
     shoots
         All shoots.
-    near
-        The numbers of its own shoot and of that shoot's mother, which do not count as neighbours.
-    tip, head
-        The tip of its shoot, and the direction of the shoot.
+    own, mothers
+        Shape (n,): the numbers of the shoots of those who ask, and of the shoots from which these grow; neither counts as a
+        neighbour. `NO_SHOOT` where there is none.
+    tips, heads
+        Shape (n, 3): the tips of their shoots, and the directions of the shoots.
     """
 
     shoots: Shoots
-    near: tuple[int, ...]
-    tip: Floats
-    head: Floats
+    own: Integers
+    mothers: Integers
+    tips: Floats
+    heads: Floats
+
+    def __len__(self) -> int:
+        return len(self.own)
+
+    def __getitem__(self, rows: Any) -> Standpoints:
+        return Standpoints(self.shoots, self.own[rows], self.mothers[rows], self.tips[rows], self.heads[rows])
+
+    def others(self, things: Things) -> Callable[[Any, Integers], Any]:
+        """Whether things are those of neighbours, given who asks and the numbers of the things."""
+        return lambda asking, numbers: ((things.owners[numbers] != self.own[asking])
+                                        & (things.owners[numbers] != self.mothers[asking]))
 
 
-def nearest(query: Query, least: float, colour: float | None = None) -> float:
-    """The distance to the nearest start or end point of another shoot; infinite if there is none."""
-    return query.shoots.points(least, colour).nearest(query.tip, query.near)
+def nearest(asking: Standpoints, least: float, colour: float | None = None) -> Floats:
+    """The distance to the nearest start or end point of another shoot; infinite if there is none.
+
+    A shoot and its mother have four points, so that of five one is sure to be another's.
+    """
+    return _nearest_of(asking, asking.shoots.points(least, colour), _NEAR + 1, lambda *_: True)
 
 
-def nearest_ahead(query: Query, angle: float, least: float, colour: float | None = None) -> float:
+def nearest_ahead(asking: Standpoints, angle: float, least: float, colour: float | None = None) -> Floats:
     """The same among the points in a cone around the heading with a half-angle in degrees."""
-    points = query.shoots.points(least, colour)
-    away = points.places - query.tip
-    distances = np.linalg.norm(away, axis=1)
-    edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
-    within = (away @ query.head >= edge * distances - NEARNESS) & ~np.isin(points.owners, query.near)
-    return float(distances[within].min(initial=math.inf))
+    points, cones = asking.shoots.points(least, colour), Cones(asking.tips, asking.heads, min(max(angle, 0.0), 180.0))
+
+    def ahead(rows: Integers, numbers: Integers, distances: Floats) -> Any:
+        return cones.hold(rows, points.lows[numbers] - asking.tips[rows], distances)
+
+    found = _nearest_of(asking, points, FIRST_LOOK, ahead)
+    if len(points) > FIRST_LOOK:
+        far = np.flatnonzero(np.isinf(found))
+        remaining = asking[far]
+        found[far] = nearest_in_cones(points.boxes, Cones(remaining.tips, remaining.heads, cones.angle),
+                                      remaining.others(points), _NEAR)
+    return found
 
 
-def steepest_above(query: Query, least: float) -> float:
+def _nearest_of(asking: Standpoints, points: Things, number: int, wanted: Callable[..., Any]) -> Floats:
+    """The distance to the nearest of so many neighbouring points that is another shoot's, and wanted; infinite without one."""
+    if not len(points):
+        return np.full(len(asking), np.inf)
+    distances, numbers = (part.ravel() for part in points.boxes.tree.query(asking.tips, k=[*range(1, number + 1)]))
+    rows = np.repeat(np.arange(len(asking)), number)
+    there = np.flatnonzero(np.isfinite(distances))
+    rows, numbers, distances = rows[there], numbers[there], distances[there]
+    kept = asking.others(points)(rows, numbers) & wanted(rows, numbers, distances)
+    found = np.full(len(asking), np.inf)
+    np.minimum.at(found, rows[kept], distances[kept])
+    return found
+
+
+def steepest_above(asking: Standpoints, least: float) -> Floats:
     """The angle from the vertical, in degrees, of the steepest line from the tip up to another shoot, seen from the front.
 
     It is 0 if a shoot passes straight above the tip, and infinite if none is above. Only the shoot itself is left out: its
     mother may hang over it.
     """
-    others = np.setdiff1d(query.shoots.chosen(least), query.near[:1])
-    (x0, z0), (x1, z1) = (query.shoots.ends[others] - query.tip)[:, :, ::2].transpose(1, 2, 0)
-    along = np.divide(-x0, x1 - x0, out=np.ones_like(x0), where=np.abs(x1 - x0) > NEARNESS)
-    height = np.where(np.abs(x1 - x0) > NEARNESS, z0 + along * (z1 - z0), np.maximum(z0, z1))
-    if np.any((np.minimum(x0, x1) <= NEARNESS) & (np.maximum(x0, x1) >= -NEARNESS) & (height > NEARNESS)):
-        return 0.0
-    sideways, up = np.abs(np.concatenate((x0, x1))), np.concatenate((z0, z1))
-    return float(np.degrees(np.arctan2(sideways, up))[up > NEARNESS].min(initial=math.inf))
+    shoots, tips = asking.shoots.fronts(least), asking.tips[:, ::2]
+    if not len(shoots):
+        return np.full(len(asking), np.inf)
+
+    def angles(rows: Integers, numbers: Integers) -> Floats:
+        owners = shoots.owners[numbers]
+        found = _steepest(*(asking.shoots.ends[owners][:, :, ::2] - tips[rows, None]).transpose(1, 2, 0))
+        return np.where(owners == asking.own[rows], np.inf, found)
+
+    return steepest_lines(shoots.boxes, tips, angles, 1)
 
 
-def shoots_above(query: Query, angle: float, least: float) -> int:
+def _steepest(start: Floats, end: Floats) -> Floats:
+    """The angle from the vertical of the steepest line from the origin up to each stroke in the plane; infinite without one."""
+    (x0, z0), (x1, z1) = start, end
+    sloping = np.abs(x1 - x0) > NEARNESS
+    along = np.divide(-x0, x1 - x0, out=np.ones_like(x0), where=sloping)
+    height = np.where(sloping, z0 + along * (z1 - z0), np.maximum(z0, z1))
+    over = (np.minimum(x0, x1) <= NEARNESS) & (np.maximum(x0, x1) >= -NEARNESS) & (height > NEARNESS)
+    slants = [np.where(z > NEARNESS, np.degrees(np.arctan2(np.abs(x), z)), np.inf) for x, z in (start, end)]
+    found: Floats = np.where(over, 0.0, np.minimum(*slants))
+    return found
+
+
+def shoots_above(asking: Standpoints, angle: float, least: float) -> Integers:
     """The number of other shoots that start in a cone above the tip with a half-angle in degrees.
 
     GROGRA sums the leaves (N) of these shoots; here every shoot counts as one, because leaves are not modelled.
     """
-    others = np.setdiff1d(query.shoots.chosen(least), query.near[:1])
-    away = query.shoots.ends[others, 0] - query.tip
-    edge = math.cos(math.radians(min(max(angle, 0.0), 180.0)))
-    distances = np.linalg.norm(away, axis=1)
-    return int(np.count_nonzero((distances > NEARNESS) & (away[:, 2] >= edge * distances - NEARNESS)))
+    starts, upwards = asking.shoots.starts(least), np.tile((0.0, 0.0, 1.0), (len(asking), 1))
+    cones = Cones(asking.tips, upwards, min(max(angle, 0.0), 180.0))
+    if not len(starts):
+        return np.zeros(len(asking), np.int64)
+    own = np.flatnonzero(np.isin(asking.own, starts.owners))
+    away = asking.shoots.ends[asking.own[own], 0] - asking.tips[own]
+    distances = lengths_of(away)
+    found = counts_in_cones(starts.boxes, cones)
+    found[own] -= cones.hold(own, away, distances) & (distances > NEARNESS)
+    return found
 
 
-def inclination(query: Query) -> float:
+def inclination(asking: Standpoints) -> Floats:
     """The angle of the shoot from the vertical: 0 degrees upright, 90 horizontal, 180 hanging down."""
-    return math.degrees(math.atan2(math.hypot(query.head[0], query.head[1]), query.head[2]))
+    found: Floats = np.degrees(np.arctan2(np.hypot(asking.heads[:, 0], asking.heads[:, 1]), asking.heads[:, 2]))
+    return found
 
 
 class SensitiveFunction(NamedTuple):
@@ -164,7 +231,7 @@ class SensitiveFunction(NamedTuple):
     words: str
     least: int
     most: int
-    answer: Callable[..., Any]
+    answer: Callable[..., Floats | Integers]
 
 
 SENSITIVE_FUNCTIONS: Mapping[Value, SensitiveFunction] = {

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from dataclasses import field as attribute
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -26,7 +26,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.scene import SPHERE, Segments
+from lsys_kit.geometry.scene import SPHERE, Integers, Segments
 from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.interpreter import compile_word
 from lsys_kit.geometry.turtle.shapes import collected_shapes
@@ -35,12 +35,12 @@ from lsys_kit.notation.model.arithmetic import Value, short_text
 from lsys_kit.worlds.fields import Field, Question, Surroundings, answered
 from lsys_kit.worlds.ready_fields import named_field
 from lsys_kit.worlds.rounding import rounded
-from lsys_kit.worlds.sensitive_functions import SENSITIVE_FUNCTIONS, Query, Shoots
+from lsys_kit.worlds.sensitive_functions import NO_SHOOT, SENSITIVE_FUNCTIONS, SensitiveFunction, Shoots, Standpoints
 
 TURTLE_QUERIES = QUERIES - {"?E"}
 """The symbols whose values are the turtle's own."""
-NO_SHOOT = -1
-"""The number of the shoot before the first one."""
+MOST_AT_ONCE = 4_096
+"""So many modules at most are answered at once; then the budget is looked at."""
 
 
 class ShootTurtle(SpaceTurtle):
@@ -71,6 +71,29 @@ class Standpoint(NamedTuple):
     shoot: int
 
 
+class Answers:
+    """What a function with some values answers to those who ask, computed when it is first asked for.
+
+    As a rule all modules of a kind ask the same, one after another, but each may have values of its own. So the first is
+    answered alone, the next together with the one behind it, and then twice as many each time.
+    """
+
+    def __init__(self, standpoints: Standpoints, function: SensitiveFunction, values: Sequence[Value]) -> None:
+        self._standpoints, self._function, self._values = standpoints, function, [float(value) for value in values]
+        self._found: dict[int, float] = {}
+        self._block = 1
+
+    def to(self, asking: int) -> float:
+        """The answer to one who asks, by number."""
+        if asking not in self._found:
+            check_budget()
+            block = range(asking, min(asking + self._block, len(self._standpoints)))
+            answers = self._function.answer(self._standpoints[block.start:block.stop], *self._values)
+            self._found.update(zip(block, answers.tolist(), strict=True))
+            self._block = min(2 * self._block, MOST_AT_ONCE)
+        return self._found[asking]
+
+
 @dataclass(frozen=True)
 class TurtleObservation:
     """What the modules of a word see.
@@ -88,7 +111,6 @@ class TurtleObservation:
     word: Word
     shoots: Shoots
     places: dict[int, Standpoint]
-    _known: dict[tuple[object, ...], Value] = attribute(default_factory=dict, compare=False, repr=False)
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
         """The value of a sensitive function for the module at a position; both apices of a fork get the same.
@@ -98,28 +120,47 @@ class TurtleObservation:
         ValueError
             There is no such function, or it takes another number of values.
         """
-        sensitive = SENSITIVE_FUNCTIONS.get(function)
-        if sensitive is None:
-            known = ", ".join(map(str, SENSITIVE_FUNCTIONS))
-            raise ValueError(f"function {short_text(function)} is not known; functions are {known}")
-        if not sensitive.least <= len(values) <= sensitive.most:
-            asked = f"{sensitive.least}" if sensitive.least == sensitive.most else f"{sensitive.least} or {sensitive.most}"
-            raise ValueError(f"function {short_text(function)}, {sensitive.words}, takes {asked} values, not {len(values)}")
-        place = self.places[position]
-        key = (position if place.shoot == NO_SHOOT else -1, place.shoot, function, *values)
-        if key not in self._known:
-            check_budget()
-            answer = sensitive.answer(self._query(place), *map(float, values))
-            self._known[key] = rounded(answer, self.word.states.arithmetic)
-        return self._known[key]
+        key = (function, *values)
+        if key not in self._answers:
+            self._answers[key] = Answers(self._standpoints, _sensitive_function(function, values), values)
+        return rounded(self._answers[key].to(self._numbers[position]), self.word.states.arithmetic)
 
-    def _query(self, place: Standpoint) -> Query:
-        if place.shoot == NO_SHOOT:
-            return Query(self.shoots, (), np.array(place.position), np.array(place.frame[0]))
-        start, tip = self.shoots.ends[place.shoot]
-        length = self.shoots.lengths[place.shoot]
-        head = (tip - start) / length if length else np.array(place.frame[0])
-        return Query(self.shoots, (place.shoot, self.shoots.mothers[place.shoot]), tip, head)
+    @cached_property
+    def _answers(self) -> dict[tuple[Value, ...], Answers]:
+        return {}
+
+    @cached_property
+    def _numbers(self) -> dict[int, int]:
+        """For each position that asks the number of its standpoint; modules behind the same shoot have the same."""
+        found: dict[tuple[int, int], int] = {}
+        return {position: found.setdefault((NO_SHOOT, position) if place.shoot == NO_SHOOT else (place.shoot, 0), len(found))
+                for position, place in self.places.items()}
+
+    @cached_property
+    def _standpoints(self) -> Standpoints:
+        """All who ask, by number."""
+        first = {self._numbers[position]: place for position, place in reversed(self.places.items())}
+        places = [first[number] for number in range(len(first))]
+        own: Integers = np.array([place.shoot for place in places], np.int64)
+        turtles = np.array([(place.position, place.frame[0]) for place in places]).reshape(-1, 2, 3)
+        tips, heads = turtles[:, 0].copy(), turtles[:, 1].copy()
+        drawn = np.flatnonzero(own != NO_SHOOT)
+        start, tips[drawn] = self.shoots.ends[own[drawn]].transpose(1, 0, 2)
+        lengths = self.shoots.lengths[own[drawn], None]
+        heads[drawn] = np.divide(tips[drawn] - start, lengths, out=heads[drawn], where=lengths > 0)
+        return Standpoints(self.shoots, own, self.shoots.mothers[own], tips, heads)
+
+
+def _sensitive_function(number: Value, values: Sequence[Value]) -> SensitiveFunction:
+    """The function with a number, where it takes so many values."""
+    sensitive = SENSITIVE_FUNCTIONS.get(number)
+    if sensitive is None:
+        known = ", ".join(map(str, SENSITIVE_FUNCTIONS))
+        raise ValueError(f"function {short_text(number)} is not known; functions are {known}")
+    if not sensitive.least <= len(values) <= sensitive.most:
+        asked = f"{sensitive.least}" if sensitive.least == sensitive.most else f"{sensitive.least} or {sensitive.most}"
+        raise ValueError(f"function {short_text(number)}, {sensitive.words}, takes {asked} values, not {len(values)}")
+    return sensitive
 
 
 def observe(word: Word, field: Field | None = None) -> TurtleObservation:
@@ -215,4 +256,4 @@ def surroundings_of(turtle: SpaceTurtle, strokes: Segments) -> Surroundings:
 def seen_from_the_front(vector: Vector) -> Vector:
     """A vector with x to the right, y upwards and z towards the viewer."""
     x, y, z = vector
-    return x, z, -y
+    return x, z, -y + 0.0

@@ -25,6 +25,7 @@ FIELD_FORMS: Mapping[str, FieldForm] = {
     "light": FieldForm(0, 1),
     "place": FieldForm(1, 16, PLACE),
     "polygon": FieldForm(6, 64),
+    "shadows": FieldForm(0, 4),
     "space": FieldForm(1, 1),
     "water": FieldForm(1, 2),
 }
