@@ -9,9 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from numbers import Real
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+
+from lsys_kit.budget import counted
 from lsys_kit.errors import LSystemError, ModelValueError, shown
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.turtle.space import Vector
@@ -84,11 +88,15 @@ def answered(field: Field, questions: Sequence[Question], scene: Surroundings,
     [(Fraction(5, 2), 7)]
     """
     name = f"The field {type(field).__name__}"
+    if isinstance(field, type):
+        raise ModelValueError(f"{field.__name__} is a class, not a field",
+                              hint=f"Give an object of it: field={field.__name__}().")
     if not callable(getattr(field, "answer", None)):
-        raise ModelValueError(f"A field has a method answer(questions, scene), and {shown(field)} has none")
+        raise ModelValueError(f"A field has a method answer(questions, scene), and {shown(field)} has none",
+                              hint='A field that a text names stands in the text, as in "field: light".')
     try:
         given = field.answer(questions, scene)
-        answers = None if given is None else list(given)
+        answers = None if given is None else list(counted(islice(given, len(questions) + 1)))
     except LSystemError:
         raise
     except Exception as fault:
@@ -96,7 +104,9 @@ def answered(field: Field, questions: Sequence[Question], scene: Surroundings,
     if answers is None:
         raise ModelValueError(f"{name} returned nothing", hint="It must return a value for each question.")
     if len(answers) != len(questions):
-        raise ModelValueError(f"{name} returned {len(answers)} values for {len(questions)} questions")
+        returned = f"more than {len(questions)}" if len(answers) > len(questions) else f"{len(answers)}"
+        raise ModelValueError(f"{name} returned {returned} values for {len(questions)} questions",
+                              hint="It must return a value for each question.")
     return [_taken(name, question, answer, arithmetic) for question, answer in zip(questions, answers, strict=True)]
 
 
@@ -104,9 +114,9 @@ def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> tuple
     """The values of a query module with its answer."""
     if isinstance(answer, Real):
         return _number(name, question, answer, arithmetic), *question.values[1:]
-    values = list(answer) if isinstance(answer, Iterable) and not isinstance(answer, str) else None
-    if values is None:
+    if not isinstance(answer, Sequence | np.ndarray) or isinstance(answer, str):
         raise ModelValueError(f"{name} answered {shown(answer)} at {_at(question)}, which is no number")
+    values = list(answer)
     if len(values) != len(question.values):
         raise ModelValueError(f"{name} answered {len(values)} values at {_at(question)}, and the module there has "
                               f"{len(question.values)}")
@@ -114,10 +124,16 @@ def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> tuple
 
 
 def _number(name: str, question: Question, value: Any, arithmetic: str) -> Value:
-    if not isinstance(value, Real) or not math.isfinite(value):
+    if not isinstance(value, Real):
         raise ModelValueError(f"{name} answered {shown(value)} at {_at(question)}, which is no number")
-    return rounded(float(value), arithmetic)
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise ModelValueError(f"{name} answered {shown(number)} at {_at(question)}, which is no finite number")
+    return rounded(number, arithmetic)
 
 
 def _at(question: Question) -> str:
-    return f"({', '.join(f'{coordinate:.6g}' for coordinate in question.place)})"
+    return f"({', '.join(f'{coordinate + 0.0:.6g}' for coordinate in question.place)})"

@@ -7,17 +7,17 @@ import os
 import pickle
 import subprocess
 import sys
-from itertools import pairwise
+from itertools import pairwise, repeat
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit import LSystemError, ModelValueError, derive, draw, explain, read, write
+from lsys_kit import LSystemError, ModelValueError, animate, derive, draw, explain, explore, read, write
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.worlds.fields import Question, Surroundings
-from lsys_kit.worlds.ready_fields import SKY, Light, Polygon, Space, Water
+from lsys_kit.worlds.ready_fields import SKY, Light, Polygon, Shadows, Space, Water
 from lsys_kit.worlds.sight import observe
 
 coordinates = st.integers(-12, 12).map(lambda fourths: fourths / 4)
@@ -81,6 +81,37 @@ def test_the_parts_of_the_sky_are_the_whole_sky_and_its_directions_have_length_o
 def test_light_is_that_of_a_plain_sum_over_rays_and_spheres(places, found, part) -> None:
     plain = [plain_light(place, found, part) for place in places]
     assert Light(part).answer(at(*places), scene_of(found)) == pytest.approx(plain)
+
+
+def plain_shadows(place: tuple[float, float, float], found: list[tuple[tuple[float, float, float], float]], size: float,
+                  a: float, b: float, depth: int) -> float:
+    """The light at a place, each sphere casting its pyramid of shadows downwards."""
+    own, left = any(centre == place for centre, _ in found), 1.0
+    x, y, z = (math.floor(value / size) for value in place)
+    for centre, _ in found:
+        i, j, k = (math.floor(value / size) for value in centre)
+        if 0 <= (q := j - y) <= depth and abs(i - x) <= q and abs(k - z) <= q:
+            left -= a / b ** q
+    return max(left + a * own, 0.0)
+
+
+@given(st.lists(points, min_size=1, max_size=5), spheres, st.sampled_from((0.25, 0.5, 1.0)), st.integers(0, 5))
+def test_shadows_are_those_of_pyramids_below_each_sphere(places, found, size, depth) -> None:
+    asked = [*places, *(centre for centre, _ in found)]
+    plain = [plain_shadows(place, found, size, 0.15, 1.5, depth) for place in asked]
+    assert Shadows(size, 0.15, 1.5, depth).answer(at(*asked), scene_of(found)) == pytest.approx(plain)
+
+
+def test_a_shadow_is_darkest_below_and_fades_from_layer_to_layer() -> None:
+    below = [(0.5, -height + 0.5, 0.5) for height in range(7)]
+    above, beside = (0.5, 1.5, 0.5), (1.5, 0.5, 0.5)
+    light = Shadows(1, 0.2, 2, 4).answer(at(*below, above, beside, (1.5, -0.5, 0.5)), scene_of([((0.5, 0.5, 0.6), 0.1)]))
+    assert light == pytest.approx([0.8, 0.9, 0.95, 0.975, 0.9875, 1, 1, 1, 1, 0.9])
+
+
+def test_voxels_that_are_too_small_are_an_error() -> None:
+    with pytest.raises(ModelValueError, match="too small"):
+        Shadows(1e-12).answer(at((0.0, 0.0, 0.0)), scene_of([((0.0, 0.0, 0.0), 1), ((90.0, 90.0, 90.0), 1)]))
 
 
 @given(points, spheres, st.integers(0, 11))
@@ -151,7 +182,8 @@ def test_a_constant_that_is_called_like_a_coordinate_is_the_constant() -> None:
     assert str(observe(derive(read("x = 7\nfield: place(x + y)\naxiom: F ?E(0)"), 0)[0]).word) == "F?E(8)"
 
 
-@pytest.mark.parametrize("field", ["light", "light(0.25)", "light(k/2)", "space(3)", "water(k)", "water(2, 1/2)",
+@pytest.mark.parametrize("field", ["light", "light(0.25)", "light(k/2)", "space(3)", "shadows",
+                                   "shadows(k, 0.2, 2, 3)", "water(k)", "water(2, 1/2)",
                                    "polygon(0,0, 2,0, k,3)",
                                    "place(x^2 + y - k, z)"])
 def test_a_field_is_written_as_it_is_read(field) -> None:
@@ -190,8 +222,10 @@ def test_a_question_without_a_field_is_an_error_with_what_was_finished() -> None
 
 
 @pytest.mark.parametrize(("given", "message"), [
-    (None, "returned nothing"), ([1], "1 values for 3 questions"), ([1, 2, math.nan], "no number"),
-    ([1, 2, math.inf], "no number"), ([1, 2, "3"], "no number"), ([1, 2, None], "no number"), ([1, 2, (1, 2)], "2 values"),
+    (None, "returned nothing"), ([1], "1 values for 3 questions"), ([1, 2, math.nan], "nan at .0, 3, 0., which is no finite"),
+    ([1, 2, math.inf], "no finite number"), ([1, 2, 10 ** 400], "no finite number"), ([1, 2, 3, 4], "more than 3 values for 3"),
+    (lambda questions: repeat(1), "more than 3 values for 3 questions"), ([1, 2, repeat(1)], "no number"),
+    ([1, 2, "3"], "no number"), ([1, 2, None], "no number"), ([1, 2, (1, 2)], "2 values"),
     (7, "TypeError"), ([1, 2, 1j], "no number"),
     (lambda questions: 1 / 0, "ZeroDivisionError"), (lambda questions: questions[9], "IndexError")])
 def test_a_bad_field_is_an_error_that_keeps_the_finished_steps(given, message) -> None:
@@ -201,12 +235,29 @@ def test_a_bad_field_is_an_error_that_keeps_the_finished_steps(given, message) -
     assert caught.value.partial.lengths == derive(grows, 3, field=Heights()).lengths
 
 
-def test_what_is_no_field_is_refused() -> None:
-    with pytest.raises(ModelValueError, match="answer"):
-        derive(read("axiom: ?E(0)"), 1, field=3)
+@pytest.mark.parametrize("field", [3, "light", len, Heights])
+def test_what_is_no_field_is_refused(field: object) -> None:
+    with pytest.raises(ModelValueError, match="Heights is a class" if field is Heights else "a method answer"):
+        derive(read("axiom: ?E(0)"), 1, field=field)
 
 
-@pytest.mark.parametrize("text", ["light(2)", "light(-1)", "water(1, 0)", "polygon(0,0,1,0,1,1,2)", "light(log(-1))"])
+@pytest.mark.parametrize("shows", [draw, animate])
+def test_who_draws_is_told_of_a_bad_field_too(shows) -> None:
+    grows = read("axiom: A\nA -> F ?E(0) A\n?E(r) -> ?E(r)")
+    for field, message in ((Bad([1, 2, "3"]), "no number"), (Bad(None), "returned nothing"), (None, "the model has no field")):
+        with pytest.raises(ModelValueError, match=message) as caught:
+            shows(grows, 5, field=field)
+        assert caught.value.partial.steps == (1 if field is None else 3)
+
+
+def test_the_explorer_takes_the_field_that_the_text_names_and_no_other() -> None:
+    with pytest.raises(ModelValueError, match="no field of Python"):
+        explore(read("axiom: F A ?E(0)\nA > ?E(y) : y < 3 -> F A"), 5, field=Heights())
+
+
+@pytest.mark.parametrize("text", ["light(2)", "light(-1)", "shadows(0)", "shadows(1, 0)", "shadows(1, 1, 1)",
+                                  "shadows(1, 1, 2, 0.5)", "shadows(1, 1, 2, 99)", "water(1, 0)",
+                                  "polygon(0,0,1,0,1,1,2)", "light(log(-1))"])
 def test_a_field_with_impossible_values_is_an_error(text) -> None:
     with pytest.raises(LSystemError):
         derive(read(f"field: {text}\naxiom: ?E(0)"), 1)

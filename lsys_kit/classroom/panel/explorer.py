@@ -69,6 +69,9 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
     Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
 9 cells, width 14, height 1.
     """
+    if "field" in constants:
+        raise ModelValueError("The explorer takes no field of Python: its pages and links hold the text of the model alone",
+                              hint='Name a field in the text, as in "field: light", or draw or animate with field=...')
     title = ""
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
