@@ -12,6 +12,7 @@ import numpy as np
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.equilibrium import Equilibrium, equilibrium
 from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax, with_finished
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
 from lsys_kit.notation.model.maps import Edge
@@ -21,7 +22,21 @@ FIRST_WALL = 0.28
 
 
 def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
-    """The positions of the vertices of each map at equilibrium.
+    """The positions of the vertices of each map at equilibrium, as `equilibria` finds them.
+
+    Examples
+    --------
+    >>> from lsys_kit.derivation.maps.development import develop
+    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> square, divided = place_maps(develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
+    >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
+    [0.28 0.28] [0.56 0.36]
+    """
+    return (reached.points for reached in equilibria(maps, forces))
+
+
+def equilibria(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Equilibrium]:
+    """Where the relaxation of each map ends, whose vertices start from the map before it.
 
     Parameters
     ----------
@@ -32,9 +47,9 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
 
     Returns
     -------
-    iterator of arrays
-        For each map x and y of its vertices, shape (vertices, 2). The first wall of the first cell lies on top and leads to
-        the right.
+    iterator of records
+        For each map x and y of its vertices, shape (vertices, 2), after how many iterations it was there, and whether it is at
+        rest. The first wall of the first cell lies on top and leads to the right.
 
     Raises
     ------
@@ -47,9 +62,9 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
     --------
     >>> from lsys_kit.derivation.maps.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> square, divided = place_maps(develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
-    >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
-    [0.28 0.28] [0.56 0.36]
+    >>> maps = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
+    >>> [(found.iterations, found.settled) for found in equilibria(maps)]
+    [(70, True), (309, True)]
     """
     layout = Task()
     finished: list[Floats] = []
@@ -57,16 +72,11 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
         with layout, Task(f"The cells of step {step} did not come to rest"):
             start = initial_vertices(found, finished[-1] if finished else None)
             try:
-                points = _equilibrium(relax(start, tissue(found), forces))
+                reached = equilibrium(start, tissue(found), forces)
             except ModelValueError as error:
                 raise with_finished(error, finished) from None
-        finished.append(points)
-        yield points
-
-
-def _equilibrium(positions: Iterator[Floats]) -> Floats:
-    """The last positions of a relaxation."""
-    return deque(counted(positions, 1), maxlen=1)[0]
+        finished.append(reached.points)
+        yield reached
 
 
 def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
@@ -79,12 +89,13 @@ def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: For
     [0.28, 0.64, 0.56]
     """
     *_, before = None, *place_maps(maps[:-1], forces)
-    way = relax(initial_vertices(maps[-1], before), tissue(maps[-1]), forces)
+    start, net = initial_vertices(maps[-1], before), tissue(maps[-1])
+    end, way = equilibrium(start, net, forces), relax(start, net, forces)
     reached, points = 0, next(way)
     for iteration in iterations:
         points = (deque(counted(islice(way, iteration - reached), 1), maxlen=1) or [points])[0]
         reached = iteration
-        yield points
+        yield end.points if iteration > end.iterations else points
 
 
 def initial_vertices(found: Map, before: Floats | None) -> Floats:

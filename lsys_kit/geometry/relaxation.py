@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -20,11 +21,13 @@ TIME_STEP = 0.05
 SHORTEST_TIME_STEP = TIME_STEP / 1_000
 """The shortest time step, taken where a cell would otherwise be turned inside out."""
 AT_REST = 1e-6
-"""Vertices that move less than this in an iteration are at rest."""
+"""Vertices that move less than this in an iteration are nearly at rest."""
 MOST_ITERATIONS = 20_000
 """After this number of iterations a map is taken to be at equilibrium."""
 FARTHEST = 1e6
 """Vertices that are farther away than this fly apart: edges are some tenths to some units long."""
+LEAST_LENGTH = 1e-9
+"""The least length of a wall that has a direction."""
 LEAST_AREA = 1e-3
 """The least area from which a pressure is computed, so that pressures are finite. A concave cell whose new wall lies outside of
 it may stay turned inside out."""
@@ -74,16 +77,33 @@ class Tissue:
     corners: Integers
     starts: Integers
 
-    @property
+    @cached_property
     def following(self) -> Integers:
         """For each corner the next one around its cell."""
         following = np.roll(self.corners, -1)
         following[self.starts[1:] - 1] = self.corners[self.starts[:-1]]
         return following
 
+    @cached_property
+    def preceding(self) -> Integers:
+        """For each corner the one before it around its cell."""
+        preceding = np.roll(self.corners, 1)
+        preceding[self.starts[:-1]] = self.corners[self.starts[1:] - 1]
+        return preceding
+
+    @cached_property
+    def pushed(self) -> Integers:
+        """The vertices on which forces act: at the starts of walls, at their ends, at corners of cells."""
+        return np.concatenate([*self.ends.T, self.corners])
+
+    @cached_property
+    def sizes(self) -> Integers:
+        """For each cell the number of its corners."""
+        return np.diff(self.starts)
+
 
 def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
-    """The positions of the vertices at first, and after each iteration until they are at rest.
+    """The positions of the vertices at first, and after each iteration until they are nearly at rest.
 
     Parameters
     ----------
@@ -104,9 +124,8 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))
     [0.279 0.279] [0.078]
     """
-    following = tissue.following
     return until_rest(points, forces.damping, lambda at: areas(at, tissue), LEAST_AREA,
-                      lambda at, room: force(at, tissue, following, room, forces))
+                      lambda at, room: force(at, tissue, room, forces))
 
 
 def until_rest(points: Floats, damping: float, room_at: Callable[[Floats], Floats], least: float,
@@ -166,17 +185,20 @@ def _integrated(points: Floats, speeds: Floats, push: Floats, room: Floats, room
         pace /= 2
 
 
-def force(points: Floats, tissue: Tissue, following: Integers, room: Floats, forces: Forces) -> Floats:
-    """The force on each vertex, of the walls that end there and the cells around it."""
+def force(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Floats:
+    """The force on each vertex, of the walls that end there and the cells around it.
+
+    The two sides of a cell that meet at a corner push it as one side from the corner before to the corner behind would.
+    """
+    x, y = points.T.copy()
     first, second = tissue.ends.T
-    along = points[second] - points[first]
-    lengths = np.hypot(*along.T)
-    pull = along * (forces.stiffness * (1 - forces.rest / np.maximum(lengths, 1e-9)))[:, None]
-    sides = points[following] - points[tissue.corners]
-    pressures = forces.pressure / np.maximum(room, LEAST_AREA)
-    outward = np.column_stack([-sides[:, 1], sides[:, 0]]) * np.repeat(pressures, np.diff(tissue.starts))[:, None] / 2
-    return (summed_at_vertices(first, pull, len(points)) - summed_at_vertices(second, pull, len(points))
-            + summed_at_vertices(tissue.corners, outward, len(points)) + summed_at_vertices(following, outward, len(points)))
+    across, up = x[second] - x[first], y[second] - y[first]
+    pull = forces.stiffness * (1 - forces.rest / np.maximum(np.sqrt(across**2 + up**2), LEAST_LENGTH))
+    push = np.repeat(forces.pressure / np.maximum(room, LEAST_AREA) / 2, tissue.sizes)
+    rising, running = y[tissue.preceding] - y[tissue.following], x[tissue.following] - x[tissue.preceding]
+    parts = ((pull * across, push * rising), (pull * up, push * running))
+    return np.column_stack([np.bincount(tissue.pushed, weights=np.concatenate([pulls, -pulls, pushes]), minlength=len(points))
+                            for pulls, pushes in parts])
 
 
 def summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:
@@ -186,7 +208,7 @@ def summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:
 
 def areas(points: Floats, tissue: Tissue) -> Floats:
     """The signed area of each cell, negative if it is turned inside out."""
-    x, y = points[tissue.corners].T
-    beyond, above = points[tissue.following].T
-    found: Floats = np.add.reduceat(beyond * y - x * above, tissue.starts[:-1]) / 2
+    x, y = points.T.copy()
+    here, there = tissue.corners, tissue.following
+    found: Floats = np.add.reduceat(x[there] * y[here] - x[here] * y[there], tissue.starts[:-1]) / 2
     return found

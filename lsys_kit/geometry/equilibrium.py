@@ -1,0 +1,161 @@
+"""Where the cells of a map are at rest: relaxation leads close to it, Newton's method on to where all forces balance.
+
+The forces of walls and cells are the slopes of an energy: a wall stores half its stiffness times the square of its elongation,
+a cell the logarithm of its area. At rest the energy is least; its second derivatives (the Hessian matrix) say how far that is.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from lsys_kit.budget import counted
+from lsys_kit.geometry.relaxation import (
+    DEFAULT_FORCES,
+    LEAST_AREA,
+    LEAST_LENGTH,
+    MOST_ITERATIONS,
+    Forces,
+    Tissue,
+    areas,
+    force,
+    relax,
+)
+from lsys_kit.geometry.scene import Floats
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+BALANCED = 1e-10
+"""Forces smaller than this on every vertex balance; a wall pulls with some tenths."""
+MOST_NEWTON_STEPS = 12
+"""Newton's method doubles the number of right digits in a step: from three of them on it needs three or four steps."""
+FARTHEST_STEP = 0.05
+"""Newton's method goes no farther than this in a step, so that it finds the equilibrium that is near and no other."""
+STEADYING = 1e-9
+"""The stiffness that is added in all directions, since no force keeps a map as a whole from being moved and turned."""
+
+
+class Equilibrium(NamedTuple):
+    """Where a relaxation ends.
+
+    Attributes
+    ----------
+    points
+        The positions of the vertices, shape (n, 2).
+    iterations
+        The number of iterations of the relaxation.
+    settled
+        Whether the vertices are at rest there. If not, they still moved after the last iteration.
+    """
+
+    points: Floats
+    iterations: int
+    settled: bool
+
+
+def equilibrium(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Equilibrium:
+    """Where vertices come to rest.
+
+    Parameters
+    ----------
+    points
+        Shape (n, 2): the initial positions of the vertices.
+    tissue, forces
+        The topology of the map, and the forces of its cells and walls.
+
+    Raises
+    ------
+    ModelValueError
+        The positions grow beyond all bounds.
+
+    Examples
+    --------
+    >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
+    >>> points, iterations, settled = equilibrium(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
+    >>> print(iterations, settled, areas(points, square)[0].round(9), round(((0.1 + 0.21**0.5) / 2)**2, 9))
+    317 True 0.077912878 0.077912878
+    """
+    iterations = -1
+    for _, near in zip(range(MOST_ITERATIONS + 1), counted(relax(points, tissue, forces), 1), strict=False):
+        points, iterations = near, iterations + 1
+    balanced = _balanced(points, tissue, forces)
+    if balanced is not None:
+        return Equilibrium(balanced, iterations, True)
+    return Equilibrium(points, iterations, iterations < MOST_ITERATIONS)
+
+
+def _balanced(points: Floats, tissue: Tissue, forces: Forces) -> Floats | None:
+    """The positions near some others where all forces balance (Newton's method), or None if they are not found."""
+    push, room = _push(points, tissue, forces)
+    for _ in range(MOST_NEWTON_STEPS):
+        size = np.abs(push).max()
+        if size < BALANCED:
+            return points
+        if room.min() < LEAST_AREA:
+            return None
+        step = _newton_step(points, push, room, tissue, forces)
+        if not np.abs(step).max() < FARTHEST_STEP:  # which NaN is not
+            return None
+        points = points + step
+        push, room = _push(points, tissue, forces)
+    return None
+
+
+def _push(points: Floats, tissue: Tissue, forces: Forces) -> tuple[Floats, Floats]:
+    room = areas(points, tissue)
+    return force(points, tissue, room, forces), room
+
+
+def _newton_step(points: Floats, push: Floats, room: Floats, tissue: Tissue, forces: Forces) -> Floats:
+    """How far each vertex is from rest, if forces grow in proportion to it."""
+    from scipy.sparse import eye_array  # imported late: it takes longer to load than the kit
+    from scipy.sparse.linalg import spsolve
+
+    hessian = wall_hessian(points, tissue, forces) + cell_hessian(points, room, tissue, forces)
+    steadied = hessian + STEADYING * eye_array(points.size)
+    found: Floats = spsolve(steadied.tocsc(), push.ravel()).reshape(-1, 2)
+    return found
+
+
+def wall_hessian(points: Floats, tissue: Tissue, forces: Forces) -> csr_array:
+    """The second derivatives of the energy of walls; x and y of each vertex in turn."""
+    from scipy.sparse import coo_array
+
+    first, second = tissue.ends.T
+    along = points[second] - points[first]
+    lengths = np.maximum(np.hypot(*along.T), LEAST_LENGTH)
+    slack = (forces.rest / lengths)[:, None, None]
+    ways = along / lengths[:, None]
+    block = forces.stiffness * ((1 - slack) * np.eye(2) + slack * ways[:, :, None] * ways[:, None, :])
+    one, other = _axes(first), _axes(second)
+    rows, columns, values = zip(*((a, b, sign * block) for a, b, sign in (
+        (one, one, 1), (other, other, 1), (one, other, -1), (other, one, -1))), strict=True)
+    shape = points.size, points.size
+    row = np.concatenate([np.repeat(each, 2) for each in rows])
+    column = np.concatenate([np.tile(each.reshape(-1, 2), 2).ravel() for each in columns])
+    return coo_array((np.concatenate([each.ravel() for each in values]), (row, column)), shape=shape).tocsr()
+
+
+def _axes(vertices: np.ndarray) -> np.ndarray:
+    """The places of x and y of vertices."""
+    return (2 * vertices[:, None] + np.arange(2)).ravel()
+
+
+def cell_hessian(points: Floats, room: Floats, tissue: Tissue, forces: Forces) -> csr_array:
+    """The second derivatives of the energy of cells, minus the pressure at area 1 times the logarithm of the area."""
+    from scipy.sparse import coo_array
+
+    cell = np.repeat(np.arange(len(room)), tissue.sizes)
+    here, there, before = tissue.corners, tissue.following, tissue.preceding
+    (x, y), size = points.T, points.size
+    slopes = np.concatenate([y[before] - y[there], x[there] - x[before]]) / 2
+    axes = np.concatenate([2 * here, 2 * here + 1])
+    gradient = coo_array((slopes, (np.tile(cell, 2), axes)), shape=(len(room), size)).tocsr()
+    pressures = forces.pressure / room
+    half = pressures[cell] / 2
+    rows = np.concatenate([2 * there, 2 * here + 1, 2 * here, 2 * there + 1])
+    columns = np.concatenate([2 * here + 1, 2 * there, 2 * there + 1, 2 * here])
+    mixed = coo_array((np.concatenate([half, half, -half, -half]), (rows, columns)), shape=(size, size)).tocsr()
+    return gradient.T @ gradient.multiply((pressures / room)[:, None]) - mixed
