@@ -53,7 +53,7 @@ def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: obje
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
          **constants: object) -> Picture: ...
 @overload
-def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
+def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (), labels: bool = True,
          **forces: object) -> MapPicture: ...
 @overload
 def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, azimuth: object = ..., elevation: object = ...,
@@ -77,10 +77,10 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         For a system `seed`, `arithmetic`, `field` and new values of constants, as for `derive`; `marked`, the states whose
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
-        For a map system `iterations`, after which its last step is shown on the way to rest, and new values of the forces that
-        shape it: `stiffness`, `rest`, `pressure`, `damping`; on a sphere also `azimuth` and `elevation` of the viewer in
-        degrees. A cellwork system has all of these, too; and `cell`, a number, or `generation`, the number of divisions behind
-        cells, to light these alone.
+        For a map system `iterations`, after which its last step is shown on the way to rest; `labels`, whether walls of a map
+        in the plane have theirs; and new values of the forces that shape it: `stiffness`, `rest`, `pressure`, `damping`; on a
+        sphere also `azimuth` and `elevation` of the viewer in degrees. A cellwork system has all of these but `labels`, too;
+        and `cell`, a number, or `generation`, the number of divisions behind cells, to light these alone.
 
     Raises
     ------

@@ -18,7 +18,7 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
-from lsys_kit.geometry.map_layout import place_maps, relaxation_steps, scenes
+from lsys_kit.geometry.map_layout import equilibria, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
@@ -60,6 +60,10 @@ class MapPicture(SVGPicture):
         The numbers below them: steps, or iterations.
     step
         The step whose relaxation is shown, or None.
+    unsettled
+        The steps whose cells do not come to rest.
+    labels
+        Whether walls have their labels.
     """
 
     maps: Sequence[Map]
@@ -67,6 +71,8 @@ class MapPicture(SVGPicture):
     scenes: Sequence[Scene]
     numbers: Sequence[int]
     step: int | None = None
+    unsettled: Sequence[int] = ()
+    labels: bool = True
 
     @property
     def text(self) -> str:
@@ -76,14 +82,15 @@ class MapPicture(SVGPicture):
         if self.step is not None:
             return described([f"step {self.step} after {', '.join(f'{number:,}' for number in self.numbers)} iterations", last])
         steps = f"steps {self.numbers[0]} to {self.numbers[-1]}" if len(self.numbers) > 1 else ""
-        return described([steps, ("the last: " if steps else "") + last])
+        return described([steps, ("the last: " if steps else "") + last, _unsettled_text(self.unsettled)])
 
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
             panels = arranged(self.scenes)
-            body = "".join(map(panel_svg, self.maps, self.places, self.scenes, panels, self.numbers))
+            shown = zip(self.maps, self.places, self.scenes, panels, self.numbers, strict=True)
+            body = "".join(panel_svg(*each, self.labels) for each in shown)
             width, height = panels[0].frame.width, panels[0].frame.height
             return document(background(width, height) + body, width, height, described([self.text, self._colours]))
 
@@ -99,7 +106,15 @@ class MapPicture(SVGPicture):
         return self.text
 
 
-def map_picture(what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (),
+def _unsettled_text(steps: Sequence[int]) -> str:
+    """What is said of steps whose cells do not come to rest."""
+    if not steps:
+        return ""
+    some = ", ".join(map(str, steps))
+    return f"step {some} does not settle" if len(steps) == 1 else f"steps {some} do not settle"
+
+
+def map_picture(what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (), labels: bool = True,
                 **forces: object) -> MapPicture:
     """The picture of a map system after `n` steps, or of a development; or of the relaxation of its last step."""
     if isinstance(what, MapSystem):
@@ -107,16 +122,20 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
     require(iterations, Sequence, "A list of iterations")
+    require(labels, bool, 'True or False for "labels"')
     if iterations:
         _check_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)
         _check_walls(shown)
         places = [*relaxation_steps(what, iterations, forces_of(forces))]
-        return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps)
+        return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps, labels=labels)
     first = max(0, len(what) - MOST_MAPS)
     _check_walls(what[first:])
-    places = [*place_maps(what, forces_of(forces))]
-    return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)))
+    reached = [*equilibria(what, forces_of(forces))]
+    places = [each.points for each in reached]
+    unsettled = [step for step, each in enumerate(reached) if not each.settled and step >= first]
+    return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)), None, unsettled,
+                      labels)
 
 
 def _check_iterations(iterations: Sequence[int]) -> None:
@@ -204,9 +223,9 @@ def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
     yield line
 
 
-def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: int) -> str:
+def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: int, labels: bool = True) -> str:
     """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
-    return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame)}"
+    return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame, labels)}"
             f'<text x="{panel.x}" y="{panel.y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
             f'fill="{QUIET}">{number}</text>')
 
@@ -220,8 +239,8 @@ def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
     return "".join(shapes)
 
 
-def walls_svg(found: Map, places: Floats, frame: ViewFrame) -> str:
-    """The walls as one path, their arrows as another, then their labels."""
+def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = True) -> str:
+    """The walls as one path, their arrows as another, then their labels, if they have any."""
     points = frame.points(places).tolist()
     strokes, arrows, labels = [], [], []
     for wall in found.walls:
@@ -230,7 +249,7 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame) -> str:
         strokes.append(f"M{x} {y}L{to_x} {to_y}")
         if wall.directed and length > LEAST_POINTED * 10:
             arrows.append(_wall_arrow(x, y, to_x, to_y, length))
-        if length > LEAST_LABELLED * 10:
+        if labelled and length > LEAST_LABELLED * 10:
             labels.append(_wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
     return (f'<path d="{"".join(strokes)}" fill="none" stroke="{INK}" stroke-width="16" stroke-linecap="round"/>'
             f'<path d="{"".join(arrows)}" fill="{INK}"/>'

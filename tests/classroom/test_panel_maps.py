@@ -10,7 +10,8 @@ from playwright.sync_api import expect
 
 from lsys_kit import derive, explore, map_system, read_map
 from lsys_kit.classroom.panel.bundle import bundled
-from lsys_kit.geometry.map_layout import initial_vertices, place_maps
+from lsys_kit.geometry.map_layout import initial_vertices, place_maps, tissue
+from lsys_kit.geometry.relaxation import Forces, areas, force, relax
 from tests.classroom.test_map_book import FLAT
 
 MAPS = """
@@ -53,7 +54,7 @@ def page(browser):
 
 def asked(page, code, **given):
     """What some code makes of what is given, with the scripts of the panel before it."""
-    return page.evaluate(f"({{ {', '.join(given)} }}) => {{ {bundled('panel')}\n{code} }}", given)
+    return page.evaluate(f"({{ {', '.join(given)} }}) => {{ {bundled('page')}\n{code} }}", given)
 
 
 @pytest.mark.parametrize("id", FLAT)
@@ -227,6 +228,134 @@ def test_a_page_without_a_kernel_shows_a_map(explored, browser, tmp_path):
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(file.as_uri())
     expect(page.locator(".lsys-status")).to_contain_text("step 2: 14 points, 17 walls, 4 cells")
-    expect(page.get_by_text("Fixed on this page: stiffness = 1, rest = 0.1, pressure = 0.5, damping = 1.")).to_be_visible()
+    box = page.get_by_role("textbox", name="pressure")
+    expect(box).to_have_value("0.5")
+    before = page.evaluate(PIXELS)
+    box.fill("0.8")
+    box.press("Enter")
+    page.wait_for_function(f"{PIXELS} !== {before!r}")
+    page.wait_for_function("location.hash.length > 10")
+    again = browser.new_page()
+    again.goto(page.url)
+    expect(again.get_by_role("textbox", name="pressure")).to_have_value("0.8")
     assert not errors
     page.close()
+    again.close()
+
+
+# -- relaxation -------------------------------------------------------------------------------------------------------------
+
+RELAXATION = """
+const opened = openBook(book), tissue = tissueOf(opened, step), way = relaxation(tissue, startOf(opened, step), book.forces);
+const plain = ({ x, y }) => Array.from(x, (place, i) => [place, y[i]]), frames = [plain(way.now)];
+while (!way.now.end && way.now.iteration < most) {
+  way.next();
+  if (way.now.end || way.now.iteration % 25 === 0) frames.push(plain(way.now));
+}
+const { tensions, net } = forcesOf(tissue, way.now, book.forces);
+return { frames, end: way.now.end, iteration: way.now.iteration, tensions: Array.from(tensions), net: Array.from(net) };
+"""
+RELAXED = """
+return relaxedBook(book, {}, forces, 60_000).book;
+"""
+OTHER_FORCES = [{}, {"pressure": "1"}, {"stiffness": 5, "rest": 0.5}, {"damping": 3, "pressure": "0.02"}]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("forces", OTHER_FORCES, ids=str)
+@pytest.mark.parametrize("id", FLAT)
+def test_the_browser_relaxes_as_the_kernel_does(page, id, forces):
+    book = explore(id, **forces).model["book"]
+    kinds = Forces(**book["forces"])
+    for step, found in enumerate(derive(map_system(id), 3)):
+        shown = asked(page, RELAXATION, book=book, step=step, most=30_000)
+        here = [*relax(np.array(shown["frames"][0]), tissue(found), kinds)]
+        seen = here[::25] + here[-1:] * (len(here) % 25 != 1)
+        assert np.abs(np.array(shown["frames"]) - np.array(seen)).max() < 1e-9
+        assert (shown["end"], shown["iteration"]) == ("rest", len(here) - 1)
+        assert abs(shown["iteration"] - book["maps"][step]["iterations"]) <= 1  # which starts from points with more digits
+        reached = np.array(book["maps"][step]["points"]).reshape(-1, 2)
+        assert np.abs(reached - here[-1]).max() < 1e-2
+
+
+@pytest.mark.parametrize("id", FLAT)
+def test_tensions_and_pressures_that_are_painted_are_the_forces_on_the_points(page, id):
+    book = explore(id).model["book"]
+    shown = asked(page, RELAXATION, book=book, step=3, most=50)
+    found, at = derive(map_system(id), 3)[-1], np.array(shown["frames"][-1])
+    net = tissue(found)
+    sums = np.zeros_like(at)
+    for (start, end), tension, pressure in zip(net.ends, shown["tensions"], shown["net"], strict=True):
+        along = at[end] - at[start]
+        pull, push = tension * along / np.hypot(*along), pressure * np.array([-along[1], along[0]]) / 2
+        sums[start] += pull + push
+        sums[end] += push - pull
+    assert np.abs(sums - force(at, net, areas(at, net), Forces())).max() < 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("forces", OTHER_FORCES[1:], ids=str)
+@pytest.mark.parametrize("id", FLAT)
+def test_a_page_finds_where_cells_are_at_rest_under_other_forces(page, id, forces):
+    wanted = explore(id, **forces).model["book"]
+    found = asked(page, RELAXED, book={**explore(id).model["book"], "steps": 3}, forces=wanted["forces"])
+    for made, here, there in zip(derive(map_system(id), 3), found["maps"], wanted["maps"], strict=False):
+        points, others = (np.array(each["points"]).reshape(-1, 2) for each in (here, there))
+        assert here["settled"]
+        assert areas(points, tissue(made)) == pytest.approx(areas(others, tissue(made)), abs=1e-6)
+
+
+def watching(panel):
+    """The controls of the relaxation, and what is said of it."""
+    group = panel.page.get_by_role("group", name="relaxation")
+    return group, group.get_by_role("status")
+
+
+def test_the_relaxation_is_played_until_all_points_are_at_rest(explored):
+    panel = explored("K28", 1)
+    group, said = watching(panel)
+    expect(said).to_have_text("at rest after 309 iterations")
+    at_rest = panel.page.evaluate(PIXELS)
+    group.get_by_label("relaxation", exact=True).select_option("fast")
+    group.get_by_role("button", name="play the relaxation").click()
+    expect(said).to_have_text("at rest after 309 iterations", timeout=20_000)
+    expect(group.get_by_role("button", name="play the relaxation")).to_be_visible()
+    expect(group.get_by_label("forces", exact=True)).to_be_checked()
+    expect(panel.at("[data-view=drawing] .lsys-caption")).to_contain_text("pulls, at most with")
+    group.get_by_label("forces", exact=True).uncheck()
+    group.get_by_role("button", name="to rest").click()
+    panel.page.wait_for_function(f"{PIXELS} === {at_rest!r}")
+    assert panel.asked == []
+
+
+def test_the_relaxation_goes_on_iteration_by_iteration_by_keyboard(explored):
+    panel = explored("K28", 1)
+    group, said = watching(panel)
+    seen = [panel.page.evaluate(PIXELS)]
+    forward = group.get_by_role("button", name="one iteration on")
+    forward.focus()
+    for iteration in range(1, 4):
+        panel.page.keyboard.press("Enter")
+        expect(said).to_contain_text(f"iteration {iteration}: a point moved by 0.0")
+        panel.page.wait_for_timeout(100)
+        seen.append(panel.page.evaluate(PIXELS))
+    assert len({*seen}) == 4
+    group.get_by_role("button", name="iteration 0 of the relaxation").click()
+    expect(said).to_have_text("iteration 0")
+    panel.page.get_by_role("button", name="one step on").click()
+    expect(said).to_have_text("at rest after 315 iterations")
+
+
+def test_who_wants_no_motion_sees_stills_of_the_relaxation(explored):
+    panel = explored("K28", 1, context={"reduced_motion": "reduce"})
+    group, said = watching(panel)
+    group.get_by_role("button", name="play the relaxation").click()
+    expect(said).to_contain_text("iteration 39:")
+    group.get_by_role("button", name="pause the relaxation").click()
+    panel.page.wait_for_timeout(1_200)
+    expect(said).to_contain_text("iteration 39:")
+
+
+def test_cells_that_do_not_come_to_rest_are_said_not_to(explored):
+    panel = explored("K29", 1, rest=1, pressure="0.01", damping=10)
+    expect(watching(panel)[1]).to_have_text("does not settle: still moving after 20,000 iterations")

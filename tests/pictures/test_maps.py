@@ -60,6 +60,21 @@ def test_walls_have_labels_and_those_with_a_direction_arrows() -> None:
         assert len(re.findall("Z", picture.svg)) == arrows
 
 
+def test_labels_can_be_left_out() -> None:
+    bare = draw(K30, 1, labels=False)
+    assert not parsed(bare).findall(f"{SVG}g/{SVG}text")
+    assert len(re.findall("Z", bare.svg)) == 11
+    assert not parsed(draw(K30, 2, iterations=[5], labels=False)).findall(f"{SVG}g/{SVG}text")
+    with pytest.raises(ModelValueError, match='True or False for "labels"'):
+        draw(K30, 1, labels="no")  # type: ignore[call-overload]
+
+
+def test_a_step_that_does_not_settle_is_said_not_to() -> None:
+    floppy = draw(read_map("map: ABAB\nA -> B[-A]x[+A]B\nB -> A"), 1, rest=1, pressure="0.01", damping=10)
+    assert str(floppy) == "steps 0 to 1; the last: 8 vertices, 9 walls, 2 cells; step 1 does not settle"
+    assert "settle" not in str(draw(K28, 1))
+
+
 def test_a_label_has_its_number_lowered() -> None:
     assert '<tspan font-style="italic">P</tspan><tspan dy="3" font-size="70%">0</tspan>' in draw(read_map("map: P0AB"), 0).svg
 

@@ -167,7 +167,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def save(self, path: str | Path) -> None:
         """Write the panel as it stands to an .html file, a page that works without a kernel and without a network.
 
-        Its sliders move constants as far as the books of all their values have room in the page; forces stay as they are.
+        Its sliders move constants as far as the books of all their values have room in the page; under other forces
+        the cells of a map come to rest in the browser.
 
         Raises
         ------

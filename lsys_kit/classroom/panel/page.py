@@ -57,7 +57,8 @@ Promise.all(texts).then(([style, script]) => {
 });
 """
 """The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
-_CELLS, _STROKES, _MAPS = frozenset(("filament",)), frozenset(("turtle", "painter")), frozenset(("map",))
+_CELLS, _STROKES = frozenset(("filament",)), frozenset(("turtle", "painter"))
+_MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {"filament": _STROKES | _MAPS, "plane": _CELLS | _MAPS, "space": _CELLS | _MAPS, "map": _CELLS | {"turtle"}}
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")

@@ -8,7 +8,7 @@ new ones say between which others they were made, so that the browser can show h
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import accumulate
 from typing import Any
 
@@ -21,7 +21,8 @@ from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
 from lsys_kit.errors import LSystemError, ModelLimitError
-from lsys_kit.geometry.map_layout import place_maps, tissue
+from lsys_kit.geometry.equilibrium import Equilibrium
+from lsys_kit.geometry.map_layout import equilibria, polygon, tissue
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, number_text
@@ -37,24 +38,30 @@ MOST_UNASKED = 320
 take long to come to rest."""
 WALL_BYTES = 80
 """About what a wall takes in a book, with its share of points and cells."""
-DIGITS = 5
-"""The decimals of a coordinate; a wall is about 0.3 long."""
+DIGITS = 7
+"""The decimals of a coordinate; a wall is about 0.3 long, and areas shall be right to 1e-6."""
 
 
 @dataclass(frozen=True)
 class MapsAtRest:
-    """The maps of a system that a book holds, the positions of their points, and why there are no more; "" if nothing is in
-    the way."""
+    """The maps of a system that a book holds, under some forces; where their relaxation ends; and why there are no more, "" if
+    nothing is in the way."""
 
     system: MapSystem
+    forces: Forces
     maps: Sequence[Map]
-    places: Sequence[Floats]
+    equilibria: Sequence[Equilibrium]
     end: str
+
+    @property
+    def places(self) -> Sequence[Floats]:
+        """The positions of the points of each map."""
+        return [each.points for each in self.equilibria]
 
     @property
     def last(self) -> int:
         """The last step."""
-        return len(self.places) - 1
+        return len(self.equilibria) - 1
 
 
 def maps_at_rest(system: MapSystem, forces: Forces, least: int = 0) -> MapsAtRest:
@@ -68,19 +75,19 @@ def maps_at_rest(system: MapSystem, forces: Forces, least: int = 0) -> MapsAtRes
     asked = max(steps_of(system), least)
     with limits(modules=min(MOST_WALLS, current().modules), seconds=TIME_FOR_ASKED * current().seconds):
         maps, end = _developed(system, asked)
-        places, size = list[Floats](), 0
+        reached, size = list[Equilibrium](), 0
         try:
-            for found, points in zip(maps, place_maps(maps, forces), strict=True):
+            for found, each in zip(maps, equilibria(maps, forces), strict=True):
                 size += WALL_BYTES * len(found.walls)
                 if size > MOST_BYTES:
-                    end = f"The panel ends at step {len(places) - 1}: step {len(places)} has too many more walls."
+                    end = f"The panel ends at step {len(reached) - 1}: step {len(reached)} has too many more walls."
                     break
-                places.append(points)
+                reached.append(each)
         except LSystemError as error:
-            if not places:
+            if not reached:
                 raise
             end = sentence(error)
-    return MapsAtRest(system, maps[:len(places)], places, end)
+    return MapsAtRest(system, forces, maps[:len(reached)], reached, end)
 
 
 def steps_of(system: MapSystem) -> int:
@@ -139,7 +146,8 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
             "productions": [{"text": str(rule), "at": _span(rule)} for rule in system.productions],
             "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
             **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
-            "maps": _pages(found), "unknown": [], "said": "", "growth": None}
+            "forces": asdict(found.forces), "first": _flat(polygon(len(system.axiom))), "maps": _pages(found),
+            "unknown": [], "said": "", "growth": None}
 
 
 def _span(rule: EdgeProduction) -> list[int] | None:
@@ -169,15 +177,21 @@ def _pages(found: MapsAtRest) -> list[dict[str, Any]]:
     each cell starts; the kinds of cells; and where new points were made."""
     pages, kinds = [], dict[tuple[Edge, ...], int]()
     known = 0
-    for each, points in zip(found.maps, found.places, strict=True):
+    for each, reached in zip(found.maps, found.equilibria, strict=True):
         net = tissue(each)
         new = [(*vertex.between, float(vertex.share)) for vertex in each.vertices[known:] if vertex.between]
         pages.append({
-            "points": np.round(points, DIGITS).ravel().tolist(), "ends": packed(net.ends.ravel()),
+            "points": _flat(reached.points), "iterations": reached.iterations, "settled": reached.settled,
+            "ends": packed(net.ends.ravel()),
             "corners": packed(net.corners), "starts": packed(net.starts), "new": new,
             "kinds": packed(_whole(kinds.setdefault(word, len(kinds)) for word in cell_words(each)))})
         known = len(each.vertices)
     return pages
+
+
+def _flat(points: Floats) -> list[float]:
+    rounded: list[float] = np.round(points, DIGITS).ravel().tolist()
+    return rounded
 
 
 def _whole(numbers: Iterable[int]) -> np.ndarray[Any, Any]:

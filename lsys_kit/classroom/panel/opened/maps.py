@@ -11,8 +11,9 @@ from typing import Any
 from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
 from lsys_kit.classroom.panel.books.maps import MapsAtRest, map_book, maps_at_rest, steps_of
+from lsys_kit.classroom.panel.controls import slider
 from lsys_kit.classroom.panel.opened.opened import Viewing
-from lsys_kit.classroom.panel.page import deflated, kept_text, shared
+from lsys_kit.classroom.panel.page import deflated, shared
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.map_layout import scenes
@@ -116,13 +117,13 @@ class OpenedMap:
         return {"image/svg+xml": self.sight(chosen).svg}
 
     def page_data(self, chosen: Viewing) -> dict[str, Any]:
-        """On a page the forces stay as they are: cells come to rest in the kernel."""
+        """A page holds the book of one setting of the forces: under others cells come to rest in the browser."""
         made = self.book(chosen.values, 0, chosen.step)
-        fixed = made["settings"]
-        model = {"constants": [], "chance": False, "fixed": kept_text(fixed, None), "step": min(chosen.step, made["steps"]),
+        sliders = [slider(name, self.values[name], value, self.hint) for name, value in chosen.values.items()]
+        model = {"constants": sliders, "chance": False, "fixed": "", "step": min(chosen.step, made["steps"]),
                  "angle": 0, "around": 0, "above": 0, "seed": 0}
         own = {"notation": MAP.name, "text": str(self.system), "angle": 0}
-        return {"model": model, "mode": "map", "system": own, "fixed": fixed, "books": deflated(shared([made]))}
+        return {"model": model, "mode": "map", "system": own, "fixed": {}, "books": deflated(shared([made]))}
 
     def link(self, chosen: Viewing) -> str:
         return link(self.system, {STEP: chosen.step, **chosen.values})

@@ -1,9 +1,11 @@
 // The host of a panel on a page without a kernel: the books of all settings are in the page.
 
 import { bytesOf, inflated, packedLink, unpackedLink } from "./books/link.js";
+import { relaxedBook } from "./drawing/relaxation.js";
 import { openPanel } from "./panels/panel.js";
 
 const MOST_BYTES = 100_000_000; // of the books of a page
+const LONGEST = 3_000; // milliseconds in which the cells of a map come to rest under other forces
 
 // Open the panel of the data that stand in the page; where that cannot be done, say so.
 export async function openPage() {
@@ -18,7 +20,8 @@ export async function openPage() {
 }
 
 export function pageHost(data, books, linked) {
-  const answer = (constants) => answerAt(books, data.model.constants.map((each) => each.texts.indexOf(constants[each.name])), data.model.constants);
+  const { constants } = data.model, answer = data.mode === "map" ? (settings) => relaxedTo(answerAt(books, [], []).book, settings)
+    : (settings) => answerAt(books, constants.map((each) => each.texts.indexOf(settings[each.name])), constants);
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
   const settings = { ...first, ...linked.settings }, { step, angle, around, above, seed } = data.model, handlers = new Map();
   const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings, model: { ...data.model, book: answer(settings).book } };
@@ -44,6 +47,13 @@ export function pageHost(data, books, linked) {
     keeps: ["link"],
     editable: false,
   };
+}
+
+// The book of a map under some forces; the page holds that under the first ones.
+function relaxedTo(book, settings) {
+  if (Object.keys(book.settings).every((name) => book.settings[name] === settings[name])) return { book };
+  const forces = Object.fromEntries(Object.entries(settings).map(([name, text]) => [name, numberOf(text)]));
+  return relaxedBook(book, settings, forces, LONGEST);
 }
 
 // The book of some values of the constants, or the mistake that there is none; books share what they have in common.

@@ -2,10 +2,12 @@
 
 import { made } from "../views/controls.js";
 import { onKey, onMouse } from "../views/keys.js";
+import { relaxing } from "../views/relaxing.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
 import { rowBetween, strokesBetween } from "./gliding.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
+import { paintForces } from "./tension.js";
 import { placed, traced } from "./turtle.js";
 
 const ROWS = 24; // of a developmental sequence
@@ -14,6 +16,7 @@ const REACH = 6; // pixels from a stroke that is pointed at
 const CLICK = 4; // pixels that a pointer may move in a click
 const MOST_GLIDING = 20_000; // modules of a step that is reached on the way
 const GLIDE = 350; // milliseconds from one step to the next
+const BESIDE_ARROWS = 0.27; // how far along a wall its label stands, where in its middle an arrow begins
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
@@ -24,7 +27,7 @@ export function drawingView(parent, told) {
   parent.append(canvas, hint);
   const pen = canvas.getContext("2d"), pointers = new Map();
   let book, now, look, fault = "", shapes, frame, sheet, waiting = 0, glide = null;
-  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0, signs = null; // the signs of walls, where there was a map
+  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0, signs = null, relaxed = null; // of maps, where there was one
 
   const inSpace = () => book.data.mode === "space", isFilament = () => book.data.mode === "filament", isMap = () => book.data.mode === "map";
 
@@ -35,8 +38,12 @@ export function drawingView(parent, told) {
     hint.textContent = `${turning}Plus, minus or the wheel bring it nearer, ${inSpace() ? "Shift and arrows" : "arrows"} move it, Home puts it back. `
       + `Point at a ${{ filament: "cell", map: "wall" }[book.data.mode] ?? "part"} or click it to trace it; N and P go to the next and the one before.`;
     canvas.classList.toggle("lsys-turned", inSpace());
-    if (isMap() && !signs) hint.before((signs = wallSigns(() => draw())).element);
+    if (isMap() && !signs) {
+      [signs, relaxed] = [wallSigns(() => draw()), relaxing(() => draw())];
+      hint.before(signs.element, relaxed.element);
+    }
     signs?.offer(book);
+    relaxed?.offer(book);
   }
 
   // Show what is asked for: { step, angle, around, above, boxed: the step whose frame is kept, or null, glides }.
@@ -44,6 +51,7 @@ export function drawingView(parent, told) {
     const before = now, old = shapes;
     [now, look, fault] = [{ ...asked }, nextLook, ""];
     if (!isFilament()) shapes = shapesOf(now.step) ?? shapes;
+    if (isMap()) relaxed.goTo(now.step);
     if (asked.glides && before && (old || isFilament()) && now.step === before.step + 1 && book.length(now.step) < MOST_GLIDING)
       glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
     else if (before && before.step !== now.step) glide = null;
@@ -92,20 +100,26 @@ export function drawingView(parent, told) {
       paintSequence(pen, share < 1 ? rowBetween(sheet, glide.mothers, share) : sheet, look);
     } else if (fault) sentence(fault, width, height);
     else {
-      const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : shapes, box = boxOf(now.boxed);
+      const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap() ? relaxed.shapes() : shapes;
+      const box = isMap() && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
-      if (isMap()) paintCells(pen, visible, frame, look.theme);
-      paint(pen, visible, frame, look);
-      if (isMap()) {
-        paintWallSigns(pen, book, visible, frame, look, signs.chosen());
-        paintMapScale(pen, frame, look, height);
-      }
+      if (isMap()) paintMap(visible, height, share < 1 ? null : relaxed.forces());
+      else paint(pen, visible, frame, look);
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
     for (const name of ["step", "angle", "around", "above"]) canvas.dataset[name] = now[name];
     canvas.dataset.near = near.toFixed(2);
     if (glide) draw();
+  }
+
+  // A map: its cells, its walls or its forces, the signs of walls, and a scale.
+  function paintMap(visible, height, forces) {
+    paintCells(pen, visible, frame, look.theme);
+    if (!forces || look.marked.size || look.lit.size) paint(pen, visible, frame, look);
+    if (forces) paintForces(pen, visible, frame, look.theme, forces);
+    paintWallSigns(pen, book, visible, frame, look, { ...signs.chosen(), place: forces ? BESIDE_ARROWS : undefined });
+    paintMapScale(pen, frame, look, height);
   }
 
   // Where a filament begins that has been brought nearer: it is moved to the sides, and stays in sight.
@@ -192,7 +206,7 @@ export function drawingView(parent, told) {
   // The step and the position of the module that is drawn where the pointer is.
   function moduleAt(event) {
     const { x, y } = placeOf(event);
-    if (!isFilament()) return [now.step, fault ? -1 : shapeAt(shapes, frame, x, y, REACH)];
+    if (!isFilament()) return [now.step, fault ? -1 : shapeAt(isMap() ? relaxed.shapes() : shapes, frame, x, y, REACH)];
     const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
     return cell ? [cell.step, cell.position] : [now.step, -1];
   }
@@ -257,6 +271,7 @@ export function drawingView(parent, told) {
     },
     close() {
       resized.disconnect();
+      relaxed?.stop();
       cancelAnimationFrame(waiting);
     },
   };

@@ -5,7 +5,7 @@ import { whole } from "../books/book.js";
 import { lineColour, mixed } from "./colours.js";
 import { made } from "../views/controls.js";
 
-const UNIT = 8; // a wall is about 0.3 long; in a frame it shall be no smaller than a cell of other drawings
+export const UNIT = 8; // a wall is about 0.3 long; in a frame it shall be no smaller than a cell of other drawings
 const FILL = 0.07; // how strong the ink is in a cell
 const LEAST_LABELLED = 1.6, LEAST_POINTED = 1.1; // the lengths of walls with a label and with an arrow, in sizes of a label
 const HALO = 0.32; // of paper around a label, in its size
@@ -41,6 +41,12 @@ function shapesOf(book, step) {
   };
 }
 
+// The shapes of a map whose points are elsewhere, in the units of the forces.
+export function movedShapes(book, step, { x, y }) {
+  const scaled = (places) => Float64Array.from(places, (place) => UNIT * place);
+  return { ...mapShapes(book, step), x: scaled(x), y: scaled(y) };
+}
+
 // At either end of a wall that divides a cell, a wall that lies on the one in the map before whose marker was there.
 export function wallsBeside(book, step, position) {
   const { positions, from, to } = mapShapes(book, step).strokes;
@@ -73,7 +79,7 @@ function growing({ n, strokes }, x, y, first, share) {
   return { n: n + many, x: xs, y: ys, strokes: { ...strokes, to } };
 }
 
-const seenAt = ({ scale, x0, y0, middle: [cx, cy] }, { x, y }, point) => [x0 + (x[point] - cx) * scale, y0 - (y[point] - cy) * scale];
+export const seenAt = ({ scale, x0, y0, middle: [cx, cy] }, { x, y }, point) => [x0 + (x[point] - cx) * scale, y0 - (y[point] - cy) * scale];
 
 // The cells, below the walls.
 export function paintCells(pen, shapes, frame, theme) {
@@ -88,7 +94,7 @@ export function paintCells(pen, shapes, frame, theme) {
 }
 
 // The directions and labels of walls, above them, where they are long enough.
-export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { directions, labels }) {
+export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { directions, labels, place = 0.5 }) {
   const { strokes, palette } = shapes, named = [], size = parseFloat(getComputedStyle(pen.canvas).fontSize);
   for (let i = 0; i < strokes.n; i++) {
     const [x, y] = seenAt(frame, shapes, strokes.from[i]), [toX, toY] = seenAt(frame, shapes, strokes.to[i]);
@@ -97,7 +103,7 @@ export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { di
       pen.fillStyle = lineColour(palette[strokes.colours[i]], theme);
       pen.fill(arrowhead(x, y, (toX - x) / length, (toY - y) / length, length, size));
     }
-    if (labels && length > LEAST_LABELLED * size) named.push([(x + toX) / 2, (y + toY) / 2, strokes.states[i]]);
+    if (labels && length > LEAST_LABELLED * size) named.push([x + place * (toX - x), y + place * (toY - y), strokes.states[i]]);
   }
   for (const [x, y, state] of named) paintLabel(pen, book.label(state), x, y, size, theme, marked.has(state));
 }
