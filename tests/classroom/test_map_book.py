@@ -128,6 +128,20 @@ def test_a_map_of_too_many_walls_ends_the_book_with_the_reason():
     assert (found.last, found.end.split(";")[0]) == (3, "Step 4 would have 32 walls or more")
 
 
+def test_markers_that_never_match_are_told_in_the_panel():
+    made = read_map("map: A<D<C<B<\nsteps: 3\nA> -> D>[-A>]B>\nC> -> B>[-A<]B>\nD> -> C>")
+    book = map_book(maps_at_rest(made, Forces()), {})
+    assert book["said"].startswith("Markers of A never match up to step ")
+    assert book_of("K30")["said"] == ""
+
+
+def test_a_book_says_where_relaxation_ends():
+    book = map_book(maps_at_rest(map_system("K29"), Forces(rest=1, pressure=0.01, damping=10)), {})
+    assert [(page["iterations"], page["settled"]) for page in book["maps"][1:3]] == [(20_000, False)] * 2
+    assert book["forces"] == {"stiffness": 1.0, "rest": 1, "pressure": 0.01, "damping": 10}
+    assert all(page["settled"] for page in book_of("K29")["maps"])
+
+
 def test_no_label_is_left_out_because_a_turtle_knows_it():
     places = {place["letter"] for place in book_of("K32")["net"]["places"]}
     assert {"F", "f", "L", "n"} <= places

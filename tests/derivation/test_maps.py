@@ -255,3 +255,22 @@ def test_a_cell_between_meridians_is_divided_from_one_to_the_other() -> None:
     maps = derive(read_map("sphere: D>D>D>D>\nD> -> L>[-e]x>[+e]L>\nL> -> D>[+e]x>[-e]D>"), 2)
     assert maps.counts == [(2, 4, 4), (10, 16, 8), (26, 40, 16)]
     assert str(maps[1]) == " | ".join(["L>ex<L< | x>L>L<e"] * 4)
+
+
+@pytest.mark.parametrize("text", [K28, K29, K30.format("A>B>C>D>")])
+def test_markers_that_match_are_not_remarked_on(text: str) -> None:
+    for steps in range(5):
+        assert derive(read_map(text), steps).notes == ()
+
+
+def test_markers_that_never_match_are_named_once() -> None:
+    """Counter-clockwise the third example has its markers outside of its cell."""
+    maps = derive(read_map(K30.format("A<D<C<B<")), 6)
+    assert maps.counts[-1][2] == 1
+    assert maps.notes == ("Markers of A never match up to step 6: no cell has two on its sides that fit.",)
+
+
+def test_the_remarks_of_the_rules_are_those_of_the_maps() -> None:
+    maps = derive(read_map("map: AAA\nA> -> A>[-x>]A>\nA -> A"), 2)
+    assert maps.notes == maps.system.notes
+    assert any("markers of x<" in note for note in maps.notes)

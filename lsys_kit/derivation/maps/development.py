@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import overload
 
 from lsys_kit.budget import Task, check_budget, counted
-from lsys_kit.derivation.maps.divisions import map_step
+from lsys_kit.derivation.maps.divisions import dividing_walls, map_step, predecessor_of
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
 from lsys_kit.errors import ModelLimitError, whole_number
 from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
@@ -36,6 +37,17 @@ class Development(Sequence[Map]):
     def counts(self) -> list[tuple[int, int, int]]:
         """For each step how many vertices, walls and cells there are."""
         return [found.counts for found in self._maps]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Remarks: on the rules, and on markers that find no other half.
+
+        >>> from lsys_kit.notation.dialects.map.dialect import read_map
+        >>> develop(read_map("map: A>B>C>\\nA> -> D>[+A>]B>\\nC> -> B>[+A<]B>"), 1).notes
+        ('Markers of A never match up to step 1: no cell has two on its sides that fit.',)
+        """
+        with Task("The remarks were not found"):
+            return (*self.system.notes, *unmatched_markers(self.system, self._maps))
 
     def __len__(self) -> int:
         return len(self._maps)
@@ -88,6 +100,20 @@ def develop(system: MapSystem, steps: int) -> Development:
                 kept = "Step 0 is" if step == 1 else f"Steps 0-{step - 1} are"
                 raise error.with_hint(f"{kept} kept. {error.hint}") from None
     return Development(system, maps)
+
+
+def unmatched_markers(system: MapSystem, maps: Sequence[Map]) -> Iterator[str]:
+    """A remark on the letters of which both halves of walls are made in a step, but never on the sides of one cell."""
+    productions = {production.predecessor: production for production in system.productions}
+    halved, joined = dict[str, None](), set[str]()
+    for before, after in pairwise(maps):
+        kinds = dict.fromkeys(map(predecessor_of, counted(before.walls)))
+        made = [marker.edge for kind in kinds if kind in productions for marker in productions[kind].markers]
+        halved |= dict.fromkeys(edge.label for edge in made if edge.turned in made)
+        joined |= {wall.label for wall in dividing_walls(before, after, productions)}
+    letters = ", ".join(label for label in halved if label not in joined)
+    if letters:
+        yield f"Markers of {letters} never match up to step {len(maps) - 1}: no cell has two on its sides that fit."
 
 
 def _next_map(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) -> Map:

@@ -41,7 +41,7 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) 
     """The map of the next step."""
     check_walls(sum(len(_successor(wall, productions)) for wall in counted(found.walls)), step)
     vertices, walls = [*found.vertices], list[Wall]()
-    partings = [_parted(number, wall, productions.get(_predecessor(wall)), vertices, walls)
+    partings = [_parted(number, wall, productions.get(predecessor_of(wall)), vertices, walls)
                 for number, wall in enumerate(counted(found.walls))]
     cells, mothers = [], []
     for number, cell in enumerate(counted(found.cells)):
@@ -52,20 +52,26 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) 
     return Map(tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]), tuple(mothers))
 
 
-def _predecessor(wall: Wall) -> Edge:
+def predecessor_of(wall: Wall) -> Edge:
+    """A wall as the predecessor of a production."""
     return Edge(wall.label, ">" if wall.directed else "")
 
 
 def _successor(wall: Wall, productions: Mapping[Edge, EdgeProduction]) -> tuple[Edge, ...]:
     """The walls that a wall becomes; itself, where it has no production."""
-    predecessor = _predecessor(wall)
+    predecessor = predecessor_of(wall)
     return productions[predecessor].walls if predecessor in productions else (predecessor,)
+
+
+def dividing_walls(before: Map, after: Map, productions: Mapping[Edge, EdgeProduction]) -> Sequence[Wall]:
+    """The walls of a map that divide a cell of the map before it."""
+    return after.walls[sum(len(_successor(wall, productions)) for wall in counted(before.walls)):]
 
 
 def _parted(number: int, wall: Wall, production: EdgeProduction | None, vertices: list[Vertex],
             walls: list[Wall]) -> DividedWall:
     """Replace a wall, in its own direction: its vertices and walls are put behind those that there are."""
-    edges = production.walls if production else (_predecessor(wall),)
+    edges = production.walls if production else (predecessor_of(wall),)
     between = range(len(vertices), len(vertices) + len(edges) - 1)
     vertices += (Vertex((wall.start, wall.end), Fraction(part, len(edges)), number) for part in range(1, len(edges)))
     ends = [wall.start, *between, wall.end]

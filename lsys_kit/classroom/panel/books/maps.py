@@ -17,7 +17,7 @@ import numpy as np
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.panel.books.book import FEWEST_STEPS, MOST_BYTES, TIME_FOR_ASKED, packed, sentence
 from lsys_kit.classroom.panel.books.net import net_entry
-from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.maps.development import Development, develop, unmatched_markers
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
 from lsys_kit.errors import LSystemError, ModelLimitError
@@ -147,7 +147,7 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
             "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
             **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
             "forces": asdict(found.forces), "first": _flat(polygon(len(system.axiom))), "maps": _pages(found),
-            "unknown": [], "said": "", "growth": None}
+            "unknown": [], "said": "".join(unmatched_markers(system, found.maps)).rstrip("."), "growth": None}
 
 
 def _span(rule: EdgeProduction) -> list[int] | None:
