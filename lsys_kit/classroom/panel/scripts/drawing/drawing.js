@@ -118,7 +118,7 @@ export function drawingView(parent, told) {
     paintCells(pen, visible, frame, look.theme);
     if (!forces || look.marked.size || look.lit.size) paint(pen, visible, frame, look);
     if (forces) paintForces(pen, visible, frame, look.theme, forces);
-    paintWallSigns(pen, book, visible, frame, look, { ...signs.chosen(), place: forces ? BESIDE_ARROWS : undefined });
+    paintWallSigns(pen, book, visible, frame, look, { ...signs.chosen(), ...(forces && { place: BESIDE_ARROWS, pale: true }) });
     paintMapScale(pen, frame, look, height);
   }
 

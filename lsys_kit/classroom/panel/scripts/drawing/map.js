@@ -94,13 +94,13 @@ export function paintCells(pen, shapes, frame, theme) {
 }
 
 // The directions and labels of walls, above them, where they are long enough.
-export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { directions, labels, place = 0.5 }) {
+export function paintWallSigns(pen, book, shapes, frame, { theme, marked }, { directions, labels, place = 0.5, pale = false }) {
   const { strokes, palette } = shapes, named = [], size = parseFloat(getComputedStyle(pen.canvas).fontSize);
   for (let i = 0; i < strokes.n; i++) {
     const [x, y] = seenAt(frame, shapes, strokes.from[i]), [toX, toY] = seenAt(frame, shapes, strokes.to[i]);
     const length = Math.hypot(toX - x, toY - y), isDirected = book.data.states[strokes.states[i]][1] !== "";
     if (directions && isDirected && length > LEAST_POINTED * size) {
-      pen.fillStyle = lineColour(palette[strokes.colours[i]], theme);
+      pen.fillStyle = pale ? theme.quiet : lineColour(palette[strokes.colours[i]], theme);
       pen.fill(arrowhead(x, y, (toX - x) / length, (toY - y) / length, length, size));
     }
     if (labels && length > LEAST_LABELLED * size) named.push([x + place * (toX - x), y + place * (toY - y), strokes.states[i]]);
