@@ -34,7 +34,7 @@ const host = {
   },
   variants: () => ask({ kind: "variants" }),
   keep: (what, state) => ask({ kind: "keep", what, state }),
-  keeps: ["svg", "page", "link"], editable: true,
+  keeps: ["svg", "page", "link"], editable: true, ahead: true,
 };
 window.asked = [];
 const ask = (content) => { window.asked.push(content.kind); return window.kernel(content); };

@@ -45,7 +45,7 @@ export function pageHost(data, books, linked) {
     variants: () => Promise.resolve({ variants: [] }),
     keep: async () => ({ text: await address() }),
     keeps: ["link"],
-    editable: false,
+    editable: false, ahead: data.mode !== "map",
   };
 }
 

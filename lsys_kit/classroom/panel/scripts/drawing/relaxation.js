@@ -84,15 +84,19 @@ export function relaxation(tissue, points, forces, atRest = AT_REST) {
   let room = areasOf(tissue, points);
 
   function moved(push, pace) {
-    const along = (places, speed, part) => Float64Array.from(places, (place, i) => place + (speed[i] + part[i] * pace) * pace);
-    return { x: along(now.x, speeds.x, push.across), y: along(now.y, speeds.y, push.up) };
+    const x = new Float64Array(n), y = new Float64Array(n);
+    for (let i = 0; i < n; i++) {
+      x[i] = now.x[i] + (speeds.x[i] + push.across[i] * pace) * pace;
+      y[i] = now.y[i] + (speeds.y[i] + push.up[i] * pace) * pace;
+    }
+    return { x, y };
   }
 
   // A time step short enough that no cell loses more than half of its area.
   function integrated(push) {
     for (let pace = TIME_STEP; ; pace /= 2) {
-      const next = moved(push, pace), left = areasOf(tissue, next);
-      if (pace < SHORTEST_TIME_STEP || left.every((area, i) => area > room[i] / 2 || room[i] < LEAST_AREA)) return { next, left, pace };
+      const there = moved(push, pace), left = areasOf(tissue, there);
+      if (pace < SHORTEST_TIME_STEP || !isCollapsing(room, left)) return { there, left, pace };
     }
   }
 
@@ -103,7 +107,7 @@ export function relaxation(tissue, points, forces, atRest = AT_REST) {
       push.across[i] -= forces.damping * speeds.x[i];
       push.up[i] -= forces.damping * speeds.y[i];
     }
-    const { next: there, left, pace } = integrated(push);
+    const { there, left, pace } = integrated(push);
     let farthest = 0, outermost = 0;
     for (let i = 0; i < n; i++) {
       speeds.x[i] += push.across[i] * pace;
@@ -122,6 +126,11 @@ export function relaxation(tissue, points, forces, atRest = AT_REST) {
   return { now, next };
 }
 
+function isCollapsing(room, left) {
+  for (let cell = 0; cell < room.length; cell++) if (!(left[cell] > room[cell] / 2 || room[cell] < LEAST_AREA)) return true;
+  return false;
+}
+
 // A book under other forces: its maps are relaxed here one after another, as long as there is time. Its settings are texts.
 export function relaxedBook(data, settings, forces, milliseconds) {
   const begun = performance.now(), maps = [];
@@ -129,10 +138,14 @@ export function relaxedBook(data, settings, forces, milliseconds) {
   for (let step = 0; step <= data.steps && !ended; step++) {
     const book = { data: { ...data, maps: [...maps, data.maps[step]] } };
     const way = relaxation(tissueOf(book, step), startOf(book, step), forces, SURELY_AT_REST);
-    while (!way.now.end && performance.now() - begun < milliseconds) way.next();
-    const { x, y, end, iteration } = way.now;
+    let iterations = 0; // after which points are nearly at rest, as where they are watched
+    while (!way.now.end && performance.now() - begun < milliseconds) {
+      way.next();
+      if (!iterations && way.now.farthest < AT_REST) iterations = way.now.iteration;
+    }
+    const { x, y, end } = way.now;
     if (!end || end === "blown up") ended = ENDS[end](step);
-    else maps.push({ ...data.maps[step], points: Array.from(x).flatMap((place, i) => [place, y[i]]), iterations: iteration, settled: end === "rest" });
+    else maps.push({ ...data.maps[step], points: Array.from(x).flatMap((place, i) => [place, y[i]]), iterations: iterations || way.now.iteration, settled: end === "rest" });
   }
   if (!maps.length) return { mistake: { message: ended, hint: "" } };
   return { book: { ...data, settings, forces, maps, steps: maps.length - 1, end: ended || data.end } };

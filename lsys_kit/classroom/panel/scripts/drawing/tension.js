@@ -12,6 +12,8 @@ export const PUSH = "#d55e00";
 const THINNEST = 1.4, BROADEST = 8, PALEST = 0.6, DASHES = [6, 4]; // pixels, and how strong the colour of the weakest is
 const LONGEST_ARROW = 36, SHORTEST_ARROW = 4, HEAD = 6, SLENDER = 0.45; // pixels
 
+const known = new WeakMap();
+
 // For each wall its tension, and the pressure that pushes it to its left less the one that pushes it to its right, by length.
 export function forcesOf(tissue, points, forces) {
   const pressures = pressuresOf(tissue, points, forces), net = new Float64Array(tissue.from.length), numbers = wallsBetween(tissue);
@@ -24,8 +26,9 @@ export function forcesOf(tissue, points, forces) {
 
 const keyOf = (a, b) => `${Math.min(a, b)} ${Math.max(a, b)}`;
 
-function wallsBetween({ from, to }) {
-  return new Map(Array.from(from, (a, i) => [keyOf(a, to[i]), i]));
+function wallsBetween(tissue) {
+  if (!known.has(tissue)) known.set(tissue, new Map(Array.from(tissue.from, (a, i) => [keyOf(a, tissue.to[i]), i])));
+  return known.get(tissue);
 }
 
 export const strongest = (tensions) => tensions.reduce((most, tension) => Math.max(most, Math.abs(tension)), 0);

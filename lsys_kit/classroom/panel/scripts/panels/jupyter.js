@@ -42,7 +42,7 @@ export function hostOf(model) {
     variants: () => ask({ kind: "variants" }),
     keep: (kind, state) => ask({ kind: "keep", what: kind, state }),
     keeps: ["svg", "page", "link"],
-    editable: true,
+    editable: true, ahead: true,
   };
   return { host, leave: () => model.off("msg:custom", answered) };
 }

@@ -93,7 +93,7 @@ export function openPanel(element, host, compared = null) {
     if (answer.mistake) return say(answer.mistake);
     turnTo(answer.book);
     clearTimeout(idle);
-    idle = setTimeout(() => books.fetchAhead(neighbours()), REST);
+    if (host.ahead) idle = setTimeout(() => books.fetchAhead(neighbours()), REST);
   }
 
   const request = () => ({ constants: { ...host.get("settings") }, seed: host.get("seed") });
