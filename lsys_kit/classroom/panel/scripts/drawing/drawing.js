@@ -17,6 +17,7 @@ const CLICK = 4; // pixels that a pointer may move in a click
 const MOST_GLIDING = 20_000; // modules of a step that is reached on the way
 const GLIDE = 350; // milliseconds from one step to the next
 const BESIDE_ARROWS = 0.27; // how far along a wall its label stands, where in its middle an arrow begins
+const WITH_ARROWS = 0.86; // how much smaller a map is where arrows stand around it
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
@@ -102,8 +103,9 @@ export function drawingView(parent, told) {
     else {
       const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap() ? relaxed.shapes() : shapes;
       const box = isMap() && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
-      frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near, shift, box });
-      if (isMap()) paintMap(visible, height, share < 1 ? null : relaxed.forces());
+      const forces = isMap() && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * WITH_ARROWS : near;
+      frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near: scaled, shift, box });
+      if (isMap()) paintMap(visible, height, forces);
       else paint(pen, visible, frame, look);
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
