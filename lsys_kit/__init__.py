@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.vote import vote
     from lsys_kit.classroom.lessons.worksheet import worksheet
+    from lsys_kit.classroom.exercises.session import exercises
     from lsys_kit.classroom.link import link, linked
     from lsys_kit.classroom.panel.comparison import compare
     from lsys_kit.classroom.panel.explorer import explore
@@ -64,6 +65,7 @@ _HOMES = {
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "draw_hierarchy": "pictures.hierarchy",
     "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
+    "exercises": "classroom.exercises.session",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth.growth", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
@@ -94,6 +96,7 @@ __all__ = [
     "draw",
     "draw_hierarchy",
     "ensemble",
+    "exercises",
     "explain",
     "explore",
     "figure",

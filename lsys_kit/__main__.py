@@ -101,7 +101,22 @@ def _argument_parser() -> argparse.ArgumentParser:
     page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
     lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
+    _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks."))
     return parser
+
+
+def _add_exercises(parser: argparse.ArgumentParser) -> None:
+    """What may be done with exercises."""
+    parts = parser.add_subparsers(required=True, metavar="WHAT", dest="what")
+    text = "Say what is wrong with the exercises in a folder: in which file and line, and what to try."
+    check = parts.add_parser("check", help=text, description=text, allow_abbrev=False)
+    check.add_argument("folder", nargs="?", metavar="FOLDER", help="a folder of .toml files (default: those of the kit)")
+    check.set_defaults(action=commands.check_exercises)
+    text = "Write a notebook for each file of exercises in a folder."
+    write = parts.add_parser("notebooks", help=text, description=text, allow_abbrev=False)
+    write.add_argument("folder", metavar="FOLDER", help="a folder of .toml files")
+    write.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the notebooks")
+    write.set_defaults(action=commands.write_exercises)
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:

@@ -176,6 +176,28 @@ def _titles(name: str) -> tuple[str, str]:
     return known.id, f"{known.id}: {known.title}"
 
 
+def check_exercises(options: argparse.Namespace) -> None:
+    """Print what is wrong with the exercises in a folder."""
+    from lsys_kit.classroom.exercises.declarations import QUESTIONS
+    from lsys_kit.classroom.exercises.lint import problems_in
+
+    problems = problems_in(options.folder or QUESTIONS)
+    for problem in problems:
+        print(problem)
+    if problems:
+        raise ModelFileError(f"{len(problems)} mistake{'s' * (len(problems) > 1)} in the exercises",
+                             hint="Each line above says where one is and what to try.")
+    print("No mistakes.")
+
+
+def write_exercises(options: argparse.Namespace) -> None:
+    """Write the notebooks of the exercises in a folder."""
+    from lsys_kit.classroom.exercises.notebooks import write_notebooks
+
+    for path in write_notebooks(options.output, options.folder):
+        print(path)
+
+
 def open_lab(options: argparse.Namespace) -> None:
     """Copy the course and open it in JupyterLab."""
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report

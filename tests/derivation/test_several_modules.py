@@ -9,12 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, draw, explain, growth, limits, lineage, read, stages, timed
-from lsys_kit.classroom.exercises.differences import differing_word
 from lsys_kit.derivation.derive import lengths
 from lsys_kit.derivation.engines.engine import Origins
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
-from lsys_kit.notation.read import read_word
 
 words = st.text("AB", min_size=1, max_size=12)
 
@@ -167,12 +165,6 @@ def test_a_module_that_may_be_replaced_with_one_before_it_has_no_successor_of_it
     states = derive(read("axiom: A B C\nA B -> C\nB -> A\nC -> A"), 1).states
     for module, alone in (("A", False), ("B", False), ("C", True)):
         assert states.is_d0l(states.number(module)) is alone
-
-
-def test_a_wrong_word_is_answered_with_all_that_becomes_a_module() -> None:
-    derivation = derive(read("axiom: A A B\nA B -> C"), 1)
-    assert differing_word(derivation, 1, read_word("A D")) == (
-        "Position 2: you have D, the word has C; look at what becomes of the A B at positions 2 to 3 of step 0.")
 
 
 def test_a_step_that_would_be_too_large_is_refused() -> None:

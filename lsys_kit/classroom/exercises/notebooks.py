@@ -12,8 +12,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from lsys_kit.classroom.exercises.answers import Exercise
-from lsys_kit.classroom.exercises.check import Lesson, check, lessons
+from lsys_kit.classroom.exercises.check import check
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
+from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
+from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.session import exercises
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
 
@@ -21,21 +24,21 @@ NotebookCell: TypeAlias = dict[str, Any]
 
 _HOW = """\
 Replace the `...` of an answer and run its cell: the reply says whether the answer is right, or how it differs. Below each
-answer is a cell for hints: remove its first `#` and run it. After an attempt, `check("{id}", answer, solution=True)` shows
-the solution.
+answer is a cell for hints, which come after a try: remove its first `#` and run it. After a try,
+`check("{id}", answer, solution=True)` shows the solution.
 
 The answers come with the kit, where anybody can find them. This is a self-check, not an examination."""
 
 
-def exercise_notebook(lesson: Lesson) -> str:
-    """The notebook of a lesson's exercises, as the text of its file.
+def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
+    """The notebook of a lesson's exercises, as the text of its file; `folder` has their questions, if these are not the kit's.
 
-    >>> from lsys_kit.classroom.exercises.check import lessons
+    >>> from lsys_kit.classroom.exercises.session import lessons
     >>> json.loads(exercise_notebook(lessons()[0]))["cells"][1]["source"]
     ['from lsys_kit import check']
     """
     notebook = {
-        "cells": list(_with_execution_counts(_cells(lesson))),
+        "cells": list(_with_execution_counts(_cells(lesson, folder))),
         "metadata": {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
                      "language_info": {"name": "python"}},
         "nbformat": 4,
@@ -44,18 +47,28 @@ def exercise_notebook(lesson: Lesson) -> str:
     return json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
 
 
-def write_notebooks(folder: str | Path) -> list[Path]:
-    """Write the notebooks of all lessons into a folder."""
+def write_notebooks(folder: str | Path, questions: str | Path = QUESTIONS) -> list[Path]:
+    """Write the notebooks of all lessons whose questions are in a folder, by default the kit's, into another folder.
+
+    Raises
+    ------
+    ModelFileError
+        There are mistakes in the files of questions.
+    """
+    own = "" if Path(questions) == QUESTIONS else str(questions)
+    if own:
+        exercises(own)
     paths = []
-    for lesson in lessons():
+    for lesson in questions_in(Path(questions)).lessons:
         paths.append(Path(folder) / f"{lesson.name}.ipynb")
-        replace_file(paths[-1], exercise_notebook(lesson).encode())
+        replace_file(paths[-1], exercise_notebook(lesson, own).encode())
     return paths
 
 
-def _cells(lesson: Lesson) -> Iterator[NotebookCell]:
+def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     yield _markdown("head", _introduction(lesson))
-    yield _code("import", "from lsys_kit import check")
+    added = f", exercises\nexercises({json.dumps(folder)});" if folder else ""
+    yield _code("import", f"from lsys_kit import check{added}")
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
     yield _markdown("summary", f"## Summary\n\n{lesson.summary}\n\n[Back to the lesson](../notebooks/{lesson.name}.ipynb)")
@@ -70,9 +83,26 @@ def _introduction(lesson: Lesson) -> str:
 
 def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
     name = f"exercise-{exercise.id.replace('.', '-')}"
-    yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}")
-    yield _code(f"{name}-answer", f'answer = ...\ncheck("{exercise.id}", answer)', check(exercise.id))
-    yield _code(f"{name}-hints", f'# check("{exercise.id}", hint=1)   # hints 1 to {len(exercise.hints)}')
+    yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}{_shown_below(exercise)}")
+    yield _code(f"{name}-answer", f'answer = {_template(exercise)}\ncheck("{exercise.id}", answer)', check(exercise.id))
+    yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # hints 1 to {len(exercise.hints)}')
+
+
+def _shown_below(exercise: Exercise) -> str:
+    """The options of a choice, or the numbered lines of a program."""
+    if exercise.options:
+        return "\n\n" + "\n".join(f"- **{letter}** {option.text}" for letter, option in
+                                  zip(letters(exercise), exercise.options, strict=True))
+    if exercise.kind == "line":
+        lines = exercise.text.strip("\n").splitlines()
+        return "\n\n" + "\n".join(f"    {number:2}  {line}" for number, line in enumerate(lines, 1))
+    return ""
+
+
+def _template(exercise: Exercise) -> str:
+    """What stands in the cell before an answer."""
+    text = exercise.template.strip("\n")
+    return text if text == "..." else f'"""\n{text}\n"""' if "\n" in text else f'"{text}"'
 
 
 def _markdown(name: str, text: str) -> NotebookCell:

@@ -1,15 +1,13 @@
-"""Differences in the terms of the field: where two words, systems or expressions differ, and what to look at."""
+"""Whether two expressions are equal: by proof, or in each of some cases."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
-from lsys_kit.derivation.derive import Derivation
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, to_sympy
-from lsys_kit.notation.model.modules import Module
 
 Valuations: TypeAlias = Mapping[str, Value]
 """A value for each name."""
@@ -17,80 +15,6 @@ MOST_NODES = 40
 """Operators, names and numbers of an expression that sympy is asked about."""
 MOST_PROOF_DEGREE = 12
 """Its degree, with the exponents of its numbers: larger powers are not expanded."""
-
-
-def differing_word(derivation: Derivation, step: int, word: Sequence[Module]) -> str:
-    """Where a word differs from the word of a step, and which module produced what should be there.
-
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read, read_word
-    >>> derivation = derive(read("axiom: a\\na -> ab\\nb -> a"), 3)
-    >>> differing_word(derivation, 3, read_word("a b b b a"))
-    'Position 3: you have b, the word has a; look at what becomes of the b at position 2 of step 2.'
-    """
-    at = _parting(word, derivation[step])
-    if at == len(derivation[step]):
-        return f"You have {len(word)} modules, the word has {at}: up to position {at} yours is right."
-    origins = derivation.origins(step)
-    parent = origins.parents[at]
-    size = origins.sizes[parent] if origins.sizes else 1
-    where = f"position {parent + 1}" if size == 1 else f"positions {parent + 1} to {parent + size}"
-    return (f"Position {at + 1}: you have {_shown(word, at)}, the word has {derivation[step][at]}; look at what becomes of "
-            f"the {derivation[step - 1][parent:parent + size]} at {where} of step {step - 1}.")
-
-
-def differing_system(mine: Derivation, wanted: Derivation, step: int) -> str:
-    """Where the words of two systems first differ, and which production of the first is to blame.
-
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
-    >>> mine, wanted = (derive(read(f"axiom: a\\na -> ab\\nb -> {b}"), 3) for b in ("b", "a"))
-    >>> print(differing_system(mine, wanted, 2))
-    Step 2, position 3: you have b, the system has a; look at your production for b, which is
-      b -> b
-    """
-    at = _parting(mine[step], wanted[step])
-    said = f"Step {step}, position {at + 1}: you have {_shown(mine[step], at)}, the system has {_shown(wanted[step], at)}"
-    return f"{said}; look at your axiom." if step == 0 else f"{said}; {_blamed(mine, wanted, step)}"
-
-
-def _blamed(mine: Derivation, wanted: Derivation, step: int) -> str:
-    """The production of the first module that the two systems rewrite differently: until then their words are equal."""
-    own, other = _replacements(mine, step), _replacements(wanted, step)
-    at = next(i for i, (made, right) in enumerate(zip(own, other, strict=True)) if made != right)
-    return _about_production(mine, step, at, own[at])
-
-
-def _about_production(mine: Derivation, step: int, at: int, made: Sequence[Module]) -> str:
-    """Where to look, given the position of a module in the word before a step and what it became."""
-    module, origins = mine[step - 1][at], mine.origins(step)
-    if made:
-        production = origins.productions[origins.parents.index(at)]
-    elif mine.states.traits.d0l:
-        production = mine.states.production(mine[step - 1].numbers()[at])
-    else:
-        return f"look at your productions for {module}, position {at + 1} of step {step - 1}."
-    if production is None:
-        return f"you have no production for {module}, position {at + 1} of step {step - 1}, so that it stays as it is."
-    return f"look at your production for {module}, which is\n  {mine.states.system.productions[production]}"
-
-
-def _replacements(derivation: Derivation, step: int) -> list[list[Module]]:
-    """What each module of the word before a step became."""
-    found: list[list[Module]] = [[] for _ in derivation[step - 1]]
-    for parent, module in zip(derivation.origins(step).parents, derivation[step], strict=True):
-        found[parent].append(module)
-    return found
-
-
-def _parting(mine: Sequence[Module], wanted: Sequence[Module]) -> int:
-    """The first position, from 0, at which two words differ; the length of the shorter where it begins the longer."""
-    shorter = min(len(mine), len(wanted))
-    return next((i for i in range(shorter) if mine[i] != wanted[i]), shorter)
-
-
-def _shown(word: Sequence[Module], at: int) -> str:
-    return str(word[at]) if at < len(word) else "the end of the word"
 
 
 def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valuations]) -> str | None:
@@ -176,3 +100,22 @@ def _exponent(expression: Expression) -> float:
     if isinstance(expression, Number):
         return abs(float(expression.value))
     return 1 if isinstance(expression, Name) else math.inf
+
+
+def is_rational(expression: Expression) -> bool:
+    """Whether an expression is built of numbers, names and + - * / and whole powers, so that equality can be decided.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> is_rational(read_expression("(d - s)^2 / 2")), is_rational(read_expression("max(d, s)"))
+    (True, False)
+    """
+    if not isinstance(expression, Apply):
+        return True
+    if expression.operator == "^":
+        base, power = expression.operands
+        return is_rational(base) and isinstance(power, Number) and power.value == int(power.value) and _is_small(expression)
+    return (
+        expression.operator in ("+", "-", "*", "/", "-x")
+        and _is_small(expression)
+        and all(map(is_rational, expression.operands))
+    )

@@ -1,0 +1,135 @@
+"""Judging: from an answer to a verdict. Right; or what a misconception yields; or different, and where first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from lsys_kit.budget import limits
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
+from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS, Misconception
+from lsys_kit.classroom.exercises.verdict import Verdict
+from lsys_kit.errors import LSystemError
+
+NEAR, NEAR_UNKNOWN, RECOGNISED, MOST_UNKNOWN, READABLE = 0.6, 0.5, 0.4, 0.3, 0.05
+"""Scores: nearly right and recognised; right but for one thing; recognised; otherwise by how much is right; and not at all."""
+MOST_ASKED = 3
+"""So many misconceptions at most are asked about."""
+MOST_ANSWERS = 60
+"""So many answers of one misconception are tried."""
+
+
+@dataclass(frozen=True)
+class WrongAnswer:
+    """A wrong answer that is understood.
+
+    Attributes
+    ----------
+    answer
+        As an answer to the exercise is read.
+    misconception
+        That which yields it, or None.
+    says
+        The exercise's own reply, or empty.
+    near
+        Whether it is nearly right.
+    """
+
+    answer: Any
+    misconception: Misconception | None = None
+    says: str = ""
+    near: bool = False
+
+
+@lru_cache(maxsize=512)
+def wrong_answers(exercise: Exercise) -> tuple[WrongAnswer, ...]:
+    """The wrong answers to an exercise that are understood: those that it declares, then those that misconceptions yield.
+
+    >>> fibonacci = "axiom: a\\na -> ab\\nb -> a"
+    >>> exercise = Exercise("1", "", "word", "", "abaab", "", (), system=fibonacci, steps=3)
+    >>> [wrong.misconception.name for wrong in wrong_answers(exercise)][:3]
+    ['sequential', 'one production a step', 'leftmost only']
+    """
+    return (*_declared(exercise), *_computed(exercise))
+
+
+def _declared(exercise: Exercise) -> Iterator[WrongAnswer]:
+    kind = ANSWER_KINDS[exercise.kind]
+    for slip in exercise.slips:
+        with suppress(LSystemError), limits(modules=20_000, seconds=2):  # one that cannot be read is found by lint
+            known = MISCONCEPTIONS.get(slip.misconception)
+            yield WrongAnswer(kind.read(exercise, slip.answer), known, slip.says, slip.near or bool(known and known.near))
+    for letter, option in zip(letters(exercise), exercise.options, strict=True):
+        if option.says or option.misconception:
+            yield WrongAnswer(letter, MISCONCEPTIONS.get(option.misconception), option.says)
+
+
+def _computed(exercise: Exercise) -> Iterator[WrongAnswer]:
+    kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
+    for misconception in MISCONCEPTIONS.values():
+        if not _is_looked_for(exercise, misconception):
+            continue
+        found: list[Any] = []
+        with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):
+            for answer in misconception.answers(exercise):
+                if answer is None or any(_alike(exercise, answer, other) for other in found):
+                    continue
+                found.append(answer)
+                if not kind.same(exercise, answer, solution) and not _alike(exercise, answer, solution):
+                    yield WrongAnswer(answer, misconception, near=misconception.near)
+                if len(found) >= MOST_ANSWERS:
+                    break
+
+
+def _is_looked_for(exercise: Exercise, misconception: Misconception) -> bool:
+    on_request = misconception.on_request or (misconception.faint and exercise.kind == "number")
+    return misconception.name not in exercise.unlikely and (not on_request or misconception.name in exercise.expects)
+
+
+def _alike(exercise: Exercise, own: Any, other: Any) -> bool:
+    """Whether an answer is that which is understood."""
+    return (ANSWER_KINDS[exercise.kind].alike or ANSWER_KINDS[exercise.kind].same)(exercise, own, other)
+
+
+def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
+    """The verdict on an answer, and whether it was a try, after which hints and the solution may be shown.
+
+    Raises
+    ------
+    LSystemError
+        The answer cannot be read, or is too large.
+    """
+    kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
+    own = kind.read(exercise, answer)
+    if kind.same(exercise, own, solution):
+        return Verdict("Correct", kind.praise(exercise, own, solution)), True
+    fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
+    found = kind.difference(exercise, own, solution)
+    if fitting:
+        near = found.near or all(wrong.near for wrong in fitting)
+        return Verdict("Almost" if near else "Not yet", _explained(fitting), NEAR if near else RECOGNISED), True
+    score = NEAR_UNKNOWN if found.near else READABLE + (MOST_UNKNOWN - READABLE) * min(max(found.likeness, 0), 1)
+    return Verdict("Almost" if found.near else "Not yet", found.message, score), kind.honest(exercise, own, solution)
+
+
+def _explained(fitting: Sequence[WrongAnswer]) -> str:
+    """What is said of an answer that one or several misconceptions yield: one is named, several are asked about."""
+    own = next((wrong for wrong in fitting if wrong.says), None)
+    others = {wrong.misconception.name: wrong.misconception for wrong in fitting if wrong.misconception}
+    if own is not None:
+        others.pop(own.misconception.name if own.misconception else "", None)
+        asked = f" Or did you {_any_of(list(others.values()))}?" if others else ""
+        return f"{own.says.strip()}{asked}"
+    if len(others) == 1:
+        only = next(iter(others.values()))
+        return f"That is what comes out if you {only.do}. {only.but}"
+    return f"Did you {_any_of(list(others.values()))}?"
+
+
+def _any_of(several: Sequence[Misconception]) -> str:
+    return ", or ".join(misconception.do for misconception in several[:MOST_ASKED])

@@ -1,0 +1,185 @@
+"""Drawings as answers: a system or a word, judged by what it draws, up to position, turn and size."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from lsys_kit.budget import check_budget
+from lsys_kit.classroom.exercises.asked import asked_system, written
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
+from lsys_kit.classroom.exercises.kinds.words import read_modules
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.scene import Floats
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read
+from lsys_kit.worlds.derive import derive
+
+_SYSTEM = re.compile(r"->|=|:|→|#")
+MOST_STROKES = 5_000
+"""The most strokes of a drawing that is compared."""
+TOLERANCE = 1e-6
+"""How far two ends may be apart that are the same, where a drawing has the size 1."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What was drawn, and from what."""
+
+    derivation: Derivation
+
+    @cached_property
+    def strokes(self) -> Floats:
+        """The strokes, those on one line that touch joined, about their centre and of size 1: shape (n, 4) or (n, 6)."""
+        ends = scene_of(self.derivation).segments.ends
+        if len(ends) > MOST_STROKES:
+            raise ModelValueError(f"The drawing has {len(ends):,} strokes; up to {MOST_STROKES:,} are compared")
+        return normalised(joined_strokes(ends) if ends.shape[1] == 4 else ends)
+
+
+def drawn(exercise: Exercise, system: LSystem) -> Drawn:
+    """What a system draws at the step that is asked for."""
+    return Drawn(derive(system, exercise.steps))
+
+
+def joined_strokes(ends: Floats) -> Floats:
+    """Strokes on one straight line that touch or overlap, as one.
+
+    >>> joined_strokes(np.array([[0.0, 0, 0, 1], [0, 1, 0, 2], [0, 5, 0, 4]])).tolist()
+    [[0.0, 0.0, 0.0, 2.0], [0.0, 4.0, 0.0, 5.0]]
+    """
+    rows: dict[tuple[float, ...], list[tuple[float, float]]] = {}
+    size = max(float(np.abs(ends).max(initial=0)), 1e-300)
+    for x, y, u, v in (ends / size).tolist():
+        length = float(np.hypot(u - x, v - y))
+        if length > 1e-9:
+            across, up = _direction((u - x) / length, (v - y) / length)
+            key = (round(across, 6) + 0.0, round(up, 6) + 0.0, round(x * up - y * across, 6) + 0.0)
+            one, other = x * across + y * up, u * across + v * up
+            rows.setdefault(key, []).append((min(one, other), max(one, other)))
+    found = [_ends(key, low, high) for key, spans in sorted(rows.items()) for low, high in _merged(sorted(spans))]
+    return np.array(found, dtype=float).reshape(-1, 4) * size
+
+
+def _direction(across: float, up: float) -> tuple[float, float]:
+    """One direction for both ways along a line."""
+    return (-across, -up) if up < -1e-7 or (abs(up) <= 1e-7 and across < 0) else (across, up)
+
+
+def _merged(spans: list[tuple[float, float]]) -> Iterator[tuple[float, float]]:
+    low, high = spans[0]
+    for start, end in spans[1:]:
+        if start > high + 1e-6:
+            yield low, high
+            low, high = start, end
+        high = max(high, end)
+    yield low, high
+
+
+def _ends(key: tuple[float, ...], low: float, high: float) -> list[float]:
+    across, up, beside = key
+    return [low * across + beside * up, low * up - beside * across, high * across + beside * up, high * up - beside * across]
+
+
+def normalised(ends: Floats) -> Floats:
+    """Strokes moved to their centre and scaled to size 1."""
+    if not len(ends):
+        return ends
+    dimension = ends.shape[1] // 2
+    points = ends.reshape(-1, dimension)
+    points = points - points.mean(axis=0)
+    size = float(np.sqrt((points**2).sum(axis=1).mean()))
+    return np.asarray(points / (size or 1), dtype=float).reshape(-1, 2 * dimension)
+
+
+def same_strokes(mine: Floats, wanted: Floats) -> bool:
+    """Whether normalised strokes are the same after a turn.
+
+    >>> square = normalised(np.array([[0.0, 0, 1, 0], [1, 0, 1, 1], [1, 1, 0, 1], [0, 1, 0, 0]]))
+    >>> same_strokes(square @ np.kron(np.eye(2), np.array([[0, 1], [-1, 0]])), square)
+    True
+    """
+    if mine.shape != wanted.shape:
+        return False
+    if not len(mine):
+        return True
+    if mine.shape[1] == 6:
+        return _same_in_space(mine, wanted)
+    return any(_covers(mine @ np.kron(np.eye(2), turn), wanted) for turn in _turns(mine, wanted))
+
+
+def _turns(mine: Floats, wanted: Floats) -> Iterator[Floats]:
+    """The turns that bring the outermost point of one drawing to a point of the other."""
+    own, other = mine.reshape(-1, 2), wanted.reshape(-1, 2)
+    radii = np.hypot(*own.T)
+    outermost = own[int(radii.argmax())]
+    angle = np.arctan2(outermost[1], outermost[0])
+    seen: set[float] = set()
+    for x, y in other[np.abs(np.hypot(*other.T) - radii.max()) < 10 * TOLERANCE]:
+        turn = round(float(np.arctan2(y, x) - angle) % (2 * np.pi), 5)
+        if turn not in seen:
+            check_budget()
+            seen.add(turn)
+            by = np.arctan2(y, x) - angle
+            yield np.array([[np.cos(by), np.sin(by)], [-np.sin(by), np.cos(by)]])
+
+
+def _covers(mine: Floats, wanted: Floats) -> bool:
+    """Whether each stroke of one drawing lies on one of the other, in either direction."""
+    both_ways = np.concatenate([wanted, wanted[:, [2, 3, 0, 1]]])
+    distances, nearest = cKDTree(both_ways).query(mine)
+    return bool((distances < 100 * TOLERANCE).all()) and len(set((nearest % len(wanted)).tolist())) == len(wanted)
+
+
+def _same_in_space(mine: Floats, wanted: Floats) -> bool:
+    """Whether strokes in space, in their order, are the same after a rotation (Kabsch 1976)."""
+    own, other = mine.reshape(-1, 3), wanted.reshape(-1, 3)
+    left, _, right = np.linalg.svd(own.T @ other)
+    mirror = np.diag([1, 1, np.sign(np.linalg.det(left @ right))])
+    return bool(np.allclose(own @ (left @ mirror @ right), other, atol=100 * TOLERANCE))
+
+
+def _read(exercise: Exercise, answer: object) -> Drawn:
+    if isinstance(answer, Derivation):
+        return Drawn(answer)
+    if isinstance(answer, LSystem):
+        return drawn(exercise, answer)
+    if isinstance(answer, str) and (not exercise.system or _SYSTEM.search(answer)):
+        return drawn(exercise, read(answer))
+    system = asked_system(exercise)
+    return Drawn(written(system, read_modules(system, answer)))
+
+
+def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
+    return same_strokes(mine.strokes, wanted.strokes)
+
+
+def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
+    own, other = len(mine.strokes), len(wanted.strokes)
+    if not own:
+        return Difference("Nothing is drawn. Which symbols draw a stroke?")
+    if own != other:
+        more = "more" if own > other else "fewer"
+        return Difference(
+            f"It draws {more} straight strokes than it should. Draw it beside the picture and follow the turtle stroke by "
+            "stroke.",
+            min(own, other) / max(own, other) / 2,
+        )
+    return Difference(
+        "It has as many straight strokes as it should, but they stand otherwise. Draw it beside the picture: at which "
+        "stroke does the turtle turn otherwise?",
+        0.6,
+    )
+
+
+DRAWING = AnswerKind(
+    'word or system, as a text between """ and """', _read, _same, _difference, lambda _, mine, wanted: len(mine.strokes) > 1
+)

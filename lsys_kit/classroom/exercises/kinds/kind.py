@@ -1,0 +1,82 @@
+"""What a kind of answers is: how an answer is read, when it is right, and what can be said of a wrong one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from lsys_kit.classroom.exercises.exercise import Exercise
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How a wrong answer differs, where no misconception explains it.
+
+    Attributes
+    ----------
+    message
+        Where it differs first, and what to look at; never what should be there.
+    likeness
+        How much of it is right, from 0 to 1.
+    near
+        Whether it is right but for one thing.
+    """
+
+    message: str
+    likeness: float = 0
+    near: bool = False
+
+
+@dataclass(frozen=True)
+class AnswerKind:
+    """One kind of answers.
+
+    Attributes
+    ----------
+    what
+        What a student puts in the place of the `...`.
+    read
+        From the exercise and the answer as given to its meaning.
+    same
+        Whether two answers to an exercise mean the same.
+    difference
+        From the exercise, a wrong answer and the solution to what can be said.
+    honest
+        Whether a wrong answer is a try, after which the solution may be shown.
+    praise
+        What is added to a right answer.
+    alike
+        Whether an answer is a wrong one that is understood; `same`, where that will do.
+    """
+
+    what: str
+    read: Callable[[Exercise, object], Any]
+    same: Callable[[Exercise, Any, Any], bool]
+    difference: Callable[[Exercise, Any, Any], Difference]
+    honest: Callable[[Exercise, Any, Any], bool]
+    praise: Callable[[Exercise, Any, Any], str] = lambda exercise, own, solution: ""
+    alike: Callable[[Exercise, Any, Any], bool] | None = None
+
+
+def first_difference(mine: object, wanted: object) -> int:
+    """The first position, from 0, at which two rows differ; the length of the shorter where it begins the longer.
+
+    >>> first_difference("abc", "abd"), first_difference("ab", "abd")
+    (2, 2)
+    """
+    one, other = tuple(mine), tuple(wanted)  # type: ignore[var-annotated, arg-type]
+    shorter = min(len(one), len(other))
+    return next((i for i in range(shorter) if one[i] != other[i]), shorter)
+
+
+def one_apart(mine: tuple[object, ...], wanted: tuple[object, ...]) -> bool:
+    """Whether two rows, of four or more, differ by one thing that is changed, missing or too much.
+
+    >>> one_apart(tuple("abab"), tuple("abbb")), one_apart(tuple("aba"), tuple("abab")), one_apart(tuple("abab"), tuple("baba"))
+    (True, True, False)
+    """
+    if len(wanted) < 4 or abs(len(mine) - len(wanted)) > 1:
+        return False
+    at = first_difference(mine, wanted)
+    return mine[at + (len(mine) >= len(wanted)) :] == wanted[at + (len(wanted) >= len(mine)) :]

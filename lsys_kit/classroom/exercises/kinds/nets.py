@@ -1,0 +1,176 @@
+"""Stage diagrams as answers, compared up to the names of their places."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
+from lsys_kit.classroom.exercises.typed import quoted, text_answer
+from lsys_kit.derivation.petri.net import Stages
+from lsys_kit.derivation.petri.stages import stages
+from lsys_kit.errors import ModelLimitError, ModelSyntaxError
+from lsys_kit.notation.model.system import LSystem
+
+MOST_TRANSITIONS = 60
+"""The most transitions of a net that is compared."""
+_LINE = re.compile(
+    r"^\s*(?P<place>[^\s+]+)\s*(?:->|→|-->|=>)\s*(?P<made>.*?)\s*(?P<terms>(?:with probability|after|at once|if)\b.*)?$"
+)
+_PART = re.compile(r"^\s*(?P<copies>\d*)\s*\*?\s*(?P<place>[^\s+]+)\s*$")
+_START = re.compile(r"^\s*(?:start|tokens|axiom)\s*:\s*(?P<places>.*)$", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Firing:
+    """A transition: the place that it empties, how many tokens it puts where, and its terms."""
+
+    place: str
+    made: tuple[tuple[str, int], ...]
+    terms: str = ""
+
+
+@dataclass(frozen=True)
+class Net:
+    """Transitions, and the tokens at the beginning; None where nothing is said of them."""
+
+    firings: tuple[Firing, ...]
+    start: tuple[tuple[str, int], ...] | None = field(default=None)
+
+
+def net_of(found: Stages, start: bool = False) -> Net:
+    """A net of the kit as lines.
+
+    >>> from lsys_kit.notation.read import read
+    >>> net_of(stages(read("axiom: a\\na -> ab\\nb -> a"))).firings[0]
+    Firing(place='a', made=(('a', 1), ('b', 1)), terms='')
+    """
+    net = read_net(repr(found))
+    marked = Counter({str(place): tokens for place, tokens in zip(found.places, found.start, strict=True) if tokens})
+    return Net(net.firings, _sorted(marked)) if start else net
+
+
+def read_net(text: str) -> Net:
+    """A net as it is typed, a transition a line.
+
+    >>> read_net("C -> L + 2 S\\nstart: C")
+    Net(firings=(Firing(place='C', made=(('L', 1), ('S', 2)), terms=''),), start=(('C', 1),))
+    """
+    firings: list[Firing] = []
+    start: Counter[str] | None = None
+    lines = [line for line in re.split(r"[\n;]", text) if line.strip() and not line.startswith("besides:")]
+    if len(lines) > MOST_TRANSITIONS:
+        raise ModelLimitError(f"The net has more than {MOST_TRANSITIONS} transitions", limit=MOST_TRANSITIONS)
+    for line in lines:
+        marked, found = _START.match(line), _LINE.match(line)
+        if marked:
+            start = _counted(marked["places"].replace(",", "+"), text)
+        elif found:
+            firings.append(
+                Firing(found["place"], _sorted(_counted(found["made"], text)), " ".join((found["terms"] or "").split()))
+            )
+        else:
+            at = text.find(line)
+            raise ModelSyntaxError("This is no transition", text, at, at + len(line), "Write it as: A -> B + 2 C.")
+    return Net(tuple(firings), None if start is None else _sorted(start))
+
+
+def _counted(made: str, text: str) -> Counter[str]:
+    """How many tokens are put into each place."""
+    found: Counter[str] = Counter()
+    for part in made.split("+") if made.strip() not in ("", "ε", "*", "nothing") else ():
+        read = _PART.match(part)
+        if not read:
+            at = max(text.find(part), 0)
+            raise ModelSyntaxError(f'"{quoted(part)}" is no place', text, at, at + len(part), "Write it as: A -> B + 2 C.")
+        found[read["place"]] += int(read["copies"][:6] or 1)
+    return found
+
+
+def _sorted(found: Counter[str]) -> tuple[tuple[str, int], ...]:
+    return tuple(sorted(found.items()))
+
+
+def _read(exercise: Exercise, answer: object) -> Net:
+    with_start = bool(exercise.solution and _START.search(exercise.solution.splitlines()[-1]))
+    if isinstance(answer, LSystem):
+        answer = stages(answer)
+    if isinstance(answer, Stages):
+        return net_of(answer, with_start)
+    return read_net(text_answer(answer, "A net", '"A -> B + 2 C"'))
+
+
+def isomorphic(mine: Net, wanted: Net) -> bool:
+    """Whether two nets are the same but for the names of their places."""
+    import networkx
+
+    def graph(net: Net) -> networkx.DiGraph:
+        found: networkx.DiGraph = networkx.DiGraph()
+        tokens = dict(net.start if net.start is not None and wanted.start is not None else ())
+        for place in _places(net):
+            found.add_node(place, label=("place", tokens.get(place, 0)))
+        for number, firing in enumerate(net.firings):
+            found.add_node(number, label=("transition", firing.terms))
+            found.add_edge(firing.place, number, copies=1)
+            for place, copies in firing.made:
+                found.add_edge(number, place, copies=copies)
+        return found
+
+    return bool(
+        networkx.is_isomorphic(
+            graph(mine), graph(wanted), lambda a, b: a["label"] == b["label"], lambda a, b: a["copies"] == b["copies"]
+        )
+    )
+
+
+def _places(net: Net) -> Iterator[str]:
+    for firing in net.firings:
+        yield firing.place
+        yield from (place for place, _ in firing.made)
+    yield from (place for place, _ in net.start or ())
+
+
+def _same(_: Exercise, mine: Net, wanted: Net) -> bool:
+    return (wanted.start is None or mine.start is not None) and isomorphic(mine, wanted)
+
+
+def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
+    same = Counter(mine.firings) & Counter(wanted.firings)
+    likeness = sum(same.values()) / max(len(mine.firings), len(wanted.firings), 1)
+    near = len(wanted.firings) > 2 and sum(same.values()) >= len(wanted.firings) - 1
+    own, other = len(set(_places(mine))), len(set(_places(wanted)))
+    if own != other:
+        return Difference(
+            f"Your net has {own} places, which is too {'many' if own > other else 'few'}: each stage has one place.",
+            likeness,
+            near,
+        )
+    if len(mine.firings) != len(wanted.firings):
+        return Difference(
+            f"Your net has {len(mine.firings)} transitions, which is too "
+            f"{'many' if len(mine.firings) > len(wanted.firings) else 'few'}.",
+            likeness,
+            near,
+        )
+    if wanted.start is not None and isomorphic(Net(mine.firings), Net(wanted.firings)):
+        return Difference(
+            "The places and transitions are right; look at the tokens with which it starts (a line that begins with start:).",
+            1,
+            True,
+        )
+    odd = next((firing for firing in mine.firings if firing not in wanted.firings), mine.firings[0])
+    return Difference(
+        f"Look at the transition that empties {odd.place}: into which places does it put tokens, and how many?", likeness, near
+    )
+
+
+NET = AnswerKind(
+    "transitions, a line each, as a text",
+    _read,
+    _same,
+    _difference,
+    lambda _, own, wanted: 2 * len(own.firings) >= len(wanted.firings),
+)

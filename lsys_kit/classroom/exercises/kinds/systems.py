@@ -1,0 +1,178 @@
+"""Systems as answers: right where their language is, whatever their symbols and parameters are called.
+
+An answer is compared by its axiom, by what becomes of every module that the question is about, and by the words of all steps,
+from the axiom and from other axioms. Where the question gives a part, the answer is tried in front of that part and behind it:
+a production must itself say to which modules it applies.
+"""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import replace
+
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
+from lsys_kit.classroom.exercises.kinds.system_comparison import (
+    Parting,
+    SystemAnswer,
+    alike,
+    asked_modules,
+    completed,
+    parting,
+    renaming,
+    same,
+    unused,
+    wrongly_replaced,
+)
+from lsys_kit.classroom.exercises.typed import text_answer
+from lsys_kit.derivation.core.states import States
+from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production, symbols
+from lsys_kit.notation.read import read
+from lsys_kit.worlds.derive import derive
+
+_AXIOM_LINE = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
+"""An answer with an axiom of its own is the whole system."""
+
+
+def _read(exercise: Exercise, answer: object) -> SystemAnswer:
+    if isinstance(answer, LSystem):
+        return SystemAnswer(answer, answer, answer)
+    text = text_answer(answer, "A system", '"axiom: a"')
+    if not exercise.given or _AXIOM_LINE.search(text):
+        return _whole(read(text))
+    with suppress(LSystemError):  # in another notation, with an axiom
+        return _whole(read(text))
+    given = read(exercise.given)
+    together = read(f"{text}\n{exercise.given}")
+    own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
+    if not own:
+        raise ModelValueError("There is no production here that the question does not give", hint="Write it as: A -> B.")
+    return completed(exercise, replace(together, productions=tuple(own)))
+
+
+def _whole(system: LSystem) -> SystemAnswer:
+    return SystemAnswer(system, system, system)
+
+
+# What to say
+
+
+def _difference(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> Difference:
+    behind = parting(exercise, mine.behind, wanted.behind)
+    front = parting(exercise, mine.front, wanted.behind) if mine.front is not mine.behind else behind
+    likeness, near = _likeness(exercise, mine, wanted)
+    if front is None and behind is None:
+        return _difference_in_writing(exercise, mine, wanted)
+    if behind is None and front is not None:
+        return Difference(_hijacking(front, mine), likeness * 0.9, near)
+    found = behind or front
+    assert found is not None
+    return Difference(_in_words(found, mine, mine.behind if behind else mine.front), likeness, near)
+
+
+def _difference_in_writing(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> Difference:
+    never = unused(mine.own)
+    if never is not None:
+        return Difference(
+            f"One of your productions is never used, because one before it always applies:{_typed(never, mine)}", 1, True
+        )
+    return Difference("The words are right, but not the angle, by which the drawing changes.", 1, True)
+
+
+def _hijacking(found: Parting, mine: SystemAnswer) -> str:
+    before = f"the {found.module}" if found.module is not None else _module_before(found, mine.front)
+    return (
+        "Your production works only where it stands behind those that are given: by itself it applies to other modules too, "
+        f"such as {before}. To which ones should it apply? Let its condition say so."
+    )
+
+
+def _module_before(found: Parting, system: LSystem) -> str:
+    if found.step == 0:
+        return "the axiom"
+    derivation = derive(system, found.step)
+    parents = derivation.origins(found.step).parents
+    before = derivation[found.step - 1]
+    return f"the {before[parents[found.position]] if found.position < len(parents) else before[len(before) - 1]}"
+
+
+def _in_words(found: Parting, mine: SystemAnswer, system: LSystem) -> str:
+    besides = f" (with {found.setting})" if found.setting else ""
+    so_far = f"Up to step {found.step - 1} your words are right. " if found.step > 1 and not besides else ""
+    if found.module is not None:
+        cause = _production_for(found.module, mine, system)
+        return f"{so_far}Of {found.module} something else should become{besides}. {cause}".strip()
+    if found.step == 0:
+        return "Look at your axiom: it is not yet the word with which the development begins."
+    derivation = derive(system, found.step)
+    if besides:
+        return f"From another start it goes wrong at step {found.step}, position {found.position + 1}{besides}."
+    parents, before = derivation.origins(found.step).parents, derivation[found.step - 1]
+    if found.position >= len(parents):
+        return f"{so_far}At step {found.step} your word ends after position {found.position}, which is too early."
+    mother = before[parents[found.position]]
+    production = derivation.origins(found.step).productions[found.position]
+    have = derivation[found.step][found.position]
+    said = f"{so_far}At step {found.step} look at position {found.position + 1}, where you have {have}"
+    if production is None:
+        return f"{said}: you have no production for {mother}, so that it stays as it is."
+    return f"{said}. It comes from {mother}, by this production:{_typed(system.productions[production], mine)}"
+
+
+def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
+    states = States(system)
+    state = states.number(module.symbol, module.arguments)
+    number = states.production(state) if states.is_d0l(state) else None
+    if number is None:
+        return "You have no production that applies to it." if states.is_d0l(state) else ""
+    return f"Look at this production:{_typed(system.productions[number], mine)}"
+
+
+def _typed(rule: Production, mine: SystemAnswer) -> str:
+    """A production as it was typed, as a quoted line; as the kit writes it, where it was not typed."""
+    source = mine.own.source
+    own = next((found for found in mine.own.productions if found == rule and found.at), None)
+    text = source[own.at[0] : own.at[1]] if own and own.at and source and own.at[1] <= len(source) else str(rule)
+    return f"\n  {' '.join(text.split())}"
+
+
+def _likeness(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> tuple[float, bool]:
+    """How many of the modules that the solution's own productions rewrite become what they should; whether all but one."""
+    names = renaming(exercise, wanted.behind)
+    try:
+        axiom = names.first_difference(derive(mine.behind, 0)[0], derive(wanted.behind, 0)[0]) is None
+        modules = [module for module in asked_modules(exercise, wanted.behind) if _rewritten_by(wanted.own, module)]
+        wrong = set(wrongly_replaced(exercise, mine.behind, wanted.behind, names))
+    except LSystemError:
+        return 0, False
+    wrong_ones = sum(names.own(module) in wrong for module in modules)
+    kinds = {module.symbol for module in modules if names.own(module) in wrong}
+    all_kinds = {module.symbol for module in modules}
+    total = len(modules) + 1
+    near = len(all_kinds) > 2 and (len(kinds) + (not axiom)) == 1
+    return (total - wrong_ones - (not axiom)) / total, near
+
+
+def _rewritten_by(own: LSystem, module: Module) -> bool:
+    return any(rule.predecessor.symbol == module.symbol for rule in own.productions)
+
+
+def _honest(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
+    """At least half as many productions as the solution has, which rewrite something that the question is about."""
+    known = set(symbols(wanted.behind))
+    useful = [rule for rule in mine.own.productions if rule.predecessor.symbol in known or exercise.names == "any"]
+    return 2 * len(useful) >= len(wanted.own.productions) and mine.own.productions != ()
+
+
+def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
+    return (
+        f"The words of all steps from 0 to {exercise.steps} agree, and so does what becomes of each module."
+        if not States(wanted.front).traits.stochastic
+        else "Each module becomes what it should, as often as it should."
+    )
+
+
+SYSTEM = AnswerKind('lines of the system, as a text between """ and """', _read, same, _difference, _honest, _praise, alike)

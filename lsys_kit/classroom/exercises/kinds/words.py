@@ -1,0 +1,157 @@
+"""Words as answers: one word, or several in order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+
+from lsys_kit.classroom.exercises.asked import Derived, asked_steps, asked_system, right_history
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
+from lsys_kit.classroom.exercises.typed import text_answer
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.errors import LSystemError, ModelNameError
+from lsys_kit.notation.analysis.checks import span, suggestion
+from lsys_kit.notation.model.modules import Module, Pattern
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.notation.read import read_word
+from lsys_kit.notation.registry import DIALECTS
+
+Modules = tuple[Module, ...]
+_OUTER_COMMA = re.compile(r",(?![^(]*\))")
+_MISTAKABLE = {"+": "-", "-": "+", "[": "(", "]": ")", "(": "[", ")": "]", "F": "f", "f": "F"}
+"""Symbols that are taken for one another: where one occurs the other is an answer, if a wrong one."""
+_BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
+"""A word written as a list, whose brackets are no branches."""
+
+
+def system_of_words(exercise: Exercise) -> LSystem:
+    """The system whose symbols an answer may use: that of the question, or one of the letters that it names."""
+    if exercise.system:
+        return asked_system(exercise)
+    return LSystem(tuple(map(Pattern, exercise.symbols or sorted({*re.findall(r"\w", exercise.solution)}))), ())
+
+
+def read_modules(system: LSystem, answer: object) -> Modules:
+    """A word of a system, as it was typed or made by the kit.
+
+    >>> from lsys_kit.notation.read import read
+    >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
+    >>> read_modules(fibonacci, "a, b, a") == read_modules(fibonacci, ["a", "b", "a"]) == read_modules(fibonacci, "aba")
+    True
+    """
+    if isinstance(answer, Word):
+        return tuple(answer)
+    if isinstance(answer, list | tuple) and all(isinstance(part, str | Module) for part in answer):
+        answer = " ".join(map(str, answer))
+    text = text_answer(answer, "A word", '"al br"')
+    bare = _BRACES.sub(lambda found: found[1], text)
+    plain = bare if system.notation == "plant-string" else _OUTER_COMMA.sub(" ", bare)
+    try:
+        return _of_the_system(system, plain, read_word(plain, system.notation, system))
+    except LSystemError:
+        for notation in DIALECTS:
+            with suppress(LSystemError):
+                return _of_the_system(system, plain, read_word(plain, notation, system))
+        raise
+
+
+def _of_the_system(system: LSystem, text: str, word: Modules) -> Modules:
+    known = symbols(system)
+    allowed = {*known, *(_MISTAKABLE[symbol] for symbol in known if symbol in _MISTAKABLE)}
+    for module in word:
+        if module.symbol not in allowed:
+            hint = suggestion(module.symbol, known) or f"The symbols are: {', '.join(known)}."
+            raise ModelNameError(f'The question has no symbol "{module.symbol}"', text, *span(module), hint)
+    return word
+
+
+def _read_word(exercise: Exercise, answer: object) -> Modules:
+    return read_modules(system_of_words(exercise), answer)
+
+
+def _word_difference(exercise: Exercise, word: Modules, solution: Modules) -> Difference:
+    at = first_difference(word, solution)
+    if at == len(solution):
+        message = f"Up to position {at} your word is right; the modules behind it are too many."
+    else:
+        found = "your word ends" if at >= len(word) else f"you have {word[at]}"
+        so_far = f"Up to position {at} your word is right; at" if at else "At"
+        message = f"{so_far} position {at + 1} {found}. {_mother(exercise, at)}".rstrip()
+    return Difference(message, at / max(len(solution), len(word), 1), one_apart(word, solution))
+
+
+def _mother(exercise: Exercise, at: int) -> str:
+    """Which module of the word before made the module at a position."""
+    if not exercise.system or not exercise.steps:
+        return ""
+    words = right_history(exercise).words
+    assert isinstance(words, Derived)
+    origins = words.derivation.origins(exercise.steps)
+    parent, before = origins.parents[at], words[exercise.steps - 1]
+    size = origins.sizes[parent] if origins.sizes else 1
+    where = f"position {parent + 1}" if size == 1 else f"positions {parent + 1} to {parent + size}"
+    return f"Look at what becomes of the {before[parent : parent + size]} at {where} of step {exercise.steps - 1}."
+
+
+def _honest_word(exercise: Exercise, word: Modules, solution: Modules) -> bool:
+    axiom = asked_system(exercise).axiom if exercise.system and exercise.steps else ()
+    return 2 * len(word) >= len(solution) and tuple(map(str, word)) != tuple(map(str, axiom))
+
+
+WORD = AnswerKind(
+    "word, as a text in quotation marks", _read_word, lambda _, a, b: bool(a == b), _word_difference, _honest_word
+)
+
+
+# Several words
+
+
+def _read_words(exercise: Exercise, answer: object) -> tuple[Modules, ...]:
+    system = system_of_words(exercise)
+    return tuple(read_modules(system, part) for part in _separate(answer))
+
+
+def _separate(answer: object) -> Iterator[object]:
+    if isinstance(answer, Derivation | list | tuple):
+        yield from answer
+        return
+    text = text_answer(answer, "Words", '"a, ab, aba"').strip()
+    separator = next((mark for mark in ("\n", ";", ",") if mark in text), "\n")
+    for part in text.split(separator):
+        if part.strip():
+            yield re.sub(r"^\s*\d+\s*[:.]?\s+", "", part).strip(" ,")
+
+
+def _words_difference(exercise: Exercise, words: Sequence[Modules], solution: Sequence[Modules]) -> Difference:
+    at = first_difference(words, solution)
+    if len(words) != len(solution):
+        if at == min(len(words), len(solution)):
+            return Difference(
+                f"You have {len(words)} words, and {len(solution)} are asked for; as far as both go they agree.",
+                at / len(solution),
+                len(solution) > 3 and abs(len(words) - len(solution)) == 1,
+            )
+        return Difference(
+            f"You have {len(words)} words, and {len(solution)} are asked for. {_where(exercise, at)}", at / len(solution)
+        )
+    inside = first_difference(words[at], solution[at])
+    return Difference(
+        f"{_where(exercise, at)} There look at position {inside + 1}.", at / len(solution), at == len(solution) - 1 > 1
+    )
+
+
+def _where(exercise: Exercise, at: int) -> str:
+    step = f", that of step {asked_steps(exercise)[at]}," if exercise.system and at < len(asked_steps(exercise)) else ""
+    return f"Word {at + 1}{step} is the first that differs."
+
+
+WORDS = AnswerKind(
+    "words, as a text in quotation marks, one a line",
+    _read_words,
+    lambda _, a, b: bool(a == b),
+    _words_difference,
+    lambda _, own, solution: 2 * len(own) >= len(solution),
+)
