@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from lsys_kit.budget import limits
     from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
+    from lsys_kit.classroom.exercises.session import exercises
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.vote import vote
     from lsys_kit.classroom.lessons.worksheet import worksheet
-    from lsys_kit.classroom.exercises.session import exercises
     from lsys_kit.classroom.link import link, linked
     from lsys_kit.classroom.panel.comparison import compare
     from lsys_kit.classroom.panel.explorer import explore

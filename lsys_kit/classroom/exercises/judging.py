@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -20,6 +21,8 @@ NEAR, NEAR_UNKNOWN, RECOGNISED, MOST_UNKNOWN, READABLE = 0.6, 0.5, 0.4, 0.3, 0.0
 """Scores: nearly right and recognised; right but for one thing; recognised; otherwise by how much is right; and not at all."""
 MOST_ASKED = 3
 """So many misconceptions at most are asked about."""
+MOST_SECONDS = 8
+"""So long misconceptions are looked for in an exercise, once in a session: enough for all but worlds that are slow to derive."""
 MOST_ANSWERS = 60
 """So many answers of one misconception are tried."""
 
@@ -71,8 +74,9 @@ def _declared(exercise: Exercise) -> Iterator[WrongAnswer]:
 
 def _computed(exercise: Exercise) -> Iterator[WrongAnswer]:
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
+    started = time.process_time()
     for misconception in MISCONCEPTIONS.values():
-        if not _is_looked_for(exercise, misconception):
+        if not _is_looked_for(exercise, misconception) or time.process_time() - started > MOST_SECONDS:
             continue
         found: list[Any] = []
         with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):

@@ -96,7 +96,7 @@ def _try_small(exercise: Exercise) -> str:
 
 def _honest_number(_: Exercise, number: Value, solution: Value) -> bool:
     if not solution:
-        return 0 < _distance(number, 0) <= MOST_APART
+        return bool(0 < _distance(number, 0) <= MOST_APART)
     size, wanted = _distance(number, 0), _distance(solution, 0)
     return bool((number > 0) == (solution > 0) and number and wanted <= MOST_APART * size and size <= MOST_APART * wanted)
 
