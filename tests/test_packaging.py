@@ -77,7 +77,7 @@ def test_the_lines_of_the_readme_do_something(tmp_path):
 
 def test_the_readme_has_two_commands_of_one_line():
     commands = re.findall(r"^    (python3 .*)$", (ROOT / "README.md").read_text(), re.MULTILINE)
-    assert [command.split()[-1] for command in commands] == ["lab", ".venv/bin/pytest"]
+    assert [command.split("&& ")[-1] for command in commands] == [".venv/bin/lsys-kit lab", ".venv/bin/pytest -n auto"]
 
 
 def test_only_what_a_stranger_looks_for_is_visible():
