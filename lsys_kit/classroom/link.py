@@ -9,9 +9,11 @@ from types import MappingProxyType
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.fragments import LinkContent, is_link, packed, unpacked
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
@@ -30,24 +32,24 @@ class Linked:
     Attributes
     ----------
     system
-        The L-system or map system.
+        The L-system, map system or cellwork system.
     settings
         Exact values by name: perhaps `step`, `angle` and `seed`, and constants of the system. They are what `explore` takes.
     """
 
-    system: LSystem | MapSystem
+    system: LSystem | MapSystem | CellworkSystem
     settings: Mapping[str, Value]
 
 
-def link(system: LSystem | MapSystem, settings: Mapping[str, object] | None = None, base: str = "") -> str:
+def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, object] | None = None, base: str = "") -> str:
     """An address with a model in it, which `read` reads; nothing of it is kept anywhere else.
 
     Parameters
     ----------
     system
-        An L-system or a map system.
+        An L-system, a map system or a cellwork system.
     settings
-        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants, or of the forces of a map.
+        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants, or of the forces of a map or cellwork.
     base
         The address of a page that shows models; without one, the link can be read by the kit alone.
 
@@ -67,12 +69,12 @@ def link(system: LSystem | MapSystem, settings: Mapping[str, object] | None = No
     >>> there.partition("=")[0], len(there) < 150, read(there) == system("T2"), dict(linked(there).settings)
     ('https://example.org/panel.html#lsys', True, True, {'step': 4})
     """
-    require(system, (LSystem, MapSystem), "An L-system or a map system")
+    require(system, (LSystem, MapSystem, CellworkSystem), "An L-system, a map system or a cellwork system")
     require(base, str, "The address of a page")
     require(settings, (Mapping, type(None)), "A mapping of settings")
     given = {name: number_text(value) for name, value in _values(system, settings or {}).items()}
     _values(system, given)  # which raises an error if a number is too long to be read again
-    notation, text = (MAP.name, _map_text(system)) if isinstance(system, MapSystem) else (system.notation, write(system))
+    notation, text = (system.notation, write(system)) if isinstance(system, LSystem) else _cells_text(system)
     address = base.partition("#")[0] + packed(LinkContent(notation, given, text))
     if not base.isprintable() or not is_link(address):
         raise ModelValueError("The address of a page has no blanks in it, and all of it is visible",
@@ -104,7 +106,8 @@ Links are made by link(system).
         raise ModelSyntaxError('This text is no link: it has no model behind "#lsys="', link, 0, len(link),
                                "Links are made by link(system).")
     content = unpacked(link)
-    system = read_map(link) if content.notation == MAP.name else read(link)
+    reader = {MAP.name: read_map, CELLWORK.name: read_cellwork}.get(content.notation, read)
+    system = reader(link)
     return Linked(system, MappingProxyType(_values(system, content.settings)))
 
 
@@ -118,7 +121,7 @@ def settings_given(step: object, angle: object, seed: object) -> dict[str, objec
     return {name: value for name, value in ((STEP, step), (ANGLE, angle), (SEED, None if usual else seed)) if value is not None}
 
 
-def _values(system: LSystem | MapSystem, settings: Mapping[str, object]) -> dict[str, Value]:
+def _values(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, object]) -> dict[str, Value]:
     """The exact values of settings, if the system has them."""
     constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else [*RANGES]
     for name in settings:
@@ -137,9 +140,10 @@ def _value(name: str, given: object) -> Value:
     return value
 
 
-def _map_text(system: MapSystem) -> str:
-    """The text of a map system, if it reads back."""
-    text = str(system)
-    if read_map(text) != system:
-        raise ModelValueError("This map system cannot be written so that it reads back")
-    return text
+def _cells_text(system: MapSystem | CellworkSystem) -> tuple[str, str]:
+    """The notation and the text of a map system or a cellwork system, if it reads back."""
+    text, (name, kind, back) = str(system), (MAP.name, "map", read_map) if isinstance(system, MapSystem) else (
+        CELLWORK.name, "cellwork", read_cellwork)
+    if back(text) != system:
+        raise ModelValueError(f"This {kind} system cannot be written so that it reads back")
+    return name, text

@@ -7,7 +7,8 @@ sphere is left out, and after each time step it is put back there.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import TypeAlias
 
 import numpy as np
 
@@ -32,11 +33,13 @@ from lsys_kit.geometry.scene import Floats
 
 SPHERE_FORCES = Forces(rest=0.0, pressure=0.5)
 """The forces on a sphere, which does not grow: walls pull as if they were all too long, so that pressures decide."""
+Placed: TypeAlias = tuple[Floats, Mapping[int, float]]
+"""The positions of the vertices of a map on a sphere, and the longitudes of its walls from pole to pole, by their numbers."""
 POLES = frozenset((0, 1))
 """The vertices with which a sphere begins, the upper one and the lower one."""
 
 
-def place_on_sphere(maps: Development, forces: Forces = SPHERE_FORCES) -> Iterator[tuple[Floats, dict[int, float]]]:
+def place_on_sphere(maps: Development, forces: Forces = SPHERE_FORCES) -> Iterator[Placed]:
     """For each map the positions of its vertices at equilibrium, and the longitudes of the walls from pole to pole.
 
     Parameters

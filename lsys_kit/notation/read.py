@@ -14,6 +14,7 @@ from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError, require
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
+from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK
 from lsys_kit.notation.dialects.map.dialect import MAP
 from lsys_kit.notation.foreign import foreign_format, mistakable_format
 from lsys_kit.notation.fragments import is_link, unpacked
@@ -99,6 +100,9 @@ def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
     content = unpacked(link)
     if content.notation == MAP.name:
         raise ModelValueError("This is the link of a map system, not of an L-system", hint="Maps are read by read_map(link).")
+    if content.notation == CELLWORK.name:
+        raise ModelValueError("This is the link of a cellwork system, not of an L-system",
+                              hint="Cellworks are read by read_cellwork(link).")
     if name is not None or notation not in (None, content.notation):
         raise ModelValueError(f"This link has one system, in the notation {content.notation}",
                               hint="Leave out the notation and the name: read(link).")
@@ -114,6 +118,17 @@ def is_map(text: str) -> bool:
     if is_link(text):
         return unpacked(text).notation == MAP.name
     return _MAP.match(text.removeprefix("\ufeff")) is not None
+
+
+def is_cellwork(text: str) -> bool:
+    """Whether a text begins as a cellwork system does, which `read_cellwork` reads, or is the link of one.
+
+    >>> is_cellwork("cellwork: 1(0,0,0)"), is_cellwork("map: ABAB\\nA -> B")
+    (True, False)
+    """
+    if is_link(text):
+        return unpacked(text).notation == CELLWORK.name
+    return _CELLWORK.match(text.removeprefix("\ufeff")) is not None
 
 
 def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:

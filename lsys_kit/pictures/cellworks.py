@@ -6,13 +6,14 @@ Walls of one colour have the same label. Where some cells are lit, those alone h
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
@@ -72,10 +73,16 @@ def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None =
     _check_size(what)
     turn, tilt = real_from(azimuth, "azimuth"), real_from(elevation, "elevation")
     *_, points = place_cellworks(what, chosen)
-    labels = {label: number for number, label in enumerate(_labels(what))}
-    solid = cellwork_scene(what[-1], points, labels, lit, len(labels))
-    seen = project(_with_shades(solid, turn, tilt, len(labels) + 1), turn, tilt)
-    return CellworkPicture((FilamentRow(what.steps, seen),), _colours(labels), solid=solid, counts=what[-1].counts,
+    return picture_at(what[:], points, lit, turn, tilt)
+
+
+def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], azimuth: float,
+               elevation: float) -> CellworkPicture:
+    """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices."""
+    last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
+    solid = cellwork_scene(last, points, labels, lit, len(labels))
+    seen = project(_with_shades(solid, azimuth, elevation, len(labels) + 1), azimuth, elevation)
+    return CellworkPicture((FilamentRow(len(cellworks) - 1, seen),), _colours(labels), solid=solid, counts=last.counts,
                            lit=len(lit))
 
 
@@ -105,9 +112,10 @@ def _check_size(development: CellworkDevelopment) -> None:
                               limit=current().figure, needed=shapes, hint="Take fewer steps, or set limits(figure=...).")
 
 
-def _labels(development: CellworkDevelopment) -> Mapping[str, None]:
-    """The labels of walls, in the order of their first occurrence."""
-    return dict.fromkeys(wall.label for found in development for wall in found.walls)
+def wall_labels(cellworks: Sequence[Cellwork]) -> Mapping[str, str]:
+    """The labels of walls, in the order of their first occurrence, each with its colour."""
+    labels = dict.fromkeys(wall.label for found in cellworks for wall in found.walls)
+    return {label: SERIES[number % len(SERIES)] for number, label in enumerate(labels)}
 
 
 def _colours(labels: Mapping[str, int]) -> Mapping[int, str]:

@@ -6,7 +6,7 @@ Cells of one colour have the same walls around them. Walls are arcs of great cir
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,7 +18,7 @@ from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.sphere_layout import SPHERE_FORCES, arc, meridian, place_on_sphere
+from lsys_kit.geometry.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
 from lsys_kit.notation.model.maps import Edge, MapSystem
 from lsys_kit.pictures.display_list import MARGIN
 from lsys_kit.pictures.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
@@ -82,17 +82,25 @@ def sphere_picture(what: MapSystem | Development, n: int | None = None, *, azimu
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
     chosen = forces_of(forces, SPHERE_FORCES, "map on a sphere")
-    view = np.column_stack(axes(math.radians(real_from(azimuth, "azimuth")), math.radians(real_from(elevation, "elevation"))))
-    first, kinds = max(0, len(what) - MOST_MAPS), dict[tuple[Edge, ...], int]()
-    placed = [*place_on_sphere(what, chosen)]
-    views = [SphereView([each @ view for each in _arcs(found, points, longitudes)],
-                        [kinds.setdefault(word, len(kinds)) for word in cell_words(found)])
-             for found, (points, longitudes) in zip(what, placed, strict=True)]
-    return SpherePicture(what[first:], [points for points, _ in placed[first:]], (), range(first, len(what)),
-                         views=views[first:])
+    turn, tilt = real_from(azimuth, "azimuth"), real_from(elevation, "elevation")
+    return spheres_at(what, [*place_on_sphere(what, chosen)], range(max(0, len(what) - MOST_MAPS), len(what)), turn, tilt)
 
 
-def _arcs(found: Map, points: Floats, longitudes: dict[int, float]) -> Iterator[Floats]:
+def spheres_at(maps: Sequence[Map], placed: Sequence[Placed], steps: Sequence[int], azimuth: float,
+               elevation: float) -> SpherePicture:
+    """The picture of some steps, given the maps of all steps and where each lies on the sphere."""
+    view, kinds = np.column_stack(axes(math.radians(azimuth), math.radians(elevation))), kinds_of_cells(maps)
+    views = [SphereView([each @ view for each in wall_arcs(maps[step], *placed[step])], kinds[step]) for step in steps]
+    return SpherePicture([maps[step] for step in steps], [placed[step][0] for step in steps], (), steps, views=views)
+
+
+def kinds_of_cells(maps: Sequence[Map]) -> list[list[int]]:
+    """For each map the numbers of the kinds of its cells: alike in all maps are those with the same walls around them."""
+    known = dict[tuple[Edge, ...], int]()
+    return [[known.setdefault(word, len(known)) for word in cell_words(found)] for found in maps]
+
+
+def wall_arcs(found: Map, points: Floats, longitudes: Mapping[int, float]) -> Iterator[Floats]:
     """Points along each wall, from its beginning to its end."""
     for number, wall in enumerate(counted(found.walls)):
         if number in longitudes:

@@ -1,7 +1,8 @@
-"""The net of a map system: a place for each wall that its rules name, and what becomes of its tokens in a step.
+"""The net of a map system or a cellwork system: a place for each wall of a map, or edge of a cellwork, that its rules name, and
+what becomes of its tokens in a step.
 
 A wall becomes walls, and markers between them are halves of walls to come. Whether two halves match is decided by the cells, of
-which tokens know nothing; so an arc that stands for markers names them, instead of a number of tokens.
+which tokens know nothing; so an arc that stands for markers names them, instead of a number of tokens. With edges it is the same.
 """
 
 from __future__ import annotations
@@ -11,17 +12,18 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, SuccessorPart
+from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, EdgePart
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_PLACES, MOST_ARCS = 60, 400
 """A diagram with more walls or arcs is not legible."""
-MARKERS = "two markers [ ] that match make a wall"
+MARKERS = "two markers [ ] that match make {what}"
 
 
-def kinds_of_walls(system: MapSystem) -> Mapping[Edge, str]:
-    """The walls that the rules name, in the order in which they are first read, each with the symbol that stands for it: its
+def kinds_of_walls(system: MapSystem | CellworkSystem) -> Mapping[Edge, str]:
+    """The walls of a map, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol that stands for it: its
     letter, and its arrow where the same letter names a neutral wall too.
 
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
@@ -33,14 +35,14 @@ def kinds_of_walls(system: MapSystem) -> Mapping[Edge, str]:
     return {edge: edge.label if letters[edge.label] == 1 else str(edge) for edge in edges}
 
 
-def _edges(system: MapSystem) -> Iterator[Edge]:
+def _edges(system: MapSystem | CellworkSystem) -> Iterator[Edge]:
     yield from system.axiom
     for production in system.productions:
         yield production.predecessor
         yield from map(_edge_of, production.successor)
 
 
-def _edge_of(part: SuccessorPart) -> Edge:
+def _edge_of(part: SuccessorPart | EdgePart) -> Edge:
     return part if isinstance(part, Edge) else part.edge
 
 
@@ -49,8 +51,8 @@ def kind_of(edge: Edge) -> Edge:
     return Edge(edge.label, ">" if edge.arrow else "")
 
 
-def letters_of_walls(system: MapSystem) -> LSystem:
-    """The L-system of the letters of a map's walls, which knows nothing of cells: for labels and colours.
+def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
+    """The L-system of the letters of a map's walls, or a cellwork's edges, which knows nothing of cells: for labels and colours.
 
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> print(letters_of_walls(read_map("map: ABAB\\nA -> B[-A][+A]B")))
@@ -59,15 +61,15 @@ def letters_of_walls(system: MapSystem) -> LSystem:
     """
     symbols = kinds_of_walls(system)
 
-    def patterns(parts: Sequence[SuccessorPart]) -> tuple[Pattern, ...]:
+    def patterns(parts: Sequence[SuccessorPart | EdgePart]) -> tuple[Pattern, ...]:
         return tuple(Pattern(symbols[kind_of(_edge_of(part))]) for part in parts)
 
     return LSystem(patterns(system.axiom), tuple(Production(patterns([made.predecessor]), patterns(made.successor))
                                                  for made in system.productions))
 
 
-def wall_stages(system: MapSystem) -> Stages:
-    """The stage diagram of the walls of a map system.
+def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
+    """The stage diagram of the walls of a map system, or of the edges of a cellwork system.
 
     Raises
     ------
@@ -85,28 +87,40 @@ def wall_stages(system: MapSystem) -> Stages:
     symbols = kinds_of_walls(system)
     numbers = {edge: number for number, edge in enumerate(symbols)}
     transitions, arcs = list[Transition](), list[Arc]()
+    one, many = ("an edge", "edges") if isinstance(system, CellworkSystem) else ("a wall", "walls")
     for rule, production in enumerate(system.productions):
-        transitions.append(Transition(numbers[production.predecessor], rule))
+        transitions.append(Transition(numbers[production.predecessor], rule, _asked(production)))
         arcs += _arcs(rule, production, numbers)
-    for what, size, most in (("walls", len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):
+    for what, size, most in ((many, len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):
         if size > most:
             raise ModelLimitError(f"It would have {size:,} {what}, and with more than {most} it is not legible", limit=most,
                                   needed=size)
     start = Counter(numbers[kind_of(edge)] for edge in system.axiom)
     places = tuple(Place(symbol, (Module(symbol),)) for symbol in symbols.values())
     by_module = {place.modules[0]: number for number, place in enumerate(places)}
-    besides = (MARKERS,) if any(system.markers) else ()
+    besides = (MARKERS.format(what=one),) if any(system.markers) else ()
     return Stages(letters_of_walls(system), places, tuple(transitions), tuple(arcs), tuple(start[n] for n in numbers.values()),
                   True, besides, _where=by_module.get)
 
 
-def _arcs(transition: int, production: EdgeProduction, numbers: Mapping[Edge, int]) -> Iterator[Arc]:
+def _asked(production: EdgeProduction | CellworkProduction) -> str:
+    """The walls to which an edge of a cellwork must belong; nothing, if all edges of its label are replaced."""
+    return f"in {' '.join(production.walls)}" if isinstance(production, CellworkProduction) and production.walls else ""
+
+
+def _arcs(transition: int, production: EdgeProduction | CellworkProduction, numbers: Mapping[Edge, int]) -> Iterator[Arc]:
     """The arcs of a production: to the walls of its successor, then to those whose markers it has."""
-    for edge, copies in Counter(map(kind_of, production.walls)).items():
+    made = production.edges if isinstance(production, CellworkProduction) else production.walls
+    for edge, copies in Counter(map(kind_of, made)).items():
         yield Arc(transition, numbers[edge], copies)
     markers: dict[Edge, str] = {}
     for marker in production.markers:
         kind = kind_of(marker.edge)
-        markers[kind] = markers.get(kind, "") + str(marker)
+        markers[kind] = markers.get(kind, "") + _short(marker)
     for kind, text in markers.items():
         yield Arc(transition, numbers[kind], 1, factor=text)
+
+
+def _short(marker: Marker | EdgeMarker) -> str:
+    """A marker; of a cellwork without the walls to come."""
+    return f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)

@@ -135,6 +135,11 @@ class CellworkProduction:
         return found[:-1]
 
     @property
+    def markers(self) -> Iterator[EdgeMarker]:
+        """The markers of the successor."""
+        return (part for part in self.successor if isinstance(part, EdgeMarker))
+
+    @property
     def turned(self) -> CellworkProduction:
         """The same production, read from the other end of the edge."""
         return replace(self, successor=tuple(part.turned for part in reversed(self.successor)))
@@ -188,8 +193,14 @@ class CellworkSystem:
                           *map(str, self.productions), *map(str, self.wall_productions)))
 
     @property
+    def axiom(self) -> tuple[Edge, ...]:
+        """The edges of the first cell, each once."""
+        found = {frozenset(ends): edge for wall in self.walls
+                 for *ends, edge in zip(wall.corners, (*wall.corners[1:], wall.corners[0]), wall.edges, strict=True)}
+        return tuple(found.values())
+
+    @property
     def markers(self) -> Iterator[EdgeMarker]:
         """The markers of all productions."""
         for production in self.productions:
-            for some in production.marked:
-                yield from some
+            yield from production.markers

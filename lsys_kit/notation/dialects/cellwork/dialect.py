@@ -12,10 +12,12 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
+from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.cellwork_checks import check_cellwork, unused_parts
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.cellwork.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.cellwork.spelling import SPELLING
+from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.cellworks import (
     ANY,
     CellworkProduction,
@@ -43,6 +45,7 @@ def read_cellwork(text: str) -> CellworkSystem:
     ----------
     text
         The corners and the walls of the first cell, and productions, one a line. `/* ... */` is a comment.
+        Or a link with a cellwork system in it.
 
     Raises
     ------
@@ -71,6 +74,12 @@ def read_cellwork(text: str) -> CellworkSystem:
     Beauty of Plants, section 7.5.
     """
     check_text(text)
+    if is_link(text):
+        content = unpacked(text)
+        if content.notation != CELLWORK.name:
+            raise ModelValueError("This is the link of another system, not of a cellwork system",
+                                  hint="L-systems are read by read(link), map systems by read_map(link).")
+        text = content.text
     with reporting(text, SPELLING):
         system = _system(text)
         check_cellwork(system)
