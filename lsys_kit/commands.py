@@ -19,6 +19,7 @@ from lsys_kit.files import create_file
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.notation.model.cellworks import CellworkSystem
     from lsys_kit.notation.model.maps import MapSystem
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.films import Film
@@ -140,7 +141,7 @@ def print_link(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.link import link
     from lsys_kit.pictures.qr_codes import qr_code
 
-    system = _system_or_map(options)
+    system = _system_or_cells(options)
     own = {"step": options.steps, "angle": options.angle, "seed": options.seed}
     settings = {name: value for name, value in own.items() if value is not None} | dict(options.settings)
     address = link(system, settings, options.base)
@@ -155,9 +156,9 @@ def write_page(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.panel.opened.opened import Viewing
     from lsys_kit.classroom.panel.page import page, save_page
 
-    system, (id, title) = _system_or_map(options), _titles(options.system)
+    system, (id, title) = _system_or_cells(options), _titles(options.system)
     what, seed = opened(system, id, dict(options.settings)), options.seed or getattr(system, "seed", None) or 0
-    chosen = Viewing(what.steps if options.steps is None else options.steps, what.first, seed, what.turned(options.angle))
+    chosen = Viewing(what.steps if options.steps is None else options.steps, what.first, seed, what.turned(options.angle), *what.side)
     data = what.page_data(chosen)
     sight = what.sight(replace(chosen, step=data["model"]["step"]))
     save_page(options.output, page(title or what.kind, data, str(sight)))
@@ -226,10 +227,12 @@ def _system_with_constants(options: argparse.Namespace) -> LSystem:
         for constant in system.constants))
 
 
-def _system_or_map(options: argparse.Namespace) -> LSystem | MapSystem:
-    """The system that the command line names, or the map system of the catalogue."""
-    from lsys_kit.classroom.catalogue import is_map_system, map_system
+def _system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
+    """The system that the command line names, or the map or cellwork system of the catalogue."""
+    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
 
+    if is_cellwork_system(options.system):
+        return cellwork_system(options.system)
     return map_system(options.system) if is_map_system(options.system) else \
         _named_system(options.system, options.notation, options.name)
 

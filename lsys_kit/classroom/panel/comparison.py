@@ -12,11 +12,13 @@ from ipywidgets import widget_serialization
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.explorer import Explorer, explore
 from lsys_kit.errors import ModelValueError
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 
-def compare(what: LSystem | MapSystem | str, *others: LSystem | MapSystem | str | Mapping[str, object],
+def compare(what: LSystem | MapSystem | CellworkSystem | str,
+            *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
             step: int | None = None) -> Comparison:
     """Show two systems, or one under two settings of its constants, side by side with one step slider.
 
@@ -51,7 +53,7 @@ def compare(what: LSystem | MapSystem | str, *others: LSystem | MapSystem | str 
             sides = (what, first), (what, second)
         case (Mapping() as second,):
             sides = (what, {}), (what, second)
-        case (LSystem() | MapSystem() | str() as other,):
+        case (LSystem() | MapSystem() | CellworkSystem() | str() as other,):
             sides = (what, {}), (other, {})
         case _:
             raise ModelValueError("Two systems are compared, or one system under two settings",

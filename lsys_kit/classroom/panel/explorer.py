@@ -17,7 +17,7 @@ import anywidget
 import traitlets
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.catalogue import entry, is_map_system, map_system
+from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
@@ -27,24 +27,26 @@ from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
+from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import is_map, read
+from lsys_kit.notation.read import is_cellwork, is_map, read
 
 _ID = re.compile(r"[\w-]+")
 
 
-def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
+def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
             **constants: object) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
 
     Parameters
     ----------
     what
-        An L-system or a map system, the id or name of one in the catalogue, the text of a model, or a link.
+        An L-system, a map system or a cellwork system, the id or name of one in the catalogue, the text of a model, or a link.
     step
         The step shown first; by default the system's own.
     angle
@@ -52,7 +54,7 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
     seed
         The seed of the random numbers.
     **constants
-        First values of declared constants; of a map system those of its forces: `stiffness`, `rest`, `pressure`, `damping`.
+        First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`, `damping`.
 
     Raises
     ------
@@ -75,13 +77,14 @@ def explore(what: LSystem | MapSystem | str, step: int | None = None, *, angle: 
     title = ""
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
-        what = map_system(title) if is_map_system(title) else catalogued(title)
+        what = map_system(title) if is_map_system(title) else cellwork_system(title) if is_cellwork_system(title) \
+            else catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
         return explore(there.system, **given)
-    system = (read_map(what) if is_map(what) else read(what)) if isinstance(what, str) else what
-    if not isinstance(system, (LSystem, MapSystem)):
+    system = (read_map if is_map(what) else read_cellwork if is_cellwork(what) else read)(what) if isinstance(what, str) else what
+    if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
     return Explorer(opened(system, title, constants), step, angle, seed)
 
@@ -94,7 +97,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     step, angle, seed
         The step, the angle of the turtle's turns in degrees, and the seed of the random numbers.
     around, above
-        The side from which a plant in space is seen, in degrees: 0 around is the front, 90 the right; 0 above is the side, 90
+        The side from which a plant or cells in space are seen, in degrees: 0 around is the front, 90 the right; 0 above is the side, 90
         the top.
     mark
         The label of the stage that is marked, as "A(2)"; empty for none.
@@ -119,7 +122,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready, self._opened, self._given = False, opened, opened
-        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened))
+        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened), around=opened.side[0],
+                         above=opened.side[1])
         with self._limited(), Task("The step was not shown"):
             self.model = self._model_of(self._opened, first)
         if step is None:
@@ -133,9 +137,9 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     # -- what Python sees -----------------------------------------------------------------------------------------------
 
     @property
-    def system(self) -> LSystem | MapSystem:
+    def system(self) -> LSystem | MapSystem | CellworkSystem:
         """The system that is shown: the one that was given, or the one that was typed."""
-        system: LSystem | MapSystem = self._opened.system
+        system: LSystem | MapSystem | CellworkSystem = self._opened.system
         return system
 
     @property

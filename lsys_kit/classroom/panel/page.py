@@ -57,9 +57,10 @@ Promise.all(texts).then(([style, script]) => {
 });
 """
 """The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
-_CELLS, _STROKES = frozenset(("filament",)), frozenset(("turtle", "painter"))
+_CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter")), frozenset(("tissue",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
-_NOT_NEEDED = {"filament": _STROKES | _MAPS, "plane": _CELLS | _MAPS, "space": _CELLS | _MAPS, "map": _CELLS | {"turtle"}}
+_NOT_NEEDED = {"filament": _STROKES | _MAPS | _TISSUES, "plane": _CELLS | _MAPS | _TISSUES, "space": _CELLS | _MAPS | _TISSUES,
+               "map": _CELLS | _TISSUES | {"turtle"}, "tissue": _CELLS | _MAPS | {"turtle"}}
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 

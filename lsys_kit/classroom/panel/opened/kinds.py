@@ -7,17 +7,19 @@ from collections.abc import Mapping
 from lsys_kit.classroom.panel.opened.maps import OpenedMap
 from lsys_kit.classroom.panel.opened.opened import Opened
 from lsys_kit.classroom.panel.opened.systems import OpenedSystem
+from lsys_kit.classroom.panel.opened.tissues import OpenedTissue
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 
-def opened(system: LSystem | MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
-    """A system of either kind, opened.
+def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
+    """A system of any kind, opened.
 
     Parameters
     ----------
     system
-        An L-system or a map system.
+        An L-system, a map system or a cellwork system.
     title
         What it is called in the catalogue.
     changes
@@ -28,4 +30,6 @@ def opened(system: LSystem | MapSystem, title: str = "", changes: Mapping[str, o
     LSystemError
         A value makes no sense.
     """
+    if isinstance(system, CellworkSystem) or (isinstance(system, MapSystem) and system.sphere):
+        return OpenedTissue(system, title, changes)
     return OpenedMap(system, title, changes) if isinstance(system, MapSystem) else OpenedSystem(system, title, changes)

@@ -74,14 +74,13 @@ class OpenedMap:
     Raises
     ------
     LSystemError
-        There is no such force, or it is too small or too great; or the map covers a sphere.
+        There is no such force, or it is too small or too great.
     """
 
     hint, kind = "the force of cells and walls:", "map L-system"
+    side = 0, 0
 
     def __init__(self, system: MapSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
-        if system.sphere:
-            raise ModelValueError("The panel shows maps in the plane, not on a sphere", hint="draw(system, n) shows them.")
         self.system, self.title = system, title
         forces = forces_of(dict(changes or {}))
         self.first: Mapping[str, Value] = {name: exact(getattr(forces, name)) for name in VALUES}

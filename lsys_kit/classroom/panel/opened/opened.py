@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
@@ -47,6 +48,8 @@ class Opened(Protocol):
         What the sliders are, for a tip: "the constant".
     kind
         What its page is called, if it is not in the catalogue.
+    side
+        From which side it is seen first, if it is in space: degrees around and above.
     """
 
     system: Any
@@ -55,6 +58,7 @@ class Opened(Protocol):
     values: Mapping[str, Sequence[Value]]
     hint: str
     kind: str
+    side: tuple[int, int]
 
     @property
     def steps(self) -> int:
@@ -96,7 +100,7 @@ class Opened(Protocol):
         """An address with the system and what is chosen in it."""
         ...
 
-    def read(self, text: str) -> LSystem | MapSystem:
+    def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
         """Read a text that was typed in place of the system's own."""
         ...
 

@@ -35,6 +35,7 @@ class OpenedSystem:
     """
 
     hint, kind = "the constant", "L-system"
+    side = 0, 0
 
     def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
         self.system, self.title = system, title

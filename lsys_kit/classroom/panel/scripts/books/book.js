@@ -44,6 +44,7 @@ export function openBook(data) {
 
   // How many tokens lie in each place of the stage diagram.
   function tokens(step) {
+    if (data.tokens) return data.tokens[step];
     const found = new Array(data.net.names.length).fill(0);
     counts(step).forEach((count, state) => {
       if (states[state][2] >= 0) found[states[state][2]] += count;
@@ -79,9 +80,14 @@ export function openBook(data) {
   function label(state) {
     if (!labels[state]) {
       const [symbol, values, , text] = states[state], [letter, subscript, colour, steering] = data.symbols[symbol];
-      labels[state] = { letter, subscript, values, text, colour, steering: steering === 1 };
+      labels[state] = { letter, subscript, values, text, colour, steering: steering === 1, walls: wallsOf(state) };
     }
     return labels[state];
+  }
+
+  // Of a cell of a cellwork its walls: the label and the colour of each, and the edges around it; nothing of anything else.
+  function wallsOf(state) {
+    return data.around?.[state - (states.length - data.around.length)]?.map(([wall, edges]) => [...data.walls[wall], edges]) ?? [];
   }
 
   return {

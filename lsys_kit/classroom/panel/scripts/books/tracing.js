@@ -33,6 +33,7 @@ function originsOf(book, { step, position }) {
 
 // What a module is, where it came from and what it becomes, as a sentence.
 export function told(book, { step, position }) {
+  if (book.data.mode === "tissue") return toldOfCell(book, { step, position });
   const text = (at, where) => book.label(book.word(at)[where]).text;
   const { noun } = book.data;
   const parts = [`${noun[0].toUpperCase()}${noun.slice(1)} ${(position + 1).toLocaleString("en")} of step ${step}, ${text(step, position)}`];
@@ -48,6 +49,24 @@ export function told(book, { step, position }) {
     const made = Array.from(next.subarray(from, Math.min(to, from + 12)), (state) => book.label(state).text).join(" ");
     const stays = many === 1 && book.production(step + 1, from) < 0;
     parts.push(stays ? `it stays as it is at step ${step + 1}` : many ? `it becomes ${made}${many > 12 ? " …" : ""} at step ${step + 1}` : `it is gone at step ${step + 1}`);
+  }
+  return `${parts.slice(0, 2).join(" ")}${parts[2] ? `; ${parts[2]}` : ""}.`;
+}
+
+// What a cell is, and how it was and will be divided.
+function toldOfCell(book, { step, position }) {
+  const named = (cell) => (cell + 1).toLocaleString("en"), sisters = ([from, to]) => Array.from({ length: to - from }, (_, i) => from + i);
+  const parts = [`Cell ${named(position)} of step ${step}, ${book.label(book.word(step)[position]).text}`];
+  if (!step) parts.push("is there from the beginning");
+  else {
+    const mother = book.mother(step, position), others = sisters(book.daughters(step - 1, mother)).filter((each) => each !== position);
+    parts.push(others.length ? `comes, with cell ${others.map(named).join(" and ")}, from cell ${named(mother)} of step ${step - 1}, which was divided`
+      : `was cell ${named(mother)} of step ${step - 1}, which was not divided`);
+  }
+  const range = book.daughters(step, position);
+  if (range) {
+    const next = sisters(range).map(named);
+    parts.push(next.length > 1 ? `at step ${step + 1} it is divided into cells ${next.join(" and ")}` : `at step ${step + 1} it is cell ${next[0]}, not divided`);
   }
   return `${parts.slice(0, 2).join(" ")}${parts[2] ? `; ${parts[2]}` : ""}.`;
 }

@@ -8,6 +8,7 @@ import { rowBetween, strokesBetween } from "./gliding.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
 import { paintForces } from "./tension.js";
+import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
 
 const ROWS = 24; // of a developmental sequence
@@ -21,23 +22,24 @@ const WITH_ARROWS = 0.86; // how much smaller a map is where arrows stand around
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
-// `told` has { view(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
+// `told` has { view(), front(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
 export function drawingView(parent, told) {
   const canvas = made("canvas", { class: "lsys-canvas", tabindex: 0, role: "img" });
   const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
   parent.append(canvas, hint);
   const pen = canvas.getContext("2d"), pointers = new Map();
   let book, now, look, fault = "", shapes, frame, sheet, waiting = 0, glide = null;
-  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0, signs = null, relaxed = null; // of maps, where there was one
+  let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0;
+  let signs = null, relaxed = null, choice = null; // of walls, of forces, of the cells that are lit, where there are such
 
-  const inSpace = () => book.data.mode === "space", isFilament = () => book.data.mode === "filament", isMap = () => book.data.mode === "map";
+  const isTissue = () => book.data.mode === "tissue", inSpace = () => book.data.mode === "space" || isTissue(), isFilament = () => book.data.mode === "filament", isMap = () => book.data.mode === "map";
 
   function open(next) {
     book = next;
     [near, shift, glide] = [1, [0, 0], null];
     const turning = inSpace() ? "Drag or arrow keys turn it. " : "";
     hint.textContent = `${turning}Plus, minus or the wheel bring it nearer, ${inSpace() ? "Shift and arrows" : "arrows"} move it, Home puts it back. `
-      + `Point at a ${{ filament: "cell", map: "wall" }[book.data.mode] ?? "part"} or click it to trace it; N and P go to the next and the one before.`;
+      + `Point at a ${{ filament: "cell", map: "wall", tissue: "cell" }[book.data.mode] ?? "part"} or click it to trace it; N and P go to the next and the one before.`;
     canvas.classList.toggle("lsys-turned", inSpace());
     if (isMap() && !signs) {
       [signs, relaxed] = [wallSigns(() => draw()), relaxing(() => draw())];
@@ -45,6 +47,8 @@ export function drawingView(parent, told) {
     }
     signs?.offer(book);
     relaxed?.offer(book);
+    if (isTissue() && !choice) hint.before((choice = litCells(() => draw())).element);
+    choice?.offer(book, 0);
   }
 
   // Show what is asked for: { step, angle, around, above, boxed: the step whose frame is kept, or null, glides }.
@@ -53,7 +57,8 @@ export function drawingView(parent, told) {
     [now, look, fault] = [{ ...asked }, nextLook, ""];
     if (!isFilament()) shapes = shapesOf(now.step) ?? shapes;
     if (isMap()) relaxed.goTo(now.step);
-    if (asked.glides && before && (old || isFilament()) && now.step === before.step + 1 && book.length(now.step) < MOST_GLIDING)
+    choice?.offer(book, now.step);
+    if (asked.glides && before && !isTissue() && (old || isFilament()) && now.step === before.step + 1 && book.length(now.step) < MOST_GLIDING)
       glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
     else if (before && before.step !== now.step) glide = null;
     cancelAnimationFrame(waiting);
@@ -64,7 +69,7 @@ export function drawingView(parent, told) {
   // The shapes of a step; null where the turtle cannot draw them, and why.
   function shapesOf(step) {
     try {
-      return isMap() ? mapShapes(book, step) : placed(traced(book, step), now.angle);
+      return isMap() ? mapShapes(book, step) : isTissue() ? tissueShapes(book, step) : placed(traced(book, step), now.angle);
     } catch (error) {
       fault = error.message;
       return null;
@@ -100,7 +105,10 @@ export function drawingView(parent, told) {
       const share = shareOfWay();
       paintSequence(pen, share < 1 ? rowBetween(sheet, glide.mothers, share) : sheet, look);
     } else if (fault) sentence(fault, width, height);
-    else {
+    else if (isTissue()) {
+      frame = tissueFrame(shapes, width, height, { around: now.around, above: now.above, near, shift, box: boxOf(now.boxed) });
+      paintTissue(pen, shapes, frame, look, choice.shown(look.lit));
+    } else {
       const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap() ? relaxed.shapes() : shapes;
       const box = isMap() && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
       const forces = isMap() && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * WITH_ARROWS : near;
@@ -185,7 +193,7 @@ export function drawingView(parent, told) {
 
   function goBack() {
     home();
-    told.turned(0, 0);
+    told.turned(...told.front());
   }
 
   function home() {
@@ -208,6 +216,7 @@ export function drawingView(parent, told) {
   // The step and the position of the module that is drawn where the pointer is.
   function moduleAt(event) {
     const { x, y } = placeOf(event);
+    if (isTissue()) return [now.step, cellUnder(shapes, frame, x, y, choice.shown(look.lit))];
     if (!isFilament()) return [now.step, fault ? -1 : shapeAt(isMap() ? relaxed.shapes() : shapes, frame, x, y, REACH)];
     const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
     return cell ? [cell.step, cell.position] : [now.step, -1];

@@ -58,6 +58,7 @@ export function openPanel(element, host, compared = null) {
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
   const drawing = drawingView(view.drawing.body, {
     view: () => [host.get("around"), host.get("above")],
+    front: () => (model.book.mode === "tissue" ? [model.around, model.above] : [0, 0]),
     turned: (right, up) => change({ around: right, above: up }),
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
     pointed: (at, position) => point({ step: at, position }),
@@ -124,9 +125,9 @@ export function openPanel(element, host, compared = null) {
     }));
     const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
     bottom.replaceChildren(...constants.map((each) => each.control.element), ...(model.book.turtle?.["uses angle"] ? [angle.element] : []),
-      ...(model.book.mode === "space" ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
+      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
     view.seeds.offer(model.chance);
-    view.variants.offer(host.editable && model.book.mode !== "map");
+    view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     variants.forget();
     const first = books.keep({ constants: settings, seed: model.seed }, model.book);
     boxed = Math.min(model.step, first.steps);
@@ -265,8 +266,8 @@ export function openPanel(element, host, compared = null) {
   // The line of code that makes this panel as it stands.
   function code() {
     const changed = model.constants.filter((each) => host.get("settings")[each.name] !== each.texts[each.index]);
-    const reader = book.data.mode === "map" ? "read_map" : "read", notation = book.data.mode === "map" ? "" : `, ${JSON.stringify(book.data.notation)}`;
-    const first = book.data.title ? JSON.stringify(book.data.title) : `${reader}(${JSON.stringify(book.data.text)}${notation})`;
+    const reader = { map: "read_map", cellwork: "read_cellwork" }[book.data.notation], notation = reader ? "" : `, ${JSON.stringify(book.data.notation)}`;
+    const first = book.data.title ? JSON.stringify(book.data.title) : `${reader ?? "read"}(${JSON.stringify(book.data.text)}${notation})`;
     const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
       ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
       ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];

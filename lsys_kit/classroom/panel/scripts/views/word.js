@@ -69,11 +69,19 @@ export function wordView(parent, told, pointed) {
 }
 
 // A label as nodes: an italic letter, a subscript, upright values.
-export function labelled({ letter, subscript, values }) {
+export function labelled({ letter, subscript, values, walls = [] }) {
+  if (walls.length) return walls.map(([label, colour, edges]) => wallOf(label, colour, edges));
   const parts = [/^\p{L}/u.test(letter) ? made("i", {}, letter) : letter];
   if (subscript) parts.push(made("sub", {}, subscript));
   if (values) parts.push(values);
   return parts;
+}
+
+// A wall of a cell, with the edges around it.
+function wallOf(label, colour, edges) {
+  const name = made("b", { class: "lsys-wall" }, label);
+  name.style.setProperty("--symbol", colour);
+  return made("span", { class: "lsys-cycle" }, name, made("i", {}, edges));
 }
 
 // A number with its noun: "1 module", "2 modules".
@@ -81,8 +89,9 @@ export function counted(number, noun) {
   return `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
 }
 
-// The size of a step in words: of a map its points, walls and cells, of a word its modules.
+// The size of a step in words: of cells as the kit says it, of a map its points, walls and cells, of a word its modules.
 export function sizeOf(book, step) {
+  if (book.data.sizes) return book.data.sizes[step];
   if (book.data.mode !== "map") return counted(book.length(step), book.data.noun);
   return ["point", "wall", "cell"].map((noun, i) => counted(book.data.counts[step][i], noun)).join(", ");
 }

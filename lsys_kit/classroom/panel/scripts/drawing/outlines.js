@@ -1,0 +1,34 @@
+// Outlines in the drawings of cells: how they are stroked, surrounded where a cell is traced, and whether a point lies in one.
+
+const LINES = { self: [4, []], mother: [3, [7, 5]], daughter: [5, []] }; // around what is traced: width and dashes
+
+// Around a part of what is traced; told apart without colours.
+export function surround(pen, path, kind, theme) {
+  const [width, dashes] = LINES[kind];
+  pen.setLineDash(dashes);
+  line(pen, path, theme.lit, width);
+  pen.setLineDash([]);
+  if (kind === "daughter") line(pen, path, theme.paper, 2);
+}
+
+export function line(pen, path, colour, width) {
+  [pen.strokeStyle, pen.lineWidth] = [colour, width];
+  pen.stroke(path);
+}
+
+export function outline(points, place, closed = true) {
+  const path = new Path2D();
+  for (const point of points) path.lineTo(...place(point));
+  if (closed) path.closePath();
+  return path;
+}
+
+// Whether a point lies in a polygon.
+export function isInside(row, x, y) {
+  let inside = false;
+  row.forEach(([xa, ya], k) => {
+    const [xb, yb] = row[(k + 1) % row.length];
+    if ((ya > y) !== (yb > y) && x < xa + ((y - ya) / (yb - ya)) * (xb - xa)) inside = !inside;
+  });
+  return inside;
+}
