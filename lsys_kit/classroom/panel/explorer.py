@@ -24,17 +24,14 @@ from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.opened.kinds import opened
-from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
+from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing, read_any
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
-from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
-from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import is_cellwork, is_map, read
 
 _ID = re.compile(r"[\w-]+")
 
@@ -83,7 +80,7 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
         return explore(there.system, **given)
-    system = (read_map if is_map(what) else read_cellwork if is_cellwork(what) else read)(what) if isinstance(what, str) else what
+    system = read_any(what) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
     return Explorer(opened(system, title, constants), step, angle, seed)

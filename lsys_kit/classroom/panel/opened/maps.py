@@ -12,7 +12,7 @@ from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
 from lsys_kit.classroom.panel.books.maps import MapsAtRest, map_book, maps_at_rest, steps_of
 from lsys_kit.classroom.panel.controls import slider
-from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
 from lsys_kit.classroom.panel.page import deflated, shared
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import LSystemError, ModelValueError
@@ -20,9 +20,9 @@ from lsys_kit.geometry.map_layout import scenes
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
 from lsys_kit.pictures.maps import MapPicture, forces_of
 
 SERIES = tuple(map(Fraction, ("1", "1.2", "1.5", "2", "2.5", "3", "4", "5", "6", "8")))
@@ -135,13 +135,13 @@ class OpenedMap:
             return found
         return self._kept.found((forces, least), lambda: maps_at_rest(self.system, forces, least))
 
-    def read(self, text: str) -> LSystem | MapSystem:
-        """The text as a map system; where it makes sense as an L-system only, as that."""
+    def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
+        """The text as a map system; where it makes sense as another only, as that."""
         try:
             return read_map(text)
         except LSystemError as error:
             try:
-                return read(text)
+                return read_any(text)
             except LSystemError:
                 raise error from None
 

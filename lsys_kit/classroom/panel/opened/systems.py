@@ -11,17 +11,17 @@ from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
-from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
 from lsys_kit.classroom.panel.page import page_data
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError
-from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import is_map, read
+from lsys_kit.notation.read import is_cellwork, is_map, read
 from lsys_kit.pictures.style.labels import place_text
 
 
@@ -81,10 +81,10 @@ class OpenedSystem:
         seed = {SEED: chosen.seed} if chosen.seed else {}
         return link(self.system, {STEP: chosen.step, **turn, **seed, **self._fixed, **chosen.values})
 
-    def read(self, text: str) -> LSystem | MapSystem:
+    def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
         """The text in the notation of the system before it, or in the one that it shows."""
-        if is_map(text):
-            return read_map(text)
+        if is_map(text) or is_cellwork(text):
+            return read_any(text)
         try:
             return read(text, self.system.notation)
         except LSystemError as error:

@@ -12,7 +12,7 @@ from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
 from lsys_kit.classroom.panel.books.tissues import TissueAtRest, TissueSystem, size_text, steps_of, tissue_at_rest, tissue_book
 from lsys_kit.classroom.panel.opened.maps import VALUES, exact
-from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
 from lsys_kit.classroom.panel.page import deflated, kept_text, shared
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.maps.map import Map
@@ -26,7 +26,6 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
 from lsys_kit.pictures import cellworks, spheres
 from lsys_kit.pictures.cellworks import CellworkPicture, picture_at
 from lsys_kit.pictures.maps import forces_of
@@ -151,12 +150,12 @@ class OpenedTissue:
         return self._kept.found((forces, least), lambda: tissue_at_rest(self.system, forces, least))
 
     def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
-        """The text as a system of the same kind; where it makes sense as an L-system only, as that."""
+        """The text as a system of the same kind; where it makes sense as another only, as that."""
         try:
             return self._is.reader(text)
         except LSystemError as error:
             try:
-                return read(text)
+                return read_any(text)
             except LSystemError:
                 raise error from None
 

@@ -8,7 +8,7 @@ import { halfToEven } from "./turtle_actions.js";
 const LIGHT = [-0.4, 0.75, 0.5]; // towards the light, as the viewer sees it: to the left, up, behind the viewer
 const SHADES = 24, DARKEST = 0.55, TINT = 0.7, TINT_ON_DARK = 0.9; // of walls: how many shades, the darkest, how much of a colour
 const LEVELS = 2 ** 15; // of depths, over the extent of what is seen
-const DIM = 0.6; // how strong the edges of other cells are
+const DIM = 0.6, OUTLINE = 0.4; // how strong the edges of other cells are, and the colour of a wall in its outline
 
 // What is seen of a cellwork in which some cells are shown, or all: faces, each with its wall, cell, corners and shade, then the
 // edges that belong to none of these cells, from far to near.
@@ -73,7 +73,7 @@ export function paintWalls(pen, shapes, seen, place, { theme, marked, lit }, cel
     const shape = outline(each.corners, place), shade = mixed(colours[each.label], "#000000", DARKEST + ((1 - DARKEST) * each.level) / (SHADES - 1));
     pen.fillStyle = mixed(shade, theme.paper, theme.dark ? TINT_ON_DARK : TINT);
     pen.fill(shape);
-    line(pen, shape, theme.dark ? theme.paper : shade, 1);
+    line(pen, shape, theme.dark ? theme.paper : mixed(shade, theme.ink, OUTLINE), 1);
     const [from, to] = [starts[each.wall], starts[each.wall + 1]];
     for (let i = from; each.isFront && i < to; i++)
       if (isMarked(borders[i])) line(pen, outline([shapes.strokes.from[borders[i]], shapes.strokes.to[borders[i]]], place, false), theme.markEdge, 4);
