@@ -30,6 +30,8 @@ from lsys_kit.notation.model.maps import Edge
 from tests.classroom.panel_page import answered
 from tests.classroom.test_map_book import whole
 
+pytestmark = pytest.mark.slow
+
 K33, K34 = cellwork_system("K33"), map_system("K34")
 TISSUES = {"K33": K33, "K34": K34}
 SKEW = str(K33).replace("steps: 4\n", "steps: 2\n").replace("[PQ: PR|P|PR, PQ]", "[PQ: PR|P|PR, PR]")

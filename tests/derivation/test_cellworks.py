@@ -131,6 +131,7 @@ def test_new_edges_around_a_cell_must_lie_in_one_new_wall() -> None:
     assert isinstance(caught.value.partial, CellworkDevelopment)
     assert caught.value.partial.counts == [(8, 12, 6, 1)]
     assert "Step 0 is kept" in str(caught.value)
+    assert (caught.value.line, caught.value.column) == (9, text.splitlines()[8].index("PR: QR") + 1)
 
 
 def test_walls_may_be_divided_and_the_cell_not() -> None:

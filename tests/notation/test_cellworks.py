@@ -128,6 +128,8 @@ def test_parts_that_are_never_used_are_noted() -> None:
     found = read_cellwork(f"{TETRAHEDRON}\nA: * -> A [W: W|c>|W, W] A\nZ: * -> A\nA: W -> B\nB: * -> c")
     assert found.notes == ("The production Z: * -> A is never used: no edge Z occurs.",
                            "Markers c> divide no wall: they need markers c<, and there are none.")
+    assert read_cellwork(f"{TETRAHEDRON}\nA: * -> A [V: W|c|W, W] A").notes == (
+        "The marker [V: W|c|W, W] divides no wall: no wall V occurs.",)
     assert read_cellwork(f"{TETRAHEDRON}\nA: * -> A [W: W|c|W, W] [W: W|d|W, W] A".replace("[W: W|d|W, W] A", "A")).notes == ()
     directed = f"{TETRAHEDRON}\nB>: * -> A".replace("1 A 2 A 3", "1 B> 2 A 3").replace("1 A 2 A 4", "1 B> 2 A 4")
     assert read_cellwork(directed).notes == ()

@@ -101,6 +101,11 @@ def _notation_cells() -> Iterator[NotebookNode]:
     for part in texts["parts"]:
         yield new_markdown_cell(f"### {part['title']}\n\n{part['says'].strip()}")
         yield new_code_cell(part["shows"].strip())
+    yield new_markdown_cell(texts["tissues"].strip())
+    for part in texts["of_tissues"]:
+        yield new_markdown_cell(f"### {part['title']}\n\n{part['says'].strip()}")
+        for shown in part["shows"]:
+            yield new_code_cell(shown.strip())
 
 
 def _notation_table() -> Iterator[str]:

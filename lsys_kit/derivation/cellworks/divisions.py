@@ -29,30 +29,31 @@ def cellwork_step(found: Cellwork, system: CellworkSystem, step: int) -> Cellwor
     cells: list[tuple[WallSide, ...]] = []
     mothers: list[int] = []
     for number, cell in enumerate(counted(found.cells)):
-        daughters = _divided_cell(cell, divided, edges, walls, f"Step {step}: cell {number}")
+        daughters = _divided_cell(cell, divided, edges, walls, f"Step {step}: cell {number}", system.source)
         cells += daughters
         mothers += [number] * len(daughters)
     return Cellwork(tuple(vertices), tuple(edges), tuple(walls), tuple(cells), tuple(mothers))
 
 
 def _divided_cell(cell: Sequence[WallSide], divided: Sequence[DividedWall], edges: Sequence[CellEdge], walls: list[CellWall],
-                  called: str) -> list[tuple[WallSide, ...]]:
+                  called: str, source: str) -> list[tuple[WallSide, ...]]:
     """A cell divided by the wall that a cycle of new edges spans; the cell alone, where there is none."""
     sides = tuple(WallSide(new, forward) for wall, forward in cell for new in divided[wall].walls)
     borders: dict[str, list[int]] = {}
-    for wall, _ in cell:
-        parted = divided[wall]
-        if parted.border is not None:
-            borders.setdefault(parted.new_wall, []).append(parted.border)
+    parted = [divided[wall] for wall, _ in cell]
+    for each in parted:
+        if each.border is not None:
+            borders.setdefault(each.new_wall, []).append(each.border)
     for label, some in borders.items():
         cycle = closed_cycle(some, edges)
         if cycle:
             walls.append(CellWall(label, cycle))
             return [*_parted(sides, walls)]
     if len(borders) > 1 and closed_cycle([edge for some in borders.values() for edge in some], edges):
+        start, end = next(each.at for each in parted if each.new_wall == [*borders][-1]) or (None, None)
         raise ModelValueError(
             f"{called} has new edges in a cycle, but they do not lie in one new wall: they name {' and '.join(borders)}",
-            hint="Markers whose edges are to bound one new wall end in the same label.")
+            source, start, end, "Markers whose edges are to bound one new wall end in the same label.")
     return [sides]
 
 

@@ -10,6 +10,7 @@ from lsys_kit.budget import counted
 from lsys_kit.derivation.cellworks.cellwork import CellEdge, CellWall, Cellwork, EdgeSide
 from lsys_kit.derivation.maps.map import Vertex
 from lsys_kit.notation.model.cellworks import ANY, CellworkProduction, CellworkSystem, EdgeMarker
+from lsys_kit.notation.model.expressions import TextSpan
 from lsys_kit.notation.model.maps import Edge
 
 
@@ -23,7 +24,8 @@ class DividedEdge(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """A marker seen from a wall: after how many of its sides it stands, on which edge, at which vertex, and what it says.
+    """A marker seen from a wall: after how many of its sides it stands, on which edge, at which vertex, what it says, and where
+    it stands in the text.
 
     The daughters are those before and behind the marker, on the way around the wall.
     """
@@ -35,14 +37,17 @@ class Mark(NamedTuple):
     before: str
     behind: str
     new_wall: str
+    at: TextSpan
 
 
 class DividedWall(NamedTuple):
-    """A wall after a step: the one or two walls that it became; of the new edge its number, and the wall that it will bound."""
+    """A wall after a step: the one or two walls that it became; of the new edge its number, the wall that it will bound, and
+    where one of its markers stands in the text."""
 
     walls: range
     border: int | None = None
     new_wall: str = ""
+    at: TextSpan = None
 
 
 def divided_edges(found: Cellwork, system: CellworkSystem, vertices: list[Vertex], edges: list[CellEdge]) -> list[DividedEdge]:
@@ -90,7 +95,7 @@ def divided_walls(found: Cellwork, partings: Sequence[DividedEdge], becomes: Map
         edges.append(CellEdge(one.new_edge.label, *ends, bool(one.new_edge.arrow)))
         walls += (CellWall(one.before, (*sides[:one.place], EdgeSide(border, forward), *sides[other.place:])),
                   CellWall(one.behind, (*sides[one.place:other.place], EdgeSide(border, not forward))))
-        made.append(DividedWall(range(first, first + 2), border, one.new_wall))
+        made.append(DividedWall(range(first, first + 2), border, one.new_wall, one.at))
     return made
 
 
@@ -106,7 +111,7 @@ def _around(wall: CellWall, partings: Sequence[DividedEdge]) -> tuple[list[EdgeS
         meetings = zip(parting.vertices[::way], parting.marked[::way], strict=True)
         for place, (vertex, markers) in enumerate(meetings, before + 1):
             some = (marker if forward else marker.turned for marker in markers[::way] if marker.wall in (wall.label, ANY))
-            marks += (Mark(place, edge, vertex, marker.edge, *marker.daughters, marker.new_wall) for marker in some)
+            marks += (Mark(place, edge, vertex, marker.edge, *marker.daughters, marker.new_wall, marker.at) for marker in some)
     return made, marks
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from lsys_kit.notation.analysis.edge_checks import occurring_edges, unpaired_edges
 from lsys_kit.notation.analysis.problems import Problem, problem
-from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, FirstWall
+from lsys_kit.notation.model.cellworks import ANY, CellworkProduction, CellworkSystem, EdgeMarker, FirstWall
 from lsys_kit.notation.model.maps import Edge
 
 LEAST_CORNERS = 3
@@ -126,5 +126,10 @@ def unused_parts(system: CellworkSystem) -> Iterator[Problem]:
     for production in system.productions:
         if production.predecessor not in occurring:
             yield Problem("edge never occurs", production.at, {"production": production, "edge": production.predecessor})
+    walls = {ANY, *(wall.label for wall in system.walls), *(made.successor for made in system.wall_productions),
+             *(label for marker in system.markers for label in (*marker.daughters, marker.new_wall))}
+    for marker in system.markers:
+        if marker.wall not in walls:
+            yield Problem("wall never occurs", marker.at, {"marker": marker, "wall": marker.wall})
     for edge in unpaired_edges(marker.edge for marker in system.markers):
         yield Problem("marker without partner", None, {"marker": edge, "partner": edge.turned})

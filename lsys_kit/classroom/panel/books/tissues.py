@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -42,6 +42,8 @@ MOST_EDGES = 4_000
 MOST_UNASKED, MOST_ON_SPHERE = 800, 400
 """Steps beyond the last one that the system asks for are held while all together have no more edges, or walls on a sphere, since
 larger ones take long to come to rest."""
+NEVER_DIVIDED = "no cell is divided at any step: new edges never go once around one"
+"""What is said of rules whose markers do not match, or not around a cell."""
 DIGITS = 12
 """The decimals of a coordinate."""
 
@@ -156,8 +158,13 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
             "productions": [{"text": str(rule), "at": _span(rule)} for rule in system.productions],
             "steps": found.last, "end": found.end, "axiom": [], **_cells(found, edges, [*map(str, kinds)]), "net": diagram,
             "tokens": [*_tokens(found, kinds)], "sizes": [*map(size_text, found.steps)],
-            "pages": [*_pages(found, {edge: number for number, edge in enumerate(kinds)})], "unknown": [], "said": "",
-            "growth": None}
+            "pages": [*_pages(found, {edge: number for number, edge in enumerate(kinds)})], "unknown": [],
+            "said": "" if any(_divided(found)) or not found.last else NEVER_DIVIDED, "growth": None}
+
+
+def _divided(found: TissueAtRest) -> Iterator[bool]:
+    """For each step but the first whether there are more cells than before."""
+    return (len(after.cells) > len(before.cells) for before, after in pairwise(found.steps))
 
 
 def _span(rule: Any) -> list[int] | None:

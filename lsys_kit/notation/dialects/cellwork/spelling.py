@@ -46,6 +46,7 @@ SPELLING = Spelling(
             'Read backwards, this is "{backwards}", and an edge without an arrow has no beginning. '
             'Make both the same, or give the edge an arrow: "{edge}>: ...".', ModelValueError),
         "edge never occurs": Wording("The production {production} is never used: no edge {edge} occurs."),
+        "wall never occurs": Wording("The marker {marker} divides no wall: no wall {wall} occurs."),
         "marker without partner": Wording(
             "Markers {marker} divide no wall: they need markers {partner}, and there are none."),
     })
