@@ -107,7 +107,7 @@ export function drawingView(parent, told) {
     } else if (fault) sentence(fault, width, height);
     else if (isTissue()) {
       frame = tissueFrame(shapes, width, height, { around: now.around, above: now.above, near, shift, box: boxOf(now.boxed) });
-      paintTissue(pen, shapes, frame, look, choice.shown(look.lit));
+      paintTissue(pen, shapes, frame, look, choice.shown(look.alone));
     } else {
       const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap() ? relaxed.shapes() : shapes;
       const box = isMap() && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
@@ -216,7 +216,7 @@ export function drawingView(parent, told) {
   // The step and the position of the module that is drawn where the pointer is.
   function moduleAt(event) {
     const { x, y } = placeOf(event);
-    if (isTissue()) return [now.step, cellUnder(shapes, frame, x, y, choice.shown(look.lit))];
+    if (isTissue()) return [now.step, cellUnder(shapes, frame, x, y, choice.shown(look.alone))];
     if (!isFilament()) return [now.step, fault ? -1 : shapeAt(isMap() ? relaxed.shapes() : shapes, frame, x, y, REACH)];
     const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
     return cell ? [cell.step, cell.position] : [now.step, -1];

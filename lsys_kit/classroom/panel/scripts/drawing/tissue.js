@@ -101,9 +101,9 @@ export function litCells(changed) {
       const there = [...new Set(found)].sort((a, b) => a - b).map(String), chosen = there.includes(choice.select.value) ? choice.select.value : "";
       choice.offer([["", "all cells"], ...there.map((each) => [each, `generation ${each}`])], chosen);
     },
-    // The cells that are shown: those traced, or those chosen; null for all.
-    shown(lit) {
-      if (lit.size) return new Set(lit.keys());
+    // The cells that are shown: those that a click has lit, or those chosen; null for all.
+    shown(alone) {
+      if (alone.size) return new Set(alone.keys());
       const { value } = choice.select, cells = new Set([...found.keys()].filter((cell) => String(found[cell]) === value));
       return value && cells.size < found.length ? cells : null;
     },

@@ -179,7 +179,7 @@ export function openPanel(element, host, compared = null) {
     light();
   }
 
-  const followed = () => traced ?? (pointed?.position >= 0 ? pointed : null);
+  const clicked = () => traced, followed = () => traced ?? (pointed?.position >= 0 ? pointed : null);
   const chosen = () => place(host.get("mark"))?.place ?? pointed?.place ?? -1;
 
   // -- what is seen ---------------------------------------------------------------------------------------------------
@@ -216,7 +216,7 @@ export function openPanel(element, host, compared = null) {
   function look() {
     const marked = chosen(), traced = followed(), now = host.get("step");
     const states = new Set(book.data.states.flatMap((state, i) => (state[2] === marked ? [i] : [])));
-    return { theme, marked: states, lit: litAt(book, traced, now), litAt: (at) => litAt(book, traced, at), current: now };
+    return { theme, marked: states, lit: litAt(book, traced, now), alone: litAt(book, clicked(), now), litAt: (at) => litAt(book, traced, at), current: now };
   }
 
   function light() {
