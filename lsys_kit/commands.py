@@ -158,7 +158,8 @@ def write_page(options: argparse.Namespace) -> None:
 
     system, (id, title) = _system_or_cells(options), _titles(options.system)
     what, seed = opened(system, id, dict(options.settings)), options.seed or getattr(system, "seed", None) or 0
-    chosen = Viewing(what.steps if options.steps is None else options.steps, what.first, seed, what.turned(options.angle), *what.side)
+    first = what.steps if options.steps is None else options.steps
+    chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side)
     data = what.page_data(chosen)
     sight = what.sight(replace(chosen, step=data["model"]["step"]))
     save_page(options.output, page(title or what.kind, data, str(sight)))

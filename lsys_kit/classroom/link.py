@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -49,7 +49,8 @@ def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, ob
     system
         An L-system, a map system or a cellwork system.
     settings
-        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants, or of the forces of a map or cellwork.
+        What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants, or of the forces of a map or a
+        cellwork.
     base
         The address of a page that shows models; without one, the link can be read by the kit alone.
 
@@ -69,7 +70,7 @@ def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, ob
     >>> there.partition("=")[0], len(there) < 150, read(there) == system("T2"), dict(linked(there).settings)
     ('https://example.org/panel.html#lsys', True, True, {'step': 4})
     """
-    require(system, (LSystem, MapSystem, CellworkSystem), "An L-system, a map system or a cellwork system")
+    require(system, (LSystem, MapSystem, CellworkSystem), "A system")
     require(base, str, "The address of a page")
     require(settings, (Mapping, type(None)), "A mapping of settings")
     given = {name: number_text(value) for name, value in _values(system, settings or {}).items()}
@@ -106,8 +107,9 @@ Links are made by link(system).
         raise ModelSyntaxError('This text is no link: it has no model behind "#lsys="', link, 0, len(link),
                                "Links are made by link(system).")
     content = unpacked(link)
-    reader = {MAP.name: read_map, CELLWORK.name: read_cellwork}.get(content.notation, read)
-    system = reader(link)
+    readers: dict[str, Callable[[str], LSystem | MapSystem | CellworkSystem]] = {
+        MAP.name: read_map, CELLWORK.name: read_cellwork}
+    system = readers.get(content.notation, read)(link)
     return Linked(system, MappingProxyType(_values(system, content.settings)))
 
 
@@ -142,8 +144,7 @@ def _value(name: str, given: object) -> Value:
 
 def _cells_text(system: MapSystem | CellworkSystem) -> tuple[str, str]:
     """The notation and the text of a map system or a cellwork system, if it reads back."""
-    text, (name, kind, back) = str(system), (MAP.name, "map", read_map) if isinstance(system, MapSystem) else (
-        CELLWORK.name, "cellwork", read_cellwork)
-    if back(text) != system:
-        raise ModelValueError(f"This {kind} system cannot be written so that it reads back")
+    text, name = str(system), MAP.name if isinstance(system, MapSystem) else CELLWORK.name
+    if (read_map(text) if isinstance(system, MapSystem) else read_cellwork(text)) != system:
+        raise ModelValueError(f"This {name} system cannot be written so that it reads back")
     return name, text

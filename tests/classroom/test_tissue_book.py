@@ -60,7 +60,8 @@ def test_eulers_number_is_the_same_at_every_step(id, euler):
     sizes = explore(id).model["book"]["sizes"]
     assert len(sizes) > 4
     assert all(text.endswith(f"= {euler}") for text in sizes)
-    assert explore("K33", 2).text.startswith("Step 2: 18 vertices, 33 edges, 20 walls, 4 cells; 18 \u2212 33 + 20 \u2212 4 = 1. QR QR")
+    assert explore("K33", 2).text.startswith(
+        "Step 2: 18 vertices, 33 edges, 20 walls, 4 cells; 18 \u2212 33 + 20 \u2212 4 = 1. QR QR")
     assert explore("K34", 1).text.startswith("Step 1: 10 vertices, 16 walls, 8 cells; 10 \u2212 16 + 8 = 2. L>ex<L< | ")
 
 
@@ -93,7 +94,8 @@ def test_the_panel_holds_no_more_steps_than_come_to_rest_soon():
 
 
 @pytest.mark.parametrize(("choices", "kind", "message"), [
-    ({"angle": 30}, ModelValueError, "A cellwork has no angle"), ({"tension": 1}, ModelNameError, 'A cellwork has no "tension"'),
+    ({"angle": 30}, ModelValueError, "A cellwork has no angle"),
+    ({"tension": 1}, ModelNameError, 'A cellwork has no "tension"'),
     ({"pressure": 100}, ModelValueError, '"pressure" must lie'), ({"step": -1}, ModelValueError, "The step")])
 def test_settings_that_make_no_sense_are_refused(choices, kind, message):
     with pytest.raises(kind, match=message):

@@ -51,7 +51,8 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     seed
         The seed of the random numbers.
     **constants
-        First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`, `damping`.
+        First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
+        `damping`.
 
     Raises
     ------
@@ -94,8 +95,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     step, angle, seed
         The step, the angle of the turtle's turns in degrees, and the seed of the random numbers.
     around, above
-        The side from which a plant or cells in space are seen, in degrees: 0 around is the front, 90 the right; 0 above is the side, 90
-        the top.
+        The side from which a plant or cells in space are seen, in degrees: 0 around is the front, 90 the right; 0 above is the
+        side, 90 the top.
     mark
         The label of the stage that is marked, as "A(2)"; empty for none.
     settings

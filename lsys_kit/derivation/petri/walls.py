@@ -1,8 +1,8 @@
-"""The net of a map system or a cellwork system: a place for each wall of a map, or edge of a cellwork, that its rules name, and
-what becomes of its tokens in a step.
+"""The net of a map or cellwork system: a place for each wall of a map, or edge of a cellwork, that its rules name, and what
+becomes of its tokens in a step.
 
-A wall becomes walls, and markers between them are halves of walls to come. Whether two halves match is decided by the cells, of
-which tokens know nothing; so an arc that stands for markers names them, instead of a number of tokens. With edges it is the same.
+A wall becomes walls, and markers between them are halves of walls to come. Whether two halves match is decided by the cells,
+of which tokens know nothing; so an arc that stands for markers names them, instead of a number of tokens.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ MARKERS = "two markers [ ] that match make {what}"
 
 
 def kinds_of_walls(system: MapSystem | CellworkSystem) -> Mapping[Edge, str]:
-    """The walls of a map, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol that stands for it: its
-    letter, and its arrow where the same letter names a neutral wall too.
+    """The walls, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol
+    that stands for it: its letter, and its arrow where the same letter names a neutral wall too.
 
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> [*kinds_of_walls(read_map("map: A>B>C<\\nB> -> C>[-D]C")).values()]
@@ -52,7 +52,7 @@ def kind_of(edge: Edge) -> Edge:
 
 
 def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
-    """The L-system of the letters of a map's walls, or a cellwork's edges, which knows nothing of cells: for labels and colours.
+    """The L-system of the letters of a map's walls or a cellwork's edges, which knows nothing of cells: for labels and colours.
 
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> print(letters_of_walls(read_map("map: ABAB\\nA -> B[-A][+A]B")))
@@ -88,7 +88,8 @@ def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
     numbers = {edge: number for number, edge in enumerate(symbols)}
     transitions, arcs = list[Transition](), list[Arc]()
     one, many = ("an edge", "edges") if isinstance(system, CellworkSystem) else ("a wall", "walls")
-    for rule, production in enumerate(system.productions):
+    productions: Sequence[EdgeProduction | CellworkProduction] = system.productions
+    for rule, production in enumerate(productions):
         transitions.append(Transition(numbers[production.predecessor], rule, _asked(production)))
         arcs += _arcs(rule, production, numbers)
     for what, size, most in ((many, len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):

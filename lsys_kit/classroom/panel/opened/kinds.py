@@ -13,7 +13,8 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 
-def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "", changes: Mapping[str, object] | None = None) -> Opened:
+def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
+           changes: Mapping[str, object] | None = None) -> Opened:
     """A system of any kind, opened.
 
     Parameters

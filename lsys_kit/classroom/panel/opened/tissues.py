@@ -1,4 +1,4 @@
-"""Cells that are seen from all sides, in the panel: a cellwork, or a map on a sphere. Its sliders are the forces of its cells."""
+"""Cells that are seen from all sides in the panel: a cellwork, or a map on a sphere. Its sliders are the forces of cells."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 
 from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
-from lsys_kit.classroom.panel.books.tissues import TissueAtRest, TissueSystem, size_text, steps_of, tissue_at_rest, tissue_book
+from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest, TissueSystem, steps_of, tissue_at_rest
+from lsys_kit.classroom.panel.books.tissues import size_text, tissue_book
 from lsys_kit.classroom.panel.opened.maps import VALUES, exact
 from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
 from lsys_kit.classroom.panel.page import deflated, kept_text, shared
@@ -52,9 +53,10 @@ class Kind(NamedTuple):
 
 CELLWORKS = Kind("cellwork", "cellwork L-system", CELLWORK.name, SPACE_FORCES, MappingProxyType({
     **VALUES, "rest": tuple(normalised(Fraction(part, 10)) for part in range(21)),
-    "pressure": tuple(normalised(each) for each in map(Fraction, ("0.5", "1", "1.5", "2", "3", "4", "5", "6", "7", "8", "9", "10")))}),
+    "pressure": tuple(normalised(Fraction(part, 2)) for part in range(1, 21))}),
     (cellworks.AZIMUTH, cellworks.ELEVATION), read_cellwork)
-SPHERES = Kind("map on a sphere", "map L-system", MAP.name, SPHERE_FORCES, VALUES, (spheres.AZIMUTH, spheres.ELEVATION), read_map)
+SPHERES = Kind("map on a sphere", "map L-system", MAP.name, SPHERE_FORCES, VALUES, (spheres.AZIMUTH, spheres.ELEVATION),
+               read_map)
 
 
 @dataclass(frozen=True)
@@ -110,7 +112,8 @@ class OpenedTissue:
 
     def turned(self, angle: object) -> float:
         if angle is not None:
-            raise ModelValueError(f"A {self._is.called} has no angle", hint="Its cells come to rest under the forces of its edges.")
+            raise ModelValueError(f"A {self._is.called} has no angle",
+                                  hint="Its cells come to rest under the forces of its edges.")
         return 0.0
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
@@ -120,11 +123,7 @@ class OpenedTissue:
         found, step = self._at_rest(chosen.values, chosen.step), chosen.step
         if step > found.last:
             raise ModelValueError(f"The panel shows steps 0 to {found.last}, not {step}", hint=found.end)
-        steps, places, here = [*found.steps[:step + 1]], found.places, found.steps[step]
-        side = chosen.around, chosen.above
-        picture: Any = picture_at(steps, places[step], range(len(here.cells)), *side) if isinstance(here, Cellwork) else \
-            spheres_at(steps, places, [step], *side)
-        return TissueSight(step, here, picture)
+        return TissueSight(step, found.steps[step], _picture(found, step, chosen.around, chosen.above))
 
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
@@ -161,6 +160,15 @@ class OpenedTissue:
 
     def variants(self, many: int) -> Sequence[LSystem]:
         return ()
+
+
+def _picture(found: TissueAtRest, step: int, azimuth: float, elevation: float) -> CellworkPicture | SpherePicture:
+    """The picture of a step, seen from a side."""
+    steps, places = found.steps[:step + 1], found.places
+    if isinstance(found.system, MapSystem):
+        return spheres_at([each for each in steps if isinstance(each, Map)], places, [step], azimuth, elevation)
+    cells = range(len(steps[-1].cells))
+    return picture_at([each for each in steps if isinstance(each, Cellwork)], places[step], cells, azimuth, elevation)
 
 
 def _bytes_of(found: TissueAtRest) -> int:

@@ -215,7 +215,7 @@ export function openPanel(element, host, compared = null) {
 
   function look() {
     const marked = chosen(), traced = followed(), now = host.get("step");
-    const states = new Set(book.data.states.flatMap((state, i) => (state[2] === marked ? [i] : [])));
+    const states = new Set(book.data.states.flatMap((state, i) => (marked >= 0 && state[2] === marked ? [i] : [])));
     return { theme, marked: states, lit: litAt(book, traced, now), alone: litAt(book, clicked(), now), litAt: (at) => litAt(book, traced, at), current: now };
   }
 
