@@ -9,18 +9,22 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
-from lsys_kit.budget import Task, counted
+from lsys_kit.budget import Task, counted, supervised
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
+from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
 from lsys_kit.notation.model.maps import Edge, MapSystem
 from lsys_kit.pictures.display_list import MARGIN
+from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.spheres import SphereShapes, spheres_file
 from lsys_kit.pictures.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
 from lsys_kit.pictures.style.palette import INK, QUIET
 from lsys_kit.pictures.svg import background, described, document
@@ -73,6 +77,22 @@ class SpherePicture(MapPicture):
             body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
             return document(body, width, height, described([self.text, "cells of one colour have the same walls around them"]))
 
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg, .png or .pdf file.
+
+        Raises
+        ------
+        ModelFileError
+            The extension is unknown, or the file cannot be written.
+        """
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self._file("png")),
+                             ".pdf": lambda: self._file("pdf")})
+
+    def _file(self, kind: str) -> bytes:
+        with Task("The picture was not written"), supervised():
+            shapes = map(_shapes, self.maps, self.views, self.numbers)
+            return spheres_file([*shapes], self.text, kind)
+
 
 def sphere_picture(what: MapSystem | Development, n: int | None = None, *, azimuth: object = AZIMUTH,
                    elevation: object = ELEVATION, **forces: object) -> SpherePicture:
@@ -116,14 +136,32 @@ def _shares(angle: float) -> Floats:
     return np.linspace(0, 1, 2 + math.ceil(angle / STRAIGHT))
 
 
-def _sphere_svg(found: Map, view: SphereView, x: float, y: float, radius: float, step: int) -> str:
-    """A sphere: its cells, its walls, its shade, and the number of the step below."""
-    cells = []
+def _shapes(found: Map, view: SphereView, step: int) -> SphereShapes:
+    """A sphere as it is seen, for files of pixels and of paper."""
+    cells = [([outline[::-1] if number else outline for number, outline in enumerate(_seen_outlines(around))], _fill(kind))
+             for around, kind in _around_cells(found, view)]
+    walls = [arc[at:at + 2, :2] for arc in view.arcs for at in range(len(arc) - 1) if (arc[at:at + 2, 2] >= 0).all()]
+    return SphereShapes(cells, walls, step)
+
+
+def _around_cells(found: Map, view: SphereView) -> Iterator[tuple[Floats, int]]:
+    """The points around each cell of which something is seen, and its kind."""
     for cell, kind in zip(found.cells, view.kinds, strict=True):
         around = np.concatenate([view.arcs[wall][:-1] if forward else view.arcs[wall][:0:-1] for wall, forward in cell])
         if (around[:, 2] > 0).any():
-            outline = "".join(_closed(row, x, y, radius) for row in _seen_outlines(around))
-            cells.append(f'<path d="{outline}" fill="{FILLS[kind] if kind < len(FILLS) else REST}" fill-rule="evenodd"/>')
+            yield around, kind
+
+
+def _fill(kind: int) -> str:
+    return FILLS[kind] if kind < len(FILLS) else REST
+
+
+def _sphere_svg(found: Map, view: SphereView, x: float, y: float, radius: float, step: int) -> str:
+    """A sphere: its cells, its walls, its shade, and the number of the step below."""
+    cells = []
+    for around, kind in _around_cells(found, view):
+        outline = "".join(_closed(row, x, y, radius) for row in _seen_outlines(around))
+        cells.append(f'<path d="{outline}" fill="{_fill(kind)}" fill-rule="evenodd"/>')
     walls = "".join(_visible(each, x, y, radius) for each in view.arcs)
     centre = f'cx="{round(10 * x)}" cy="{round(10 * y)}" r="{round(10 * radius)}"'
     return (f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{INK}" '

@@ -227,10 +227,6 @@ def test_a_map_has_no_variants():
     assert answered(explore("K28", 0), {"kind": "variants"})["variants"] == []
 
 
-def test_a_map_on_a_sphere_is_drawn_not_explored():
-    with pytest.raises(ModelValueError, match="in the plane, not on a sphere"):
-        explore("K34")
-
 
 def test_an_l_system_is_still_an_l_system():
     assert explore("J1", 2).system == system("J1")

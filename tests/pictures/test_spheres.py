@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from lsys_kit import ModelNameError, ModelValueError, derive, draw, map_system, read_map
+from lsys_kit import ModelFileError, ModelNameError, ModelValueError, derive, draw, map_system, read_map
 
 SVG = "{http://www.w3.org/2000/svg}"
 K34 = map_system("K34")
@@ -62,6 +62,12 @@ def test_choices_are_checked(choices: dict[str, object], kind: type[Exception], 
         draw(derive(K34, 1), 3)
 
 
-def test_a_sphere_is_kept_as_svg(tmp_path: Path) -> None:
+def test_a_sphere_is_kept_in_every_format(tmp_path: Path) -> None:
+    for _ in range(2):  # a picture of the kit's own may be replaced
+        for kind, first in {"png": b"\x89PNG", "pdf": b"%PDF"}.items():
+            draw(K34, 1).save(tmp_path / f"sphere.{kind}")
+            assert (tmp_path / f"sphere.{kind}").read_bytes().startswith(first)
+    with pytest.raises(ModelFileError, match=r"Let the name end in \.svg, \.png or \.pdf"):
+        draw(K34, 1).save(tmp_path / "sphere.glb")
     draw(K34, 1).save(tmp_path / "sphere.svg")
     assert (tmp_path / "sphere.svg").read_text(encoding="utf-8").startswith("<svg")
