@@ -55,6 +55,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "cellwork_system": lambda: ("K33",), "compare": lambda: (GROWING, GROWING), "link": lambda: (GROWING, {"step": 1}),
     "linked": lambda: (link(GROWING),), "qr_code": lambda: ("text",), "variants": lambda: (GROWING, 2),
     "cellwork_systems": tuple, "read_cellwork": lambda: (str(cellwork_system("K33")),),
+    "link a cellwork": lambda: (cellwork_system("K33"), {"step": 1}),
     "draw a cellwork": lambda: (cellwork_system("K33"), 1), "derive a cellwork": lambda: (cellwork_system("K33"), 1),
     "explain": lambda: (derive(GROWING, 1), 1),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),

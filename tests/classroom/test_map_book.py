@@ -227,6 +227,5 @@ def test_a_map_has_no_variants():
     assert answered(explore("K28", 0), {"kind": "variants"})["variants"] == []
 
 
-
 def test_an_l_system_is_still_an_l_system():
     assert explore("J1", 2).system == system("J1")
