@@ -11,8 +11,10 @@ from hypothesis import given
 from lsys_kit import ModelNameError, limits, read, read_cellwork
 from lsys_kit.classroom.catalogue import entry
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.fragments import LinkContent, packed
 from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, Corner, EdgeMarker, FirstWall, WallProduction
 from lsys_kit.notation.model.maps import Edge
+from lsys_kit.notation.read import is_cellwork
 from tests.derivation.random_cellworks import BOX, cellwork_systems
 
 TETRAHEDRON = ("cellwork: 1(0,0,0) 2(1,0,0) 3(0,1,0) 4(0,0,1)\nwall W: 1 A 2 A 3 A\nwall W: 1 A 2 A 4 A\nwall W: 1 A 3 A 4 A\n"
@@ -149,3 +151,13 @@ def test_a_cellwork_has_so_many_walls_and_productions_and_no_more() -> None:
         read_cellwork(BOX)
     with limits(rules=2), pytest.raises(ModelLimitError):
         read_cellwork(TETRAHEDRON)
+
+
+def test_the_link_of_a_cellwork_is_read_by_its_reader() -> None:
+    address = packed(LinkContent("cellwork", {}, TETRAHEDRON))
+    assert read_cellwork(address) == read_cellwork(TETRAHEDRON)
+    assert (is_cellwork(address), is_cellwork(TETRAHEDRON), is_cellwork("axiom: A")) == (True, True, False)
+    with pytest.raises(ModelValueError, match="This is the link of a cellwork system, not of an L-system"):
+        read(address)
+    with pytest.raises(ModelValueError, match="This is the link of another system, not of a cellwork system"):
+        read_cellwork(packed(LinkContent("map", {}, "map: ABAB")))
