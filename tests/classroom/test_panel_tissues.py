@@ -23,6 +23,18 @@ from tests.derivation.random_cellworks import cellwork_systems
 SIDES = [(30, 25), (0, 0), (90, 0), (-145, -60), (0, 90), (17, -8)]
 OBLIQUE = [(20, 25), (-145, -60), (73, 41), (17, -8)]
 """Sides from which no point lies on the rim of a sphere, where rounding would decide whether it is seen."""
+APICAL = """
+cellwork: 1(0,0,0) 2(1,0,0) 3(1,1,0) 4(0,1,0) 5(0,0,1) 6(1,0,1) 7(1,1,1) 8(0,1,1)
+steps: 3
+wall S: 1 X> 2 Y 3 X< 4 Y
+wall S: 5 X> 6 Y 7 X< 8 Y
+wall S: 1 X> 2 Y 6 X< 5 Y
+wall S: 4 X> 3 Y 7 X< 8 Y
+wall T: 1 Y 4 Y 8 Y 5 Y
+wall T: 2 Y 3 Y 7 Y 6 Y
+X>: * -> X> [S: S|Y|S, T] Z>
+"""
+"""A row of cells of which only the first one divides."""
 CLOSE = 1e-9
 SEEN = """
 const opened = openBook(book), shapes = tissueShapes(opened, step);
@@ -205,11 +217,42 @@ def test_a_marked_stage_is_marked_in_the_drawing(explored, id):
 
 
 def test_one_generation_is_lit(explored):
-    panel = explored("K33", 3)
-    lit = panel.page.get_by_label("lit", exact=True)
-    assert lit.locator("option").all_inner_texts() == ["all cells", "generation 3"]
+    panel = explored(APICAL, 3)
+    lit, before = panel.page.get_by_label("lit", exact=True), panel.page.evaluate(PIXELS)
+    assert lit.locator("option").all_inner_texts() == ["all cells", "generation 1", "generation 2", "generation 3"]
+    lit.select_option("generation 2")
+    panel.page.wait_for_function(f"{PIXELS} !== {before!r}")
     panel.page.get_by_role("button", name="one step back").click()
-    expect(lit.locator("option")).to_have_text(["all cells", "generation 2"])
+    expect(lit.locator("option")).to_have_text(["all cells", "generation 1", "generation 2"])
+    expect(lit).to_have_value("2")
+    panel.page.get_by_role("button", name="to step 0").click()
+    expect(lit).to_have_value("")
+    panel.at("[data-position='0']").click()
+    expect(panel.at(".lsys-sentence")).to_contain_text("is there from the beginning; at step 1 it is divided into cells 1 and 2.")
+
+
+def test_a_cell_that_is_not_divided_is_said_to_stay(explored):
+    panel = explored(APICAL, 2)
+    panel.at("[data-position='2']").click()
+    expect(panel.at(".lsys-sentence")).to_contain_text(
+        "was cell 2 of step 1, which was not divided; at step 3 it is cell 4, not divided.")
+
+
+def test_what_the_mouse_is_on_is_lit_and_the_other_cells_keep_their_walls(explored):
+    panel = explored("K33", 2)
+    canvas = panel.at("canvas.lsys-canvas")
+    box = canvas.bounding_box()
+    panel.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    expect(panel.at(".lsys-sentence")).to_contain_text("of step 2")
+    pointed = panel.page.evaluate(PIXELS)
+    panel.page.mouse.down()
+    panel.page.mouse.up()
+    panel.page.wait_for_function(f"{PIXELS} !== {pointed!r}")
+
+
+def test_no_module_is_marked_at_first(explored):
+    panel = explored("K33", 1)
+    expect(panel.at(".lsys-marked")).to_have_count(0)
 
 
 def test_a_force_that_is_moved_asks_for_another_book_and_changes_the_cells(explored):

@@ -86,6 +86,12 @@ def test_a_step_whose_new_edges_name_two_walls_ends_the_panel_and_says_why():
         panel.step = 1
 
 
+def test_rules_by_which_no_cell_is_divided_are_told_of():
+    halves = str(K33).replace("steps: 4", "steps: 1").replace("[PR: QR|Q|QR, PQ] ", "")
+    assert explore(halves).model["book"]["said"] == "no cell is divided at any step: new edges never go once around one"
+    assert explore("K33", 1).model["book"]["said"] == ""
+
+
 def test_the_panel_holds_no_more_steps_than_come_to_rest_soon():
     assert "The panel ends at step 6: later steps take long to come to rest" in explore("K33").model["book"]["end"]
     assert explore("K33", 7).model["book"]["steps"] == 7

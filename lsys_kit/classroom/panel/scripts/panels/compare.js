@@ -2,6 +2,7 @@
 
 import { made } from "../views/controls.js";
 import { ownKeys } from "../views/keys.js";
+import { counted } from "../views/word.js";
 import { openPanel } from "./panel.js";
 
 const SHARED = ["step", "angle", "around", "above"];
@@ -47,9 +48,9 @@ export function openComparison(element, hosts) {
 export function differences({ book: one, step }, { book: other }) {
   const [a, b] = [one.word(step), other.word(step)], positions = new Set();
   for (let i = 0; i < Math.max(a.length, b.length); i++) if (textAt(one, a, i) !== textAt(other, b, i)) positions.add(i);
-  const [first] = positions, lengths = a.length === b.length ? `both words have ${a.length.toLocaleString("en")} modules`
-    : `the words have ${a.length.toLocaleString("en")} and ${b.length.toLocaleString("en")} modules`;
-  const where = positions.size ? `they differ first at module ${first + 1}: ${textAt(one, a, first) ?? "none"} and ${textAt(other, b, first) ?? "none"}` : "they are equal";
+  const [first] = positions, { noun } = one.data, lengths = a.length === b.length ? `both words have ${counted(a.length, noun)}`
+    : `the words have ${a.length.toLocaleString("en")} and ${counted(b.length, other.data.noun)}`;
+  const where = positions.size ? `they differ first at ${noun} ${first + 1}: ${textAt(one, a, first) ?? "none"} and ${textAt(other, b, first) ?? "none"}` : "they are equal";
   const drawings = positions.size && sameCells(one, other, a, b) ? "; cell by cell they are drawn alike" : "";
   return { positions, text: `Step ${step}: ${lengths}; ${where}${drawings}.` };
 }
