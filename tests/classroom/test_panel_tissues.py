@@ -229,7 +229,8 @@ def test_one_generation_is_lit(explored):
     panel.page.get_by_role("button", name="to step 0").click()
     expect(lit).to_have_value("")
     panel.at("[data-position='0']").click()
-    expect(panel.at(".lsys-sentence")).to_contain_text("is there from the beginning; at step 1 it is divided into cells 1 and 2.")
+    expect(panel.at(".lsys-sentence")).to_contain_text(
+        "is there from the beginning; at step 1 it is divided into cells 1 and 2.")
 
 
 def test_a_cell_that_is_not_divided_is_said_to_stay(explored):

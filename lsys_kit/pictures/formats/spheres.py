@@ -79,6 +79,6 @@ def _shade() -> Floats:
     """White and black over a sphere, each pixel with its opacity."""
     across, up = np.meshgrid(*[np.linspace(-1, 1, GRID)] * 2)
     way = np.hypot(across - LIGHT[0], up - LIGHT[1]) / REACH
-    mixed = np.interp(way, *zip(*SHADE, strict=True))
+    mixed = np.interp(way, [share for share, _ in SHADE], [amount for _, amount in SHADE])
     white = (mixed > 0).astype(np.float64)
     return np.stack([white, white, white, np.abs(mixed)], axis=2)
