@@ -46,7 +46,7 @@ def test_the_course_of_the_kit_has_lessons_and_exercises():
 
 
 def test_the_course_opens_with_the_first_lesson():
-    assert next(iter(course_files())).startswith("notebooks/01_")
+    assert next(iter(course_files())).startswith("notebooks/00_")
 
 
 def test_a_new_folder_gets_every_file(kit, tmp_path):
