@@ -1,0 +1,152 @@
+"""The question that words ask: which successors of their letters turn each word into the next?
+
+A letter is a module between its neighbours: the same module between others is another letter, whose successor is free. Without
+contexts a letter is a module alone. Constants are known: they stay as they are, and contexts pass over them. So are the brackets
+of branches (ABOP, section 1.6.1), which contexts understand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from lsys_kit.budget import counted
+from lsys_kit.derivation.core.matching import Neighbours, Passing, neighbours, neighbours_along
+from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
+from lsys_kit.derivation.inference.equations import Equation, put_in
+from lsys_kit.derivation.inference.search import Solution, solutions
+from lsys_kit.derivation.inference.words import Row
+from lsys_kit.notation.model.modules import Module
+
+BRACKETS = frozenset("[]")
+FIRST_CHARACTER = 0xF0000
+"""Modules are written as characters from here on, which have no other meaning (Unicode's planes for private use)."""
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A module with the modules to its left, in the order written, and to its right.
+
+    >>> print(Letter((Module("b"),), Module("a")))
+    b < a
+    """
+
+    left: Row
+    module: Module
+    right: Row = ()
+
+    def __str__(self) -> str:
+        left = f"{' '.join(map(str, self.left))} < " if self.left else ""
+        return f"{left}{self.module}" + (f" > {' '.join(map(str, self.right))}" if self.right else "")
+
+
+REST = Letter((), Module(""))
+"""What stands for all letters behind some place."""
+Table: TypeAlias = dict[Letter, Row]
+"""What becomes of each letter."""
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What systems are looked for.
+
+    Attributes
+    ----------
+    constants
+        Symbols that stay as they are.
+    erasing
+        Whether a letter may become nothing.
+    context
+        How many neighbours to the left and to the right a production may look at.
+    """
+
+    constants: frozenset[str] = frozenset("+-")
+    erasing: bool = False
+    context: tuple[int, int] = (0, 0)
+
+    @property
+    def unchanged(self) -> frozenset[str]:
+        """Constants and brackets."""
+        return self.constants | BRACKETS
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Equations for the successors of letters.
+
+    Attributes
+    ----------
+    letters
+        The letters whose successors are unknown; a number in an equation is a place here.
+    modules
+        The modules that a character of a known word stands for.
+    equations
+        One for each step that has an unknown letter.
+    bounds
+        How many letters the successors can have.
+    possible
+        False where the known letters alone contradict the words.
+    """
+
+    letters: tuple[Letter, ...]
+    modules: tuple[Module, ...]
+    equations: tuple[Equation, ...]
+    bounds: Bounds
+    possible: bool
+
+
+def problem_of(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> Problem:
+    """The question that words ask; with `last`, so many letters of the last word but one have successors, and those behind it
+    become whatever is left."""
+    codes: dict[Module, str] = {}
+    for word in words:
+        for module in counted(word):
+            codes.setdefault(module, chr(FIRST_CHARACTER + len(codes)))
+    numbers: dict[Letter, int] = {}
+    rows = [[codes[letter.module] if letter.module.symbol in conditions.unchanged else numbers.setdefault(letter, len(numbers))
+             for letter in letters_of(word, conditions)] for word in words[:-1]]
+    behind = 0 if last is None else len(rows[-1]) - last
+    if behind:
+        rows[-1][last:] = [numbers.setdefault(REST, len(numbers))]
+    texts = ["".join(codes[module] for module in word) for word in words[1:]]
+    equations = [put_in(Equation(tuple(row), text), {}) for row, text in zip(rows, texts, strict=True)]
+    left = tuple(equation for equation in equations if equation and equation.items)
+    bounds = first_bounds(left, len(numbers), conditions.erasing)
+    if behind:
+        bounds.least[-1, -1] = 0 if conditions.erasing else behind
+    return Problem(tuple(numbers), tuple(codes), left, bounds, None not in equations)
+
+
+def letters_of(word: Row, conditions: Conditions) -> Iterator[Letter]:
+    """The letters of a word: its modules with their neighbours."""
+    if conditions.context == (0, 0):
+        yield from (Letter((), module) for module in counted(word))
+        return
+    around = neighbours([module.symbol for module in word], Passing(conditions.constants))
+    for place in counted(range(len(word))):
+        yield letter_at(word, around, place, conditions.context)
+
+
+def letter_at(word: Row, around: Neighbours, place: int, context: tuple[int, int]) -> Letter:
+    """The letter at a place of a word."""
+    left = neighbours_along(around.before, place, context[0])
+    right = neighbours_along(around.after, place, context[1])
+    return Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
+
+
+def tables(problem: Problem) -> Iterator[Table]:
+    """All answers, one after another."""
+    if problem.possible:
+        for solution in solutions(problem.equations, problem.bounds):
+            yield table_of(problem, solution)
+
+
+def table_of(problem: Problem, solution: Solution) -> Table:
+    """A solution, with modules in place of numbers and characters."""
+    return {problem.letters[letter]: tuple(modules_of(problem, solution[letter])) for letter in sorted(solution)}
+
+
+def modules_of(problem: Problem, text: str) -> Iterable[Module]:
+    """The modules that a known word stands for."""
+    return (problem.modules[ord(character) - FIRST_CHARACTER] for character in text)

@@ -1,0 +1,128 @@
+"""Wrong letters: single letters of the words with another in whose place some system fits.
+
+A slip in a word upsets the step to it and the step from it alone. So only a word is suspected without whose two steps the others
+agree; each of its letters is tried with every other one, against what the other steps make certain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from os.path import commonprefix
+
+from lsys_kit.budget import check_budget
+from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
+from lsys_kit.derivation.inference.equations import Equation, Item, merged, put_in
+from lsys_kit.derivation.inference.problem import FIRST_CHARACTER, Conditions
+from lsys_kit.derivation.inference.search import Solution, deduced, solutions
+from lsys_kit.derivation.inference.words import Row
+from lsys_kit.notation.model.modules import Module
+
+MOST_TRIALS = 20_000
+"""So many letters are tried at most."""
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A letter with another in whose place some system fits.
+
+    Attributes
+    ----------
+    step, place
+        Where it stands; the place is counted from 1.
+    found, instead
+        The letter, and the one that should be there.
+    """
+
+    step: int
+    place: int
+    found: Module
+    instead: Module
+
+    def __str__(self) -> str:
+        return f"letter {self.place} of step {self.step}, {self.found}, were {self.instead}"
+
+
+@dataclass(frozen=True)
+class _Texts:
+    """Words as texts with a character for each module."""
+
+    words: tuple[str, ...]
+    unchanged: str
+    erasing: bool
+
+    def equation(self, word: str, following: str) -> Equation | None:
+        """What a step asks."""
+        return put_in(Equation(tuple(self.items(word, {})), following), {})
+
+    def items(self, word: str, known: Solution) -> list[Item]:
+        """The letters of a word, with known successors in place of those that have one."""
+        numbers = ((letter, ord(letter) - FIRST_CHARACTER) for letter in word)
+        return merged(letter if letter in self.unchanged else known.get(number, number) for letter, number in numbers)
+
+
+def slips(words: Sequence[Row], step: int, conditions: Conditions) -> Iterator[Slip]:
+    """The single letters of steps 0 to `step`, which contradict one another, that could be wrong.
+
+    >>> from lsys_kit.derivation.inference.words import read_words
+    >>> [str(slip) for slip in slips(read_words(["a", "ab", "abc", "abaab"]), 3, Conditions())]
+    ['letter 3 of step 2, c, were a']
+    """
+    modules = [*dict.fromkeys(module for word in words for module in word)]
+    codes = {module: chr(FIRST_CHARACTER + number) for number, module in enumerate(modules)}
+    texts = _Texts(tuple("".join(codes[module] for module in word) for word in words),
+                   "".join(codes[module] for module in modules if module.symbol in conditions.unchanged), conditions.erasing)
+    for suspect in range(step, -1, -1):
+        for place, letter in _slips_of(texts, suspect):
+            yield Slip(suspect, place + 1, words[suspect][place], modules[ord(letter) - FIRST_CHARACTER])
+
+
+def _slips_of(texts: _Texts, suspect: int) -> Iterator[tuple[int, str]]:
+    """The places of a word, and what could stand there."""
+    steps = [*zip(texts.words, texts.words[1:], strict=False)]
+    others = [texts.equation(*step) for number, step in enumerate(steps) if number not in (suspect - 1, suspect)]
+    bounds = _first_bounds(texts)
+    known = None if None in others else deduced(tuple(each for each in others if each and each.items), bounds)
+    if known is None or next(solutions(known.equations, known.bounds), None) is None:
+        return
+    for place, letter in islice(_changes(texts, suspect, known.successors), MOST_TRIALS):
+        check_budget()
+        word = texts.words[suspect][:place] + letter + texts.words[suspect][place + 1:]
+        around = [texts.words[suspect - 1]] * (suspect > 0) + [word] + [*texts.words[suspect + 1:suspect + 2]]
+        changed = [texts.equation(*step) for step in zip(around, around[1:], strict=False)]
+        changed = [each and put_in(each, known.successors) for each in changed]
+        if None not in changed and _solvable([*known.equations, *(each for each in changed if each and each.items)], known.bounds):
+            yield place, letter
+
+
+def _first_bounds(texts: _Texts) -> Bounds:
+    numbers = max(map(ord, "".join(texts.words))) - FIRST_CHARACTER + 1
+    return first_bounds([Equation((), word) for word in texts.words], numbers, texts.erasing)
+
+
+def _changes(texts: _Texts, suspect: int, known: Solution) -> Iterator[tuple[int, str]]:
+    """The places of a word that can be wrong, with every other letter."""
+    alphabet = sorted({*"".join(texts.words)})
+    word = texts.words[suspect]
+    for place in _places(texts.items(texts.words[suspect - 1], known), word) if suspect else range(len(word)):
+        yield from ((place, letter) for letter in alphabet if letter != word[place])
+
+
+def _places(items: Sequence[Item], word: str) -> Iterable[int]:
+    """Where one letter may be wrong: where what is known at either end differs first, else where nothing is known.
+
+    >>> [*_places(["abc", 0], "axbb")], [*_places(["ab", 0, "b"], "abccb")]
+    ([1], [2, 3])
+    """
+    front = items[0] if items and isinstance(items[0], str) else ""
+    back = items[-1] if len(items) > 1 and isinstance(items[-1], str) else ""
+    if (same := len(commonprefix([front, word]))) < len(front):
+        return range(same, min(same + 1, len(word)))
+    if (same := len(commonprefix([back[::-1], word[::-1]]))) < len(back):
+        return range(max(0, len(word) - same - 1), len(word) - same)
+    return range(len(front), len(word) - len(back))
+
+
+def _solvable(equations: Sequence[Equation], bounds: Bounds) -> bool:
+    return next(solutions(equations, bounds), None) is not None
