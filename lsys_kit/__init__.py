@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.variants import variants
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth.growth import growth
+    from lsys_kit.derivation.inference.infer import infer
     from lsys_kit.derivation.petri.pnml import pnml
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.derivation.timed.continuity import continuity
@@ -67,7 +68,7 @@ _HOMES = {
     "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
     "exercises": "classroom.exercises.session",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
-    "growth": "derivation.growth.growth", "limits": "budget",
+    "growth": "derivation.growth.growth", "infer": "derivation.inference.infer", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "predict": "classroom.lessons.predict", "qr_code": "pictures.qr_codes",
@@ -101,6 +102,7 @@ __all__ = [
     "explore",
     "figure",
     "growth",
+    "infer",
     "limits",
     "lineage",
     "link",

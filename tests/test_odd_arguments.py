@@ -58,6 +58,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "link a cellwork": lambda: (cellwork_system("K33"), {"step": 1}),
     "draw a cellwork": lambda: (cellwork_system("K33"), 1), "derive a cellwork": lambda: (cellwork_system("K33"), 1),
     "explain": lambda: (derive(GROWING, 1), 1),
+    "infer": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
     "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,
     "pnml": lambda: (stages(GROWING), None), "predict": lambda: ("How many?", "21"),

@@ -19,8 +19,8 @@ from lsys_kit.derivation.inference.search import Solution, deduced, solutions
 from lsys_kit.derivation.inference.words import Row
 from lsys_kit.notation.model.modules import Module
 
-MOST_TRIALS = 20_000
-"""So many letters are tried at most."""
+MOST_LETTERS_READ = 2_000_000
+"""So many letters are read at most while those of a word are tried."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,8 @@ def _slips_of(texts: _Texts, suspect: int) -> Iterator[tuple[int, str]]:
     known = None if None in others else deduced(tuple(each for each in others if each and each.items), bounds)
     if known is None or next(solutions(known.equations, known.bounds), None) is None:
         return
-    for place, letter in islice(_changes(texts, suspect, known.successors), MOST_TRIALS):
+    most = MOST_LETTERS_READ // sum(map(len, texts.words))
+    for place, letter in islice(_changes(texts, suspect, known.successors), most):
         check_budget()
         word = texts.words[suspect][:place] + letter + texts.words[suspect][place + 1:]
         around = [texts.words[suspect - 1]] * (suspect > 0) + [word] + [*texts.words[suspect + 1:suspect + 2]]

@@ -1,0 +1,167 @@
+"""The systems that fit a sequence of words, and what can be said of them in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import overload
+
+from lsys_kit.budget import Task, check_budget
+from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.inference.problem import Conditions
+from lsys_kit.derivation.inference.refusals import Contradiction
+from lsys_kit.derivation.inference.slips import Slip
+from lsys_kit.derivation.inference.words import Row
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem, Production
+
+MOST_SHOWN = 20
+"""So many systems are shown, and so many letters named."""
+STEPS_AHEAD, MODULES_AHEAD = 20, 100_000
+"""So many steps, and words of so many modules, are looked at to see where systems part."""
+
+
+@dataclass(frozen=True)
+class Wider:
+    """Wider conditions under which systems fit, with how many do; None where they are more than were counted."""
+
+    conditions: Conditions
+    systems: int | None
+
+    def __str__(self) -> str:
+        count = "many systems fit" if self.systems is None else "one system fits" if self.systems == 1 \
+            else f"{self.systems} systems fit"
+        erasing = ", erasing=True" if self.conditions.erasing else ""
+        return f"With context={self.conditions.context}{erasing} {count}."
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why no system fits.
+
+    Attributes
+    ----------
+    contradiction
+        The first step that cannot come from the one before.
+    slips
+        Letters with others in whose place some system would fit.
+    wider
+        Contexts with which some system fits, or None.
+    """
+
+    contradiction: Contradiction
+    slips: tuple[Slip, ...] = ()
+    wider: Wider | None = None
+
+    def __str__(self) -> str:
+        slips = [str(slip) for slip in self.slips[:MOST_SHOWN]]
+        found = [str(self.contradiction)]
+        if slips:
+            found.append(f"A system without contexts would fit if {', or if '.join(slips)}.")
+        if self.wider:
+            found.append(str(self.wider))
+        return " ".join(found)
+
+
+@dataclass(frozen=True, repr=False)
+class Fits(Sequence[LSystem]):
+    """All systems that fit a sequence of words: a sequence of systems, which prints as an explanation.
+
+    Attributes
+    ----------
+    words
+        The words of steps 0, 1, 2, ...
+    systems
+        The systems: each derives the words exactly.
+    conditions
+        What systems were looked for.
+    refusal
+        Why there is none; None where there is one.
+    """
+
+    words: tuple[Row, ...]
+    systems: tuple[LSystem, ...]
+    conditions: Conditions = Conditions()
+    refusal: Refusal | None = None
+
+    def __len__(self) -> int:
+        return len(self.systems)
+
+    @overload
+    def __getitem__(self, index: int) -> LSystem: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[LSystem]: ...
+    def __getitem__(self, index: int | slice) -> LSystem | Sequence[LSystem]:
+        return self.systems[index]
+
+    def __repr__(self) -> str:
+        with Task("The explanation was not finished"):
+            return _explanation(self)
+
+    def __str__(self) -> str:
+        return repr(self)
+
+
+def _explanation(fits: Fits) -> str:
+    if fits.refusal is not None:
+        return f"No system fits these {len(fits.words)} words. {fits.refusal}"
+    common = [rule for rule in fits[0].productions if all(rule in system.productions for system in fits)]
+    if len(fits) == 1:
+        return "\n".join([f"One system fits these {len(fits.words)} words:", *_lines(common, "  "), *_unknown(fits)])
+    step = parting_step(fits)
+    later = "as far as was looked, later words are the same" if step is None else f"they part at step {step}"
+    lines = [f"{len(fits)} systems fit these {len(fits.words)} words; {later}:"]
+    if common:
+        lines += [" all have", *_lines(common, "  ")]
+    for number, system in enumerate(fits[:MOST_SHOWN], 1):
+        own = [rule for rule in system.productions if rule not in common]
+        lines += [f" {number}.", *_lines(own, "  ")]
+    more = len(fits) - MOST_SHOWN
+    return "\n".join([*lines, *([f" and {more} more"] if more > 0 else []), *_unknown(fits)])
+
+
+def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
+    return (f"{margin}{production}" for production in productions)
+
+
+def _unknown(fits: Fits) -> Iterator[str]:
+    """What the words say nothing of: letters of the last word alone, and letters that stay as they are."""
+    before = {_kind(module) for word in fits.words[:-1] for module in word}
+    new = [*dict.fromkeys(symbol for module in fits.words[-1] if (symbol := _kind(module)) not in before)]
+    unknown = [symbol for symbol in new if symbol not in fits.conditions.unchanged]
+    if unknown:
+        more = f" and {len(unknown) - MOST_SHOWN} more" if len(unknown) > MOST_SHOWN else ""
+        yield f"Nothing is known of what becomes of {', '.join(unknown[:MOST_SHOWN])}{more}: only the last word has it."
+
+
+def _kind(module: Module) -> str:
+    return module.symbol
+
+
+def parting_step(fits: Sequence[LSystem]) -> int | None:
+    """The first step at which some systems have different words; None where there is none as far as one can look.
+
+    >>> from lsys_kit.notation.read import read
+    >>> parting_step([read("axiom: a\\na -> ab"), read("axiom: a\\na -> ab\\nb -> a")])
+    2
+    """
+    first, found = derive(fits[0], 0), None
+    for system in fits[1:]:
+        other, step = derive(system, 0), 0
+        most = STEPS_AHEAD if found is None else found - 1
+        while step <= most and _small(first, step) and _small(other, step):
+            check_budget()
+            if first.to(step)[step] != other.to(step)[step]:
+                found = step
+                break
+            step += 1
+    return found
+
+
+def _small(derivation: Derivation, step: int) -> bool:
+    """Whether the word of a step is not too large to be looked at."""
+    try:
+        return derivation.to(step).lengths[step] <= MODULES_AHEAD
+    except ModelLimitError:
+        return False

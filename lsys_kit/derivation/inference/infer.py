@@ -1,0 +1,137 @@
+"""`infer`: all systems that fit a sequence of words.
+
+Which successors of its letters turn each word into the next is a system of equations between words, whose solutions are searched
+for exhaustively. This is the inductive inference of L-systems: G. T. Herman and G. Rozenberg, Developmental Systems and
+Languages, 1975, chapter on inference; J. Bernard and I. McQuillan, Techniques for inferring context-free Lindenmayer systems with
+genetic algorithm, Swarm and Evolutionary Computation 64, 2021, whose plants and curves are among the tests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import islice
+
+from lsys_kit.budget import Task
+from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
+from lsys_kit.derivation.inference.problem import Conditions, Table, problem_of, tables
+from lsys_kit.derivation.inference.productions import productions_of, system_of
+from lsys_kit.derivation.inference.refusals import contradiction
+from lsys_kit.derivation.inference.slips import slips
+from lsys_kit.derivation.inference.words import Row, read_words
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+
+MOST_FITS = 1_000
+"""So many systems are listed; more are refused."""
+MOST_COUNTED = 20
+"""So many systems are counted where others than those that were asked for fit."""
+CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
+"""The contexts that are tried where no system fits, the smallest first."""
+
+
+def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False,
+          context: tuple[int, int] = (0, 0)) -> Fits:
+    """All deterministic systems that fit a sequence of words: each of them derives every word from the one before.
+
+    Parameters
+    ----------
+    words
+        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words. A word is a text of one-letter symbols, a `Word`, or
+        a row of modules or names.
+    constants
+        The symbols that stay as they are; contexts pass over them. The brackets [ and ] always do.
+    erasing
+        Whether a letter may become nothing.
+    context
+        How many neighbours to the left and to the right a production may look at.
+
+    Returns
+    -------
+    Fits
+        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first step
+        and letter that contradict those before, single letters that may be wrong, and contexts with which some system fits.
+        Letters that only the last word has are left as they are, since nothing is known of them.
+
+    Raises
+    ------
+    ModelLimitError
+        More than 1,000 systems fit, or the search takes too long; `partial` has those that were found.
+    ModelValueError
+        The words or another argument cannot be used.
+
+    Examples
+    --------
+    >>> infer(["a", "ab", "aba"])
+    One system fits these 3 words:
+      a -> a b
+      b -> a
+    >>> two = infer(["FGG", "F-G+F+G-FGGGG"])
+    >>> print(two)
+    2 systems fit these 2 words; they part at step 2:
+     1.
+      F -> F-G+F+G-F
+      G -> G G
+     2.
+      F -> F-G+F+G-F G G
+      G -> G
+    >>> print(infer(["a", "ab", "abb", "abba"]))
+    No system fits these 4 words. ...
+    """
+    asked = _conditions(constants, erasing, context)
+    found: list[Table] = []
+    with Task(lambda: f"The search for systems was not finished, after {len(found)} {'was' if len(found) == 1 else 'were'} found,"):
+        rows = read_words(words)
+        try:
+            found += islice(tables(problem_of(rows, asked)), MOST_FITS + 1)
+        except ModelLimitError as error:
+            error.partial = _fits(rows, found, asked)
+            raise
+        if len(found) > MOST_FITS:
+            raise ModelLimitError(f"More than {MOST_FITS:,} systems fit these {len(rows)} words", limit=MOST_FITS,
+                                  partial=_fits(rows, found[:MOST_FITS], asked), hint=_what_is_certain(found))
+        return _fits(rows, found, asked) if found else Fits(rows, (), asked, _refusal(rows, asked))
+
+
+def _conditions(constants: object, erasing: object, context: object) -> Conditions:
+    """What is looked for, where the arguments say that."""
+    if not isinstance(constants, Iterable):
+        raise ModelValueError(f"The constants must be symbols in a row, not {type(constants).__name__}",
+                              hint='Give their symbols, as in constants=("+", "-").')
+    symbols = tuple(constants)
+    for symbol in symbols:
+        require(symbol, str, "A symbol as a constant")
+    require(erasing, bool, 'True or False for "erasing"')
+    if not isinstance(context, Sequence) or isinstance(context, str) or len(context) != 2:
+        raise ModelValueError(f"The context must be two whole numbers, not {shown(context)}",
+                              hint="Say how many neighbours to the left and to the right, as in context=(1, 0).")
+    left, right = (whole_number(size, "Each size of the context") for size in context)
+    return Conditions(frozenset(symbols), bool(erasing), (left, right))
+
+
+def _fits(rows: tuple[Row, ...], found: Iterable[Table], conditions: Conditions) -> Fits:
+    return Fits(rows, tuple(system_of(rows[0], productions_of(table), conditions) for table in found), conditions)
+
+
+def _what_is_certain(found: Sequence[Table]) -> str:
+    """What all systems found have in common."""
+    same = {letter: word for letter, word in found[0].items() if all(other[letter] == word for other in found)}
+    rules = [str(production) for production in productions_of(same)][:MOST_COUNTED]
+    return f"Give more steps. All that were found have {', '.join(rules)}." if rules else "Give more steps."
+
+
+def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
+    """Why no system fits."""
+    where = contradiction(rows, conditions)
+    wrong = tuple(slips(rows, where.step, conditions)) if conditions.context == (0, 0) else ()
+    return Refusal(where, wrong, next(_wider(rows, conditions), None))
+
+
+def _wider(rows: tuple[Row, ...], conditions: Conditions) -> Iterator[Wider]:
+    """Wider conditions under which systems fit."""
+    for erasing in dict.fromkeys((conditions.erasing, True)):
+        for context in CONTEXTS:
+            if context[0] >= conditions.context[0] and context[1] >= conditions.context[1]:
+                wider = replace(conditions, erasing=erasing, context=context)
+                count = sum(1 for _ in islice(tables(problem_of(rows, wider)), MOST_COUNTED + 1))
+                if count:
+                    yield Wider(wider, count if count <= MOST_COUNTED else None)

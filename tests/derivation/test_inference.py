@@ -1,0 +1,197 @@
+"""The systems behind words: all of them are found, each derives the words, and where there is none the reason is named.
+
+The published systems are those of the literature on inference (McQuillan, Bernard and Prusinkiewicz 2018; Bernard and McQuillan
+2018), as collected in the data set alilotfi90/D0L-Quant-and-Classical-Solver.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, infer, limits, system
+from lsys_kit.derivation.inference.fits import Fits
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.read import read
+
+PUBLISHED = {case["name"]: case for case in
+             json.loads((Path(__file__).parent / "cases" / "inference.json").read_text(encoding="utf-8"))["systems"]}
+Rules = Mapping[str, str]
+
+
+def words_of(axiom: str, rules: Rules, steps: int) -> list[str]:
+    """The words of a D0L system, by its definition."""
+    words = [axiom]
+    for _ in range(steps):
+        words.append("".join(rules.get(letter, letter) for letter in words[-1]))
+    return words
+
+
+def published_words(name: str) -> list[str]:
+    case = PUBLISHED[name]
+    return words_of(case["axiom"], case["productions"], case["steps"])
+
+
+def texts(fits: Fits) -> list[list[str]]:
+    """The words that each system derives."""
+    return [["".join(module.symbol for module in word) for word in derive(fit, len(fits.words) - 1)] for fit in fits]
+
+
+def rules_of(fit: Any, letters: str) -> dict[str, str]:
+    """What a system makes of some letters."""
+    made = {rule.predecessor.symbol: "".join(item.symbol for item in rule.successor) for rule in fit.productions}
+    return {letter: made.get(letter, letter) for letter in letters}
+
+
+def fitting(words: Sequence[str], erasing: bool) -> Iterator[dict[str, str]]:
+    """All rules that fit, by trying all parts of the words as successors."""
+    letters = sorted({*"".join(words[:-1])})
+    parts = {word[i:j] for word in words[1:] for i in range(len(word) + 1) for j in range(i, len(word) + 1)}
+    for chosen in product(sorted(part for part in parts | {""} if part or erasing), repeat=len(letters)):
+        rules = dict(zip(letters, chosen, strict=True))
+        if words_of(words[0], rules, len(words) - 1) == words:
+            yield rules
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_all_systems_that_fit_published_words_are_found(name: str) -> None:
+    case, words = PUBLISHED[name], published_words(name)
+    fits = infer(words, case["constants"])
+    assert len(fits) == case["fits"]
+    assert texts(fits) == [words] * len(fits)
+    assert any(rules_of(fit, "".join(case["productions"])) == case["productions"] for fit in fits)
+
+
+@pytest.mark.parametrize(("steps", "systems"), [(1, 1), (2, 2), (3, 2), (4, 1)])
+def test_each_step_of_anabaena_tells_more_of_its_rules(steps: int, systems: int) -> None:
+    fits = infer(derive(system("J1"), steps))
+    assert len(fits) == systems
+    assert all(list(derive(fit, steps)) == list(derive(system("J1"), steps)) for fit in fits)
+
+
+def test_the_rules_of_anabaena_are_found_from_five_words() -> None:
+    assert set(infer(derive(system("J1"), 4))[0].productions) == set(system("J1").productions)
+
+
+TINY = [["a", "b"], ["ab", "ba"], ["ab", "abb", "abbbb"], ["a", "", ""], ["aa", "abab"], ["ab", "aab", "aabaab"], ["ab", "c", "c"],
+        ["abc", "abca"], ["aba", "bab"], ["a", "aa", "aaa"], ["a", ""], ["", "a"], ["", ""], ["abab", "cc"], ["ab", "ab", "ba"]]
+
+
+@pytest.mark.parametrize("erasing", [False, True])
+@pytest.mark.parametrize("words", TINY, ids="-".join)
+def test_the_fits_are_those_that_trying_all_finds(words: list[str], erasing: bool) -> None:
+    same_as_by_trying(words, erasing)
+
+
+def same_as_by_trying(words: list[str], erasing: bool) -> None:
+    fits, letters = infer(words, erasing=erasing), "".join(sorted({*"".join(words[:-1])}))
+    found = [tuple(rules_of(fit, letters).items()) for fit in fits]
+    assert len(set(found)) == len(found)
+    assert sorted(found) == sorted(tuple(rules.items()) for rules in fitting(words, erasing))
+    assert bool(fits) == (fits.refusal is None)
+
+
+LETTERS = st.sampled_from("ab")
+
+
+@given(st.lists(st.text(LETTERS, max_size=4), min_size=2, max_size=4), st.booleans())
+def test_the_fits_to_any_words_are_those_that_trying_all_finds(words: list[str], erasing: bool) -> None:
+    same_as_by_trying(words, erasing)
+
+
+@given(st.dictionaries(st.sampled_from("abcd"), st.text(st.sampled_from("abcd+["), max_size=3), min_size=1),
+       st.text(st.sampled_from("abcd"), min_size=1, max_size=3), st.integers(1, 4))
+def test_the_true_system_is_among_the_fits_and_each_derives_the_words(rules: Rules, axiom: str, steps: int) -> None:
+    words = words_of(axiom, rules, steps)
+    try:
+        fits = infer(words, erasing=True)
+    except ModelLimitError as error:
+        fits = error.partial  # type: ignore[assignment]
+    else:
+        seen = "".join(sorted({*"".join(words[:-1])} - {*"+["}))
+        assert {letter: rules.get(letter, letter) for letter in seen} in [rules_of(fit, seen) for fit in fits]
+    assert texts(fits) == [words] * len(fits)
+
+
+def test_hormone_diffusion_needs_both_neighbours() -> None:
+    words = derive(system("J2"), 15)
+    fits = infer(words)
+    assert not fits
+    assert str(fits) == ("No system fits these 16 words. Step 1 cannot come from step 0: letter 3 of step 0, a, would have to become "
+                         "b, and there is a. With context=(1, 1) one system fits.")
+    assert not infer(words, context=(1, 0))
+    found = infer(words, context=(1, 1))
+    assert [list(derive(fit, 15)) for fit in found] == [list(words)]
+
+
+@pytest.mark.parametrize(("name", "steps"), [("P9", 7), ("K17a", 24), ("K17b", 31)])
+def test_no_system_without_contexts_fits_where_neighbours_have_a_say(name: str, steps: int) -> None:
+    fits = infer(derive(system(name), steps), constants="+-/")
+    assert not fits
+    assert fits.refusal is not None
+    assert "With context=(1, 0)" in str(fits)
+
+
+def test_a_context_at_the_end_of_a_word_does_not_hold_within_it() -> None:
+    words = ["aba", "baa", "cba", "bca", "cbc"]
+    fits = infer(words, context=(1, 1))
+    assert texts(fits) == [words] * len(fits) != []
+
+
+def test_a_signal_passes_a_constant() -> None:
+    words = derive(read("ignore: +\naxiom: b + a [+ a] a\nb < a -> b"), 3)
+    found = infer(words, context=(1, 0))
+    assert [str(rule) for rule in found[0].productions] == ["b < a -> b"]
+    assert list(derive(found[0], 3)) == list(words)
+
+
+def slipped(words: list[str], chance: random.Random) -> tuple[list[str], tuple[int, int]]:
+    """Words with one wrong letter, and where it is."""
+    step = chance.choice([step for step, word in enumerate(words) if word])
+    place = chance.randrange(len(words[step]))
+    other = chance.choice(sorted({*"".join(words)} - {words[step][place]}))
+    return [*words[:step], words[step][:place] + other + words[step][place + 1:], *words[step + 1:]], (step, place + 1)
+
+
+def refused(number: int) -> Iterator[bool]:
+    """Whether the slip is named, in so many random systems whose words no other system fits with it."""
+    chance = random.Random(17)
+    while number:
+        letters = "abcde"[:chance.randint(2, 5)]
+        rules = {letter: "".join(chance.choices(letters, k=chance.randint(1, 3))) for letter in letters}
+        words = words_of(chance.choice(letters), rules, chance.randint(3, 5))
+        if len({*"".join(words)}) > 1:
+            wrong, place = slipped(words, chance)
+            fits = infer(wrong)
+            if fits.refusal is not None:
+                number -= 1
+                yield place in [(slip.step, slip.place) for slip in fits.refusal.slips]
+
+
+@pytest.mark.slow
+def test_a_refusal_names_the_slip() -> None:
+    assert sum(refused(100)) >= 80
+
+
+def test_a_refusal_names_a_slip_in_few_words() -> None:
+    assert sum(refused(10)) >= 8
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (["a", "ab", "abc", "abaab"], "if letter 3 of step 2, c, were a."),
+    (["a", "ab", "aba", "abaab", "abaababa", "abaacabaabaab"], "if letter 5 of step 5, c, were b."),
+    (["ba", "abaab", "ababaabab"], "if letter "),
+    (["a", "", "a"], "Step 2 cannot come from step 1, which is empty."),
+    (["+a", "a+"], "letter 1 of step 0, +, would have to become +, and there is a."),
+    (["abc", "ab"], "letter 1 of step 0, a, has no successor with which all others can have theirs."),
+])
+def test_a_refusal_says_where_and_why(words: list[str], said: str) -> None:
+    assert said in str(infer(words))
