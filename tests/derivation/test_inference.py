@@ -188,10 +188,77 @@ def test_a_refusal_names_a_slip_in_few_words() -> None:
 @pytest.mark.parametrize(("words", "said"), [
     (["a", "ab", "abc", "abaab"], "if letter 3 of step 2, c, were a."),
     (["a", "ab", "aba", "abaab", "abaababa", "abaacabaabaab"], "if letter 5 of step 5, c, were b."),
-    (["ba", "abaab", "ababaabab"], "if letter "),
-    (["a", "", "a"], "Step 2 cannot come from step 1, which is empty."),
     (["+a", "a+"], "letter 1 of step 0, +, would have to become +, and there is a."),
     (["abc", "ab"], "letter 1 of step 0, a, has no successor with which all others can have theirs."),
 ])
 def test_a_refusal_says_where_and_why(words: list[str], said: str) -> None:
     assert said in str(infer(words))
+
+
+def test_nothing_comes_from_the_empty_word() -> None:
+    assert "Step 2 cannot come from step 1, which is empty." in str(infer(["a", "", "a"], erasing=True))
+
+
+def test_systems_are_told_apart_by_their_next_words() -> None:
+    assert str(infer(["aab", "xyxyz", "xyxyz"])) == "\n".join([
+        "2 systems fit these 3 words; they part at step 3:"])
+
+
+def test_of_letters_that_only_the_last_word_has_nothing_is_known() -> None:
+    assert str(infer(["a", "b[+c]c"])).splitlines()[-1] == \
+        "Nothing is known of what becomes of b, c: only the last word has it."
+
+
+def test_too_many_fits_are_refused_with_those_that_were_found() -> None:
+    with pytest.raises(ModelLimitError, match=r"^More than 1,000 systems fit these 2 words. Give more steps.$") as refused:
+        infer(["abcdefghijklmn", "abcdefghijklmnabcdefghijklmnabcdefghijklmn"])
+    assert len(refused.value.partial) == 1000
+    with pytest.raises(ModelLimitError, match=r"All that were found have a -> x, b -> y.$"):
+        infer(["a", "b", "cdefghijklmnopq", "abcdefghijklmnopqabcdefghijklmnopqabcdefghijkmnnopq"])
+
+
+@pytest.mark.parametrize(("given", "message"), [
+    ("aab", "A sequence of words is needed, not str"), (7, "A sequence of words is needed, not int"),
+    ([], "Rules are found from two words at least; there are none"),
+    (["a"], "Rules are found from two words at least; there is one"),
+    (["a", 7], "The word of step 1 must be a text or a row of modules, not int"),
+    (["a", b"a"], "The word of step 1 must be a text or a row of modules, not bytes"),
+    (["a", ["a", 7]], "The word of step 1 must be a text or a row of modules, and has 7"),
+    (["a", "a%"], 'The word of step 1 has the module "%", which is no letter that rules alone replace'),
+    (["a", ["?P"]], 'The word of step 1 has the module "?P", which is no letter that rules alone replace'),
+    (["a" * 60_000] * 2, "The words up to step 1 have more than 100,000 modules"),
+])
+def test_what_is_no_sequence_of_words_is_refused(given: Any, message: str) -> None:
+    with pytest.raises(LSystemError) as refused:
+        infer(given)
+    assert refused.value.message == message
+
+
+def test_a_value_that_is_not_known_is_refused() -> None:
+    growing = read("c = 1\naxiom: a(c)\na(x) -> a(x+c)")
+    with pytest.raises(ModelValueError, match=r"^The word of step 0 has a\(c\), whose value is not known"):
+        infer(derive(growing, 2, c="c"))
+
+
+@pytest.mark.parametrize(("choices", "message"), [
+    ({"constants": 7}, "The constants must be symbols in a row, not int"), ({"constants": [7]}, "A symbol as a constant is needed"),
+    ({"erasing": 1}, 'True or False for "erasing" is needed, not int'), ({"context": 1}, "The context must be two whole numbers"),
+    ({"context": "11"}, "The context must be two whole numbers"), ({"context": (1,)}, "The context must be two whole numbers"),
+    ({"context": (-1, 0)}, "Each size of the context must be a whole number from 0 on, not -1"),
+])
+def test_what_cannot_be_looked_for_is_refused(choices: Any, message: str) -> None:
+    with pytest.raises(ModelValueError, match=message):
+        infer(["a", "ab"], **choices)
+
+
+def test_words_are_texts_of_letters_or_rows_of_names_or_as_derive_prints_them() -> None:
+    expected = infer(derive(system("J1"), 4)).systems
+    printed = [str(word) for word in derive(system("J1"), 4)]
+    assert infer(printed).systems == infer([word.split() for word in printed]).systems == expected
+    assert infer([str(word) for word in derive(system("P4"), 9)]).systems == infer(derive(system("P4"), 9)).systems
+
+
+def test_a_search_that_takes_too_long_keeps_what_it_found() -> None:
+    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"^The search for systems was not finished") as refused:
+        infer(derive(system("K17a"), 24), context=(1, 0), erasing=True)
+    assert len(refused.value.partial) == 0

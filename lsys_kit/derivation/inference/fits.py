@@ -43,20 +43,20 @@ class Refusal:
     Attributes
     ----------
     contradiction
-        The first step that cannot come from the one before.
+        The first step that cannot come from the one before; None where that was not found.
     slips
         Letters with others in whose place some system would fit.
     wider
         Contexts with which some system fits, or None.
     """
 
-    contradiction: Contradiction
+    contradiction: Contradiction | None
     slips: tuple[Slip, ...] = ()
     wider: Wider | None = None
 
     def __str__(self) -> str:
         slips = [str(slip) for slip in self.slips[:MOST_SHOWN]]
-        found = [str(self.contradiction)]
+        found = [str(self.contradiction)] if self.contradiction else []
         if slips:
             found.append(f"A system without contexts would fit if {', or if '.join(slips)}.")
         if self.wider:
@@ -143,7 +143,7 @@ def parting_step(fits: Sequence[LSystem]) -> int | None:
     """The first step at which some systems have different words; None where there is none as far as one can look.
 
     >>> from lsys_kit.notation.read import read
-    >>> parting_step([read("axiom: a\\na -> ab"), read("axiom: a\\na -> ab\\nb -> a")])
+    >>> parting_step([read("axiom: a\\na -> a b"), read("axiom: a\\na -> a b\\nb -> a")])
     2
     """
     first, found = derive(fits[0], 0), None

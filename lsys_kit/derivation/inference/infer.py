@@ -9,14 +9,16 @@ genetic algorithm, Swarm and Evolutionary Computation 64, 2021, whose plants and
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
-from lsys_kit.derivation.inference.problem import Conditions, Table, problem_of, tables
+from lsys_kit.derivation.inference.problem import Conditions, Problem, Table, problem_of, tables
 from lsys_kit.derivation.inference.productions import productions_of, system_of
 from lsys_kit.derivation.inference.refusals import contradiction
+from lsys_kit.derivation.inference.search import GivenUp
 from lsys_kit.derivation.inference.slips import slips
 from lsys_kit.derivation.inference.words import Row, read_words
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
@@ -25,6 +27,8 @@ MOST_FITS = 1_000
 """So many systems are listed; more are refused."""
 MOST_COUNTED = 20
 """So many systems are counted where others than those that were asked for fit."""
+MOST_SUCCESSORS_TRIED = 100
+"""So many successors are tried then."""
 CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
 """The contexts that are tried where no system fits, the smallest first."""
 
@@ -65,17 +69,16 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     One system fits these 3 words:
       a -> a b
       b -> a
-    >>> two = infer(["FGG", "F-G+F+G-FGGGG"])
-    >>> print(two)
+    >>> print(infer(["FGG", "F-G+F+G-FGGGG"]))
     2 systems fit these 2 words; they part at step 2:
      1.
+      F -> F-G+F+G-F G G
+     2.
       F -> F-G+F+G-F
       G -> G G
-     2.
-      F -> F-G+F+G-F G G
-      G -> G
     >>> print(infer(["a", "ab", "abb", "abba"]))
-    No system fits these 4 words. ...
+    No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is a. \
+A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits.
     """
     asked = _conditions(constants, erasing, context)
     found: list[Table] = []
@@ -89,7 +92,10 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
         if len(found) > MOST_FITS:
             raise ModelLimitError(f"More than {MOST_FITS:,} systems fit these {len(rows)} words", limit=MOST_FITS,
                                   partial=_fits(rows, found[:MOST_FITS], asked), hint=_what_is_certain(found))
-        return _fits(rows, found, asked) if found else Fits(rows, (), asked, _refusal(rows, asked))
+        if found:
+            return _fits(rows, found, asked)
+        with Task("No system fits these words, and the reason was not found"):
+            return Fits(rows, (), asked, _refusal(rows, asked))
 
 
 def _conditions(constants: object, erasing: object, context: object) -> Conditions:
@@ -122,7 +128,7 @@ def _what_is_certain(found: Sequence[Table]) -> str:
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
     """Why no system fits."""
     where = contradiction(rows, conditions)
-    wrong = tuple(slips(rows, where.step, conditions)) if conditions.context == (0, 0) else ()
+    wrong = tuple(slips(rows, where.step, conditions)) if where and conditions.context == (0, 0) else ()
     return Refusal(where, wrong, next(_wider(rows, conditions), None))
 
 
@@ -132,6 +138,16 @@ def _wider(rows: tuple[Row, ...], conditions: Conditions) -> Iterator[Wider]:
         for context in CONTEXTS:
             if context[0] >= conditions.context[0] and context[1] >= conditions.context[1]:
                 wider = replace(conditions, erasing=erasing, context=context)
-                count = sum(1 for _ in islice(tables(problem_of(rows, wider)), MOST_COUNTED + 1))
+                count = _count(problem_of(rows, wider))
                 if count:
                     yield Wider(wider, count if count <= MOST_COUNTED else None)
+
+
+def _count(problem: Problem) -> int:
+    """How many systems there are; more than are counted, where after the first the search is long."""
+    found = 0
+    with suppress(GivenUp):
+        for _ in islice(tables(problem, MOST_SUCCESSORS_TRIED), MOST_COUNTED + 1):
+            found += 1
+        return found
+    return found and MOST_COUNTED + 1

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import TypeAlias
 
 from lsys_kit.budget import counted
@@ -135,10 +136,10 @@ def letter_at(word: Row, around: Neighbours, place: int, context: tuple[int, int
     return Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
 
 
-def tables(problem: Problem) -> Iterator[Table]:
-    """All answers, one after another."""
+def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:
+    """All answers, one after another; `GivenUp` where so many trials do not suffice."""
     if problem.possible:
-        for solution in solutions(problem.equations, problem.bounds):
+        for solution in solutions(problem.equations, problem.bounds, trials):
             yield table_of(problem, solution)
 
 

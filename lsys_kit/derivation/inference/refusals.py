@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Letter, Table, letters_of, problem_of, tables
+from lsys_kit.derivation.inference.search import GivenUp
 from lsys_kit.derivation.inference.words import Row, text_of
 from lsys_kit.notation.model.modules import Module
 
 
+MOST_SUCCESSORS_TRIED = 5_000
+"""Beyond so many trials it is not said where words contradict one another."""
 SOLUTIONS_COMPARED = 20
 """What a letter would have to become is said where so many solutions agree on it."""
 
@@ -49,15 +53,22 @@ class Contradiction:
         return f"{where} would have to become {text_of(self.needed)}, and there is {text_of(self.there)}."
 
 
-def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction:
-    """Where words contradict one another, which no system fits: the first letter that has no successor."""
+def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction | None:
+    """Where words contradict one another, which no system fits: the first letter that has no successor; None where that is not
+    soon found."""
+    with suppress(GivenUp):
+        return _contradiction(words, conditions)
+    return None
+
+
+def _contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction:
     step = first_impossible_step(words, conditions)
     words = words[:step + 1]
     letters = [*letters_of(words[step - 1], conditions)]
     place = bisect_left(range(1, len(letters)), True, key=lambda count: first_table(words, conditions, count) is None)
     if not letters:
         return Contradiction(step, 0, None)
-    some = islice(tables(problem_of(words, conditions, place)), SOLUTIONS_COMPARED)
+    some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
     asked = {_asked(words[step], letters[:place + 1], table, conditions) for table in some}
     needed, there = asked.pop() if len(asked) == 1 else (None, ())
     return Contradiction(step, place + 1, letters[place].module, None if needed == there else needed, there)
@@ -78,7 +89,7 @@ def first_impossible_step(words: Sequence[Row], conditions: Conditions) -> int:
 def first_table(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> Table | None:
     """What a first system makes of each letter; None where there is no system."""
     check_budget()
-    return next(tables(problem_of(words, conditions, last)), None)
+    return next(tables(problem_of(words, conditions, last), MOST_SUCCESSORS_TRIED), None)
 
 
 def successor(letter: Letter, table: Table, conditions: Conditions) -> Row | None:

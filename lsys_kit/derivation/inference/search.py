@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from math import inf
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.bounds import Bounds, counts_of, narrowed
@@ -39,8 +39,24 @@ class Kept:
         return following is not None
 
 
-Memory = dict[tuple[tuple[Equation, ...], bytes], Kept]
-"""For groups of equations, with the bounds of their letters, what was found."""
+class GivenUp(Exception):
+    """So many successors were tried that the search was given up."""
+
+
+@dataclass
+class Effort:
+    """What a search has done, and may do.
+
+    Attributes
+    ----------
+    kept
+        For groups of equations, with the bounds of their letters, what was found.
+    left
+        How many more successors may be tried.
+    """
+
+    left: float
+    kept: dict[tuple[tuple[Equation, ...], bytes], Kept] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -65,24 +81,24 @@ class Known:
     choices: dict[int, set[str]]
 
 
-def solutions(equations: Sequence[Equation], bounds: Bounds) -> Iterator[Solution]:
-    """All solutions, one after another.
+def solutions(equations: Sequence[Equation], bounds: Bounds, trials: float = inf) -> Iterator[Solution]:
+    """All solutions, one after another; `GivenUp` where so many trials do not suffice.
 
     >>> from lsys_kit.derivation.inference.bounds import first_bounds
     >>> equations = [Equation((0, 1), "abb"), Equation((0, 1, 1), "abbbb")]
     >>> [*solutions(equations, first_bounds(equations, 2, erasing=False))]
     [{0: 'a', 1: 'bb'}]
     """
-    return _solutions(tuple(equations), bounds, {})
+    return _solutions(tuple(equations), bounds, Effort(trials))
 
 
-def _solutions(equations: tuple[Equation, ...], bounds: Bounds, memory: Memory) -> Iterator[Solution]:
+def _solutions(equations: tuple[Equation, ...], bounds: Bounds, effort: Effort) -> Iterator[Solution]:
     check_budget()
     known = deduced(equations, bounds)
     if known is None:
         return
     groups = [tuple(sorted(group, key=lambda each: each.target)) for group in linked(known.equations)]
-    for found in _products([_kept(group, known, memory) for group in groups]):
+    for found in _products([_kept(group, known, effort) for group in groups]):
         yield known.successors | found
 
 
@@ -101,22 +117,25 @@ def _combined(groups: Sequence[Kept]) -> Iterator[Solution]:
             yield first | others
 
 
-def _kept(group: tuple[Equation, ...], known: Known, memory: Memory) -> Kept:
+def _kept(group: tuple[Equation, ...], known: Known, effort: Effort) -> Kept:
     letters = sorted({letter for equation in group for letter in equation.unknowns})
     key = group, known.bounds.least[letters].tobytes() + known.bounds.greatest[letters].tobytes()
-    if key not in memory:
-        memory[key] = Kept(_tried(group, known, memory))
-    return memory[key]
+    if key not in effort.kept:
+        effort.kept[key] = Kept(_tried(group, known, effort))
+    return effort.kept[key]
 
 
-def _tried(group: tuple[Equation, ...], known: Known, memory: Memory) -> Iterator[Solution]:
+def _tried(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iterator[Solution]:
     """The solutions of a group, with one successor after another for its letter with the fewest choices."""
     letters = {letter for equation in group for letter in equation.unknowns}
     letter = min(letters & known.choices.keys(), key=lambda each: (len(known.choices[each]), each))
     for word in sorted(known.choices[letter], key=lambda each: (len(each), each)):
+        effort.left -= 1
+        if effort.left < 0:
+            raise GivenUp
         rest = _all_put_in(group, {letter: word})
         if rest is not None:
-            for found in _solutions(rest, known.bounds, memory):
+            for found in _solutions(rest, known.bounds, effort):
                 yield {letter: word} | found
 
 

@@ -7,6 +7,7 @@ agree; each of its letters is tried with every other one, against what the other
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from os.path import commonprefix
@@ -15,12 +16,15 @@ from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
 from lsys_kit.derivation.inference.equations import Equation, Item, merged, put_in
 from lsys_kit.derivation.inference.problem import FIRST_CHARACTER, Conditions
-from lsys_kit.derivation.inference.search import Solution, deduced, solutions
+from lsys_kit.derivation.inference.search import GivenUp, Solution, deduced, solutions
 from lsys_kit.derivation.inference.words import Row
 from lsys_kit.notation.model.modules import Module
 
 MOST_LETTERS_READ = 2_000_000
 """So many letters are read at most while those of a word are tried."""
+
+MOST_SUCCESSORS_TRIED = 200
+"""So many successors are tried for a letter in doubt."""
 
 
 @dataclass(frozen=True)
@@ -66,8 +70,8 @@ def slips(words: Sequence[Row], step: int, conditions: Conditions) -> Iterator[S
     """The single letters of steps 0 to `step`, which contradict one another, that could be wrong.
 
     >>> from lsys_kit.derivation.inference.words import read_words
-    >>> [str(slip) for slip in slips(read_words(["a", "ab", "abc", "abaab"]), 3, Conditions())]
-    ['letter 3 of step 2, c, were a']
+    >>> [str(slip) for slip in slips(read_words(["a", "ab", "aba", "abbab"]), 3, Conditions())]
+    ['letter 3 of step 3, b, were a']
     """
     modules = [*dict.fromkeys(module for word in words for module in word)]
     codes = {module: chr(FIRST_CHARACTER + number) for number, module in enumerate(modules)}
@@ -84,7 +88,7 @@ def _slips_of(texts: _Texts, suspect: int) -> Iterator[tuple[int, str]]:
     others = [texts.equation(*step) for number, step in enumerate(steps) if number not in (suspect - 1, suspect)]
     bounds = _first_bounds(texts)
     known = None if None in others else deduced(tuple(each for each in others if each and each.items), bounds)
-    if known is None or next(solutions(known.equations, known.bounds), None) is None:
+    if known is None or not _solvable(known.equations, known.bounds):
         return
     most = MOST_LETTERS_READ // sum(map(len, texts.words))
     for place, letter in islice(_changes(texts, suspect, known.successors), most):
@@ -126,4 +130,7 @@ def _places(items: Sequence[Item], word: str) -> Iterable[int]:
 
 
 def _solvable(equations: Sequence[Equation], bounds: Bounds) -> bool:
-    return next(solutions(equations, bounds), None) is not None
+    """Whether a solution is soon found."""
+    with suppress(GivenUp):
+        return next(solutions(equations, bounds, MOST_SUCCESSORS_TRIED), None) is not None
+    return False
