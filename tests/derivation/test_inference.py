@@ -18,7 +18,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, infer, limits, system
+from lsys_kit.derivation.inference import infer as infer_module
+from lsys_kit.derivation.inference import refusals, slips
 from lsys_kit.derivation.inference.fits import Fits
+from lsys_kit.derivation.inference.problem import Problem, Table, tables
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
@@ -199,9 +202,22 @@ def test_nothing_comes_from_the_empty_word() -> None:
     assert "Step 2 cannot come from step 1, which is empty." in str(infer(["a", "", "a"], erasing=True))
 
 
-def test_systems_are_told_apart_by_their_next_words() -> None:
-    assert str(infer(["aab", "xyxyz", "xyxyz"])) == "\n".join([
-        "2 systems fit these 3 words; they part at step 3:"])
+def test_systems_that_make_the_same_words_are_told_so() -> None:
+    said = str(infer(derive(system("J1"), 2)))
+    assert said.splitlines()[0] == "2 systems fit these 3 words; as far as was looked, later words are the same:"
+    assert "all have\n  ar -> al br\n" in said
+
+
+def test_many_systems_are_not_all_shown() -> None:
+    fits = infer(["abcde", "aabbccddee"])
+    assert str(fits).splitlines()[0] == f"{len(fits)} systems fit these 2 words; they part at step 2:"
+    assert str(fits).splitlines()[-1] == f" and {len(fits) - 20} more"
+
+
+def test_words_too_large_to_be_looked_at_are_not_compared() -> None:
+    with limits(modules=100):
+        fits = infer(["ab", "abaab" * 15])
+        assert "as far as was looked, later words are the same" in str(fits)
 
 
 def test_of_letters_that_only_the_last_word_has_nothing_is_known() -> None:
@@ -213,8 +229,9 @@ def test_too_many_fits_are_refused_with_those_that_were_found() -> None:
     with pytest.raises(ModelLimitError, match=r"^More than 1,000 systems fit these 2 words. Give more steps.$") as refused:
         infer(["abcdefghijklmn", "abcdefghijklmnabcdefghijklmnabcdefghijklmn"])
     assert len(refused.value.partial) == 1000
-    with pytest.raises(ModelLimitError, match=r"All that were found have a -> x, b -> y.$"):
-        infer(["a", "b", "cdefghijklmnopq", "abcdefghijklmnopqabcdefghijklmnopqabcdefghijkmnnopq"])
+    words = ["ahijklmnopqrstu", "bhijklmnopqrstuhijklmnopqrstuhijklmnopqrstu"]
+    with pytest.raises(ModelLimitError, match=r"Give more steps. All that were found have a -> b.$"):
+        infer(words)
 
 
 @pytest.mark.parametrize(("given", "message"), [
@@ -258,7 +275,59 @@ def test_words_are_texts_of_letters_or_rows_of_names_or_as_derive_prints_them() 
     assert infer([str(word) for word in derive(system("P4"), 9)]).systems == infer(derive(system("P4"), 9)).systems
 
 
-def test_a_search_that_takes_too_long_keeps_what_it_found() -> None:
-    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"^The search for systems was not finished") as refused:
-        infer(derive(system("K17a"), 24), context=(1, 0), erasing=True)
-    assert len(refused.value.partial) == 0
+def test_a_search_that_takes_too_long_keeps_what_it_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    def long(problem: Problem) -> Iterator[Table]:
+        yield next(tables(problem))
+        raise ModelLimitError("The search was not finished", limit=1)
+
+    monkeypatch.setattr(infer_module, "tables", long)
+    with pytest.raises(ModelLimitError, match=r"^The search was not finished.$") as refused:
+        infer(["a", "ab", "aba"])
+    assert texts(refused.value.partial) == [["a", "ab", "aba"]]  # type: ignore[arg-type]
+
+
+def test_what_a_search_asks_of_the_budget_names_the_search() -> None:
+    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"^The search for systems was not finished, after 0 were found"):
+        infer(["ab" * 50, "ab" * 99])
+
+
+def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = ["abcab", "aabbcabcabcaab", "aabbcabcaabbcabcaabbcabcaabbcaabbcabcaabbcaabbcabca"]
+    assert "Step 2 cannot come from step 1" in str(infer(words))
+    for module in (infer_module, refusals, slips):
+        monkeypatch.setattr(module, "MOST_SUCCESSORS_TRIED", 0)
+    assert str(infer(words)) == "No system fits these 3 words."
+
+
+@pytest.mark.parametrize(("name", "steps"), [("P3", 9), ("P3", 12), ("J4", 10), ("J5", 15), ("P4", 9), ("P4", 12), ("P5", 6), ("P5", 8)])
+def test_laws_and_thresholds_of_parameters_are_found(name: str, steps: int) -> None:
+    """The one system with the fewest productions goes on as the true one does."""
+    fits = infer(derive(system(name), steps))
+    assert [list(derive(fit, steps + 6)) for fit in fits] == [list(derive(system(name), steps + 6))]
+    assert len(fits[0].productions) == len(system(name).productions)
+
+
+def test_conditions_stand_in_conjunction() -> None:
+    assert str(infer(derive(system("P4"), 9))) == "\n".join([
+        "One system fits these 10 words:", "  M(x,y) : x < 5 -> M(x + 1,y)", "  M(x,y) : x >= 5 && y == -1 -> M(1,-1)M(2,1)",
+        "  M(x,y) : x >= 5 && y == 1 -> M(2,-1)M(1,1)",
+        "The number that a condition compares with could lie anywhere between the values that occur on its two sides."])
+
+
+@pytest.mark.parametrize(("rules", "steps"), [
+    ("axiom: F(1)\nF(x) -> F(2*x) B(x)\nB(x) -> B(x + 1/2)", 4), ("axiom: F(1)\nF(x) -> F(3*x - 1)", 4),
+    ("axiom: A(0,1)\nA(x,y) -> A(y, x+y)", 5), ("axiom: A(9,1)\nA(x,y) -> A(x - y, y)", 4),
+    ("axiom: A(1,2,3,4)\nA(a,b,c,d) -> A(b,c,d,a)", 4), ("axiom: F(0.5)\nF(x) -> F(x*0.1)", 4),
+    ("axiom: C(0)\nC(t) : t <= 2 -> C(t+1)\n", 5), ("axiom: A(0) [ /(180) B(7) ]\nA(t) : t == 2 -> A(5)\nA(t) : t < 2 -> A(t+1)\n"
+     "A(t) : t > 2 -> A(t - 1)", 9),
+])
+def test_other_laws_are_found(rules: str, steps: int) -> None:
+    words = derive(read(rules), steps)
+    found = infer(words)
+    assert [list(derive(fit, steps + 2)) for fit in found] == [list(derive(read(rules), steps + 2))]
+
+
+def test_values_without_a_law_are_taken_one_by_one() -> None:
+    words = [[Module("a", (value,))] for value in (3, 1, 4, 15, 9, 2, 6)]
+    found = infer(words)
+    assert [list(word) for word in derive(found[0], 6)] == words

@@ -13,7 +13,6 @@ from lsys_kit.derivation.inference.refusals import Contradiction
 from lsys_kit.derivation.inference.slips import Slip
 from lsys_kit.derivation.inference.words import Row
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_SHOWN = 20
@@ -105,7 +104,7 @@ class Fits(Sequence[LSystem]):
 
 def _explanation(fits: Fits) -> str:
     if fits.refusal is not None:
-        return f"No system fits these {len(fits.words)} words. {fits.refusal}"
+        return f"No system fits these {len(fits.words)} words. {fits.refusal}".strip()
     common = [rule for rule in fits[0].productions if all(rule in system.productions for system in fits)]
     if len(fits) == 1:
         return "\n".join([f"One system fits these {len(fits.words)} words:", *_lines(common, "  "), *_unknown(fits)])
@@ -126,17 +125,14 @@ def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
 
 
 def _unknown(fits: Fits) -> Iterator[str]:
-    """What the words say nothing of: letters of the last word alone, and letters that stay as they are."""
-    before = {_kind(module) for word in fits.words[:-1] for module in word}
-    new = [*dict.fromkeys(symbol for module in fits.words[-1] if (symbol := _kind(module)) not in before)]
-    unknown = [symbol for symbol in new if symbol not in fits.conditions.unchanged]
+    """What the words leave open: what becomes of letters of the last word alone, and where a threshold lies exactly."""
+    if any(rule.condition is not None for system in fits for rule in system.productions):
+        yield "The number that a condition compares with could lie anywhere between the values that occur on its two sides."
+    before = {module.symbol for word in fits.words[:-1] for module in word} | fits.conditions.unchanged
+    unknown = [*dict.fromkeys(module.symbol for module in fits.words[-1] if module.symbol not in before)]
     if unknown:
         more = f" and {len(unknown) - MOST_SHOWN} more" if len(unknown) > MOST_SHOWN else ""
         yield f"Nothing is known of what becomes of {', '.join(unknown[:MOST_SHOWN])}{more}: only the last word has it."
-
-
-def _kind(module: Module) -> str:
-    return module.symbol
 
 
 def parting_step(fits: Sequence[LSystem]) -> int | None:

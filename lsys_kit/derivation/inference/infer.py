@@ -14,6 +14,7 @@ from dataclasses import replace
 from itertools import islice
 
 from lsys_kit.budget import Task
+from lsys_kit.derivation.inference.cases import general_productions
 from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
 from lsys_kit.derivation.inference.problem import Conditions, Problem, Table, problem_of, tables
 from lsys_kit.derivation.inference.productions import productions_of, system_of
@@ -114,8 +115,14 @@ def _conditions(constants: object, erasing: object, context: object) -> Conditio
     return Conditions(frozenset(symbols), bool(erasing), (left, right))
 
 
-def _fits(rows: tuple[Row, ...], found: Iterable[Table], conditions: Conditions) -> Fits:
-    return Fits(rows, tuple(system_of(rows[0], productions_of(table), conditions) for table in found), conditions)
+def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions) -> Fits:
+    """The systems for tables; where modules have parameters, those with the fewest productions."""
+    rules = [tuple(productions_of(table)) for table in found]
+    if conditions.context == (0, 0) and any(module.arguments for row in rows for module in row):
+        rules = [tuple(general_productions(table)) for table in found]
+        fewest = min(map(len, rules), default=0)
+        rules = [each for each in rules if len(each) == fewest]
+    return Fits(rows, tuple(system_of(rows[0], each, conditions) for each in rules), conditions)
 
 
 def _what_is_certain(found: Sequence[Table]) -> str:

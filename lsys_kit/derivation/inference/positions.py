@@ -41,7 +41,7 @@ def cuts(equation: Equation, lengths: Lengths) -> list[int] | None:
             here = here >> len(item)
         else:
             longest = min(lengths.longest(item), size)
-            here = smeared(here, 0, longest - lengths.shortest(item)) >> longest if longest >= lengths.shortest(item) else 0
+            here = smeared(here, 0, longest - lengths.shortest(item)) >> longest
         here &= end
         found.append(here)
     return found[::-1] if here else None
@@ -53,8 +53,6 @@ def smeared(positions: int, shortest: int, longest: int) -> int:
     >>> [*bits(smeared(0b1001, 1, 2))]
     [1, 2, 4, 5]
     """
-    if longest < shortest:
-        return 0
     positions, done, wanted = positions << shortest, 1, longest - shortest + 1
     while done < wanted:
         further = min(done, wanted - done)

@@ -76,11 +76,10 @@ def _explicit(table: Table, usual: Row) -> list[Letter]:
 def _least_context(letter: Letter, table: Table) -> Letter:
     """The letter with as few of its neighbours as distinguish it from those that become something else."""
     sizes = [(left, right) for left in range(len(letter.left) + 1) for right in range(len(letter.right) + 1)]
-    for left, right in sorted(sizes, key=sum):
-        context = Letter(letter.left[len(letter.left) - left:], letter.module, letter.right[:right])
-        if all(word == table[letter] for other, word in table.items() if _extends(other, context)):
-            return context
-    return letter
+    contexts = (Letter(letter.left[len(letter.left) - left:], letter.module, letter.right[:right])
+                for left, right in sorted(sizes, key=sum))
+    return next(context for context in contexts
+                if all(word == table[letter] for other, word in table.items() if _extends(other, context)))
 
 
 def _extends(letter: Letter, context: Letter) -> bool:

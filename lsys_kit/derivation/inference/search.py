@@ -191,12 +191,12 @@ def _lengths_fit(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> boo
 
 
 def _at_the_ends(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> Iterator[tuple[int, set[str]]]:
-    """The choices for the letters at both ends of an equation."""
+    """The choices for the letters at both ends of an equation; what is known there has been taken away."""
     first, last, target = equation.items[0], equation.items[-1], equation.target
-    if isinstance(first, int):
-        yield first, {word for end in bits(gaps[1]) if _possible(first, word := target[:end], bounds)}
-    if isinstance(last, int):
-        yield last, {word for begin in bits(gaps[-2]) if _possible(last, word := target[begin:], bounds)}
+    assert isinstance(first, int)
+    assert isinstance(last, int)
+    yield first, {word for end in bits(gaps[1]) if _possible(first, word := target[:end], bounds)}
+    yield last, {word for begin in bits(gaps[-2]) if _possible(last, word := target[begin:], bounds)}
 
 
 def _possible(letter: int, word: str, bounds: Bounds) -> bool:

@@ -20,8 +20,8 @@ from lsys_kit.derivation.inference.search import GivenUp, Solution, deduced, sol
 from lsys_kit.derivation.inference.words import Row
 from lsys_kit.notation.model.modules import Module
 
-MOST_LETTERS_READ = 2_000_000
-"""So many letters are read at most while those of a word are tried."""
+MOST_LETTERS_READ, LETTERS_A_TRIAL = 1_000_000, 1_000
+"""So many letters are read at most while those of a word are tried; a trial takes as long as reading so many."""
 
 MOST_SUCCESSORS_TRIED = 200
 """So many successors are tried for a letter in doubt."""
@@ -90,7 +90,7 @@ def _slips_of(texts: _Texts, suspect: int) -> Iterator[tuple[int, str]]:
     known = None if None in others else deduced(tuple(each for each in others if each and each.items), bounds)
     if known is None or not _solvable(known.equations, known.bounds):
         return
-    most = MOST_LETTERS_READ // sum(map(len, texts.words))
+    most = MOST_LETTERS_READ // (LETTERS_A_TRIAL + sum(map(len, texts.words)))
     for place, letter in islice(_changes(texts, suspect, known.successors), most):
         check_budget()
         word = texts.words[suspect][:place] + letter + texts.words[suspect][place + 1:]
@@ -117,8 +117,8 @@ def _changes(texts: _Texts, suspect: int, known: Solution) -> Iterator[tuple[int
 def _places(items: Sequence[Item], word: str) -> Iterable[int]:
     """Where one letter may be wrong: where what is known at either end differs first, else where nothing is known.
 
-    >>> [*_places(["abc", 0], "axbb")], [*_places(["ab", 0, "b"], "abccb")]
-    ([1], [2, 3])
+    >>> [*_places(["abc", 0], "axbb")], [*_places([0, "bc"], "aaxc")], [*_places(["ab", 0, "b"], "abccb")]
+    ([1], [2], [2, 3])
     """
     front = items[0] if items and isinstance(items[0], str) else ""
     back = items[-1] if len(items) > 1 and isinstance(items[-1], str) else ""
