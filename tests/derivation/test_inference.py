@@ -84,7 +84,7 @@ def test_the_rules_of_anabaena_are_found_from_five_words() -> None:
     assert set(infer(derive(system("J1"), 4))[0].productions) == set(system("J1").productions)
 
 
-TINY = [["a", "b"], ["ab", "ba"], ["ab", "abb", "abbbb"], ["a", "", ""], ["aa", "abab"], ["ab", "aab", "aabaab"], ["ab", "c", "c"],
+TINY = [["a", "b"], ["ab", "ba"], ["ab", "abb", "abbbb"], ["a", "", ""], ["aa", "abab"], ["ab", "aab", "aabaab"], ["ab", "c"],
         ["abc", "abca"], ["aba", "bab"], ["a", "aa", "aaa"], ["a", ""], ["", "a"], ["", ""], ["abab", "cc"], ["ab", "ab", "ba"]]
 
 
@@ -128,13 +128,14 @@ def test_hormone_diffusion_needs_both_neighbours() -> None:
     words = derive(system("J2"), 15)
     fits = infer(words)
     assert not fits
-    assert str(fits) == ("No system fits these 16 words. Step 1 cannot come from step 0: letter 3 of step 0, a, would have to become "
-                         "b, and there is a. With context=(1, 1) one system fits.")
+    assert str(fits) == ("No system fits these 16 words. Step 1 cannot come from step 0: letter 3 of step 0, a, would have to "
+                         "become b, and there is a. With context=(1, 1) one system fits.")
     assert not infer(words, context=(1, 0))
     found = infer(words, context=(1, 1))
     assert [list(derive(fit, 15)) for fit in found] == [list(words)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "steps"), [("P9", 7), ("K17a", 24), ("K17b", 31)])
 def test_no_system_without_contexts_fits_where_neighbours_have_a_say(name: str, steps: int) -> None:
     fits = infer(derive(system(name), steps), constants="+-/")
@@ -192,6 +193,7 @@ def test_a_refusal_names_a_slip_in_few_words() -> None:
     (["a", "ab", "abc", "abaab"], "if letter 3 of step 2, c, were a."),
     (["a", "ab", "aba", "abaab", "abaababa", "abaacabaabaab"], "if letter 5 of step 5, c, were b."),
     (["+a", "a+"], "letter 1 of step 0, +, would have to become +, and there is a."),
+    (["a+b", "ab"], "letter 1 of step 0, a, has no successor"),
     (["abc", "ab"], "letter 1 of step 0, a, has no successor with which all others can have theirs."),
 ])
 def test_a_refusal_says_where_and_why(words: list[str], said: str) -> None:
@@ -225,10 +227,18 @@ def test_of_letters_that_only_the_last_word_has_nothing_is_known() -> None:
         "Nothing is known of what becomes of b, c: only the last word has it."
 
 
-def test_too_many_fits_are_refused_with_those_that_were_found() -> None:
+@pytest.mark.slow
+def test_more_than_a_thousand_fits_are_refused() -> None:
     with pytest.raises(ModelLimitError, match=r"^More than 1,000 systems fit these 2 words. Give more steps.$") as refused:
         infer(["abcdefghijklmn", "abcdefghijklmnabcdefghijklmnabcdefghijklmn"])
-    assert len(refused.value.partial) == 1000
+    assert len(refused.value.partial) == 1000  # type: ignore[arg-type]
+
+
+def test_too_many_fits_are_refused_with_those_that_were_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(infer_module, "MOST_FITS", 20)
+    with pytest.raises(ModelLimitError, match=r"^More than 20 systems fit these 2 words. Give more steps.$") as refused:
+        infer(["abcdefg", "abcdefgabcdefg"])
+    assert len(refused.value.partial) == 20  # type: ignore[arg-type]
     words = ["ahijklmnopqrstu", "bhijklmnopqrstuhijklmnopqrstuhijklmnopqrstu"]
     with pytest.raises(ModelLimitError, match=r"Give more steps. All that were found have a -> b.$"):
         infer(words)
@@ -258,8 +268,10 @@ def test_a_value_that_is_not_known_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("choices", "message"), [
-    ({"constants": 7}, "The constants must be symbols in a row, not int"), ({"constants": [7]}, "A symbol as a constant is needed"),
-    ({"erasing": 1}, 'True or False for "erasing" is needed, not int'), ({"context": 1}, "The context must be two whole numbers"),
+    ({"constants": 7}, "The constants must be symbols in a row, not int"),
+    ({"constants": [7]}, "A symbol as a constant is needed"),
+    ({"context": 1}, "The context must be two whole numbers"),
+    ({"erasing": 1}, 'True or False for "erasing" is needed, not int'),
     ({"context": "11"}, "The context must be two whole numbers"), ({"context": (1,)}, "The context must be two whole numbers"),
     ({"context": (-1, 0)}, "Each size of the context must be a whole number from 0 on, not -1"),
 ])
@@ -287,19 +299,20 @@ def test_a_search_that_takes_too_long_keeps_what_it_found(monkeypatch: pytest.Mo
 
 
 def test_what_a_search_asks_of_the_budget_names_the_search() -> None:
-    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"^The search for systems was not finished, after 0 were found"):
+    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"^The search for systems was not finished, with 0 found"):
         infer(["ab" * 50, "ab" * 99])
 
 
 def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.MonkeyPatch) -> None:
     words = ["abcab", "aabbcabcabcaab", "aabbcabcaabbcabcaabbcabcaabbcaabbcabcaabbcaabbcabca"]
     assert "Step 2 cannot come from step 1" in str(infer(words))
-    for module in (infer_module, refusals, slips):
+    for module in (infer_module, slips, refusals):
+        assert str(infer(words)).startswith("No system fits these 3 words. ")
         monkeypatch.setattr(module, "MOST_SUCCESSORS_TRIED", 0)
     assert str(infer(words)) == "No system fits these 3 words."
 
 
-@pytest.mark.parametrize(("name", "steps"), [("P3", 9), ("P3", 12), ("J4", 10), ("J5", 15), ("P4", 9), ("P4", 12), ("P5", 6), ("P5", 8)])
+@pytest.mark.parametrize(("name", "steps"), [("P3", 9), ("P3", 12), ("J4", 10), ("J5", 15), ("P4", 9), ("P4", 12), ("P5", 6)])
 def test_laws_and_thresholds_of_parameters_are_found(name: str, steps: int) -> None:
     """The one system with the fewest productions goes on as the true one does."""
     fits = infer(derive(system(name), steps))
@@ -318,8 +331,8 @@ def test_conditions_stand_in_conjunction() -> None:
     ("axiom: F(1)\nF(x) -> F(2*x) B(x)\nB(x) -> B(x + 1/2)", 4), ("axiom: F(1)\nF(x) -> F(3*x - 1)", 4),
     ("axiom: A(0,1)\nA(x,y) -> A(y, x+y)", 5), ("axiom: A(9,1)\nA(x,y) -> A(x - y, y)", 4),
     ("axiom: A(1,2,3,4)\nA(a,b,c,d) -> A(b,c,d,a)", 4), ("axiom: F(0.5)\nF(x) -> F(x*0.1)", 4),
-    ("axiom: C(0)\nC(t) : t <= 2 -> C(t+1)\n", 5), ("axiom: A(0) [ /(180) B(7) ]\nA(t) : t == 2 -> A(5)\nA(t) : t < 2 -> A(t+1)\n"
-     "A(t) : t > 2 -> A(t - 1)", 9),
+    ("axiom: C(0)\nC(t) : t <= 2 -> C(t+1)\n", 5),
+    ("axiom: A(0) [ /(180) B(7) ]\nA(t) : t == 2 -> A(5)\nA(t) : t < 2 -> A(t+1)\nA(t) : t > 2 -> A(t - 1)", 9),
 ])
 def test_other_laws_are_found(rules: str, steps: int) -> None:
     words = derive(read(rules), steps)

@@ -1,14 +1,14 @@
 """How many letters of each kind, and how many in all, the successor of each letter has at least and at most.
 
 In an equation the counts of the successors add up to those of the known word: a linear equation with whole solutions for each
-kind of letter, and one for the lengths (Parikh vectors: Rozenberg and Salomaa, The Mathematical Theory of L Systems, 1980). Where
-all but one successor have few letters, the last must have many.
+kind of letter, and one for the lengths (Parikh vectors: Rozenberg and Salomaa, The Mathematical Theory of L Systems, 1980).
+Where all but one successor have few letters, the last must have many.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -45,10 +45,11 @@ class Bounds:
         return int(self.greatest[letter, -1])
 
 
-def first_bounds(equations: Iterable[Equation], letters: int, erasing: bool) -> Bounds:
+def first_bounds(equations: Sequence[Equation], letters: int, erasing: bool) -> Bounds:
     """What is known beforehand: a successor has at least one letter, unless letters may be erased."""
     targets = [equation.target for equation in equations]
-    alphabet = {letter: column for column, letter in enumerate(sorted(set().union(*targets)))}
+    known = [item for equation in equations for item in equation.items if isinstance(item, str)]
+    alphabet = {letter: column for column, letter in enumerate(sorted(set().union(*targets, *known)))}
     least = np.zeros((letters, len(alphabet) + 1), np.int64)
     least[:, -1] = not erasing
     return Bounds(alphabet, least, np.full_like(least, max(map(len, targets), default=0)))

@@ -54,13 +54,15 @@ def _stays(kind: Kind, case: Case) -> bool:
 
 
 def fewest_cases(kind: Kind, successors: dict[Values, Row]) -> list[Case]:
-    """The fewest cases that the modules of a kind fall into."""
+    """The fewest cases that the modules of a kind fall into; those of simple laws, which one point shows, rather than others."""
     points = sorted(successors.items())
-    return next(found for most in count(1) for found in _divided(kind, points, [], most))
+    fewest = len({_symbols(word) for word in successors.values()})
+    return next(found for most in count(fewest) for free in (1, POINTS_FOR_TWO_NUMBERS - 1)
+                for found in _divided(kind, points, [], most, free))
 
 
-def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case], most: int) -> Iterator[list[Case]]:
-    """All ways to divide the rest of the points among at most so many cases."""
+def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case], most: int, free: int) -> Iterator[list[Case]]:
+    """All ways to divide the rest of the points among at most so many cases; so many points of a case need no law yet."""
     check_budget()
     if not points:
         if all(_successor(kind, case, False) is not None for case in cases):
@@ -68,11 +70,16 @@ def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case]
         return
     for number, case in enumerate(cases):
         wider, others = (*case, points[0]), cases[:number] + cases[number + 1:]
-        lawful = len(wider) < POINTS_FOR_TWO_NUMBERS or _successor(kind, wider, False) is not None
-        if lawful and _apart(wider, others):
-            yield from _divided(kind, points[1:], [*cases[:number], wider, *cases[number + 1:]], most)
+        same = _symbols(case[0][1]) == _symbols(points[0][1])
+        if same and _apart(wider, others) and (len(wider) <= free or _successor(kind, wider, False) is not None):
+            yield from _divided(kind, points[1:], [*cases[:number], wider, *cases[number + 1:]], most, free)
     if len(cases) < most and _apart((points[0],), cases):
-        yield from _divided(kind, points[1:], [*cases, (points[0],)], most)
+        yield from _divided(kind, points[1:], [*cases, (points[0],)], most, free)
+
+
+def _symbols(word: Row) -> tuple[Kind, ...]:
+    """The kinds of modules of a word, which are the same in a case."""
+    return tuple((module.symbol, len(module.arguments)) for module in word)
 
 
 def _apart(case: Case, others: Iterable[Case]) -> bool:
@@ -92,15 +99,10 @@ def _along(case: Case, axis: int) -> list[Any]:
 def _successor(kind: Kind, case: Case, keeps: bool) -> tuple[Pattern, ...] | None:
     """The successor of a case's modules as a production writes it; None where no laws give their values.
 
-    Parameters
-    ----------
-    keeps
-        Whether a parameter that has a single value in the case is kept rather than written as that number.
+    It may be asked that a value which is that of a parameter is written as the parameter, though it is always the same number.
     """
     names = names_of(kind)
     given, words = [values for values, _ in case], [word for _, word in case]
-    if len({tuple((module.symbol, len(module.arguments)) for module in word) for word in words}) > 1:
-        return None
     found = []
     for index, module in enumerate(words[0]):
         made = [[word[index].arguments[place] for word in words] for place in range(len(module.arguments))]

@@ -38,14 +38,14 @@ def put_in(equation: Equation, known: Successors) -> Equation | None:
     True
     """
     items, target = merged(known.get(item, item) if isinstance(item, int) else item for item in equation.items), equation.target
-    if items and isinstance(items[0], str):
-        if not target.startswith(items[0]):
+    if items and isinstance(front := items[0], str):
+        if not target.startswith(front):
             return None
-        items, target = items[1:], target[len(items[0]):]
-    if items and isinstance(items[-1], str):
-        if not target.endswith(items[-1]):
+        items, target = items[1:], target[len(front):]
+    if items and isinstance(back := items[-1], str):
+        if not target.endswith(back):
             return None
-        items, target = items[:-1], target[:len(target) - len(items[-1])]
+        items, target = items[:-1], target[:len(target) - len(back)]
     return Equation(tuple(items), target) if items or not target else None
 
 

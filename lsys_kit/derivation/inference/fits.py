@@ -81,7 +81,7 @@ class Fits(Sequence[LSystem]):
 
     words: tuple[Row, ...]
     systems: tuple[LSystem, ...]
-    conditions: Conditions = Conditions()
+    conditions: Conditions
     refusal: Refusal | None = None
 
     def __len__(self) -> int:

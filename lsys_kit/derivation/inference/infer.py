@@ -1,9 +1,9 @@
 """`infer`: all systems that fit a sequence of words.
 
-Which successors of its letters turn each word into the next is a system of equations between words, whose solutions are searched
-for exhaustively. This is the inductive inference of L-systems: G. T. Herman and G. Rozenberg, Developmental Systems and
-Languages, 1975, chapter on inference; J. Bernard and I. McQuillan, Techniques for inferring context-free Lindenmayer systems with
-genetic algorithm, Swarm and Evolutionary Computation 64, 2021, whose plants and curves are among the tests.
+Which successors of its letters turn each word into the next is a system of equations between words, whose solutions are
+searched for exhaustively. This is the inference of L-systems: I. McQuillan, J. Bernard and P. Prusinkiewicz, Algorithms for
+inferring context-sensitive L-systems, 2018; J. Bernard and I. McQuillan, A fast and reliable hybrid approach for inferring
+L-systems, 2018.
 """
 
 from __future__ import annotations
@@ -41,8 +41,9 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     Parameters
     ----------
     words
-        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words. A word is a text of one-letter symbols, a `Word`, or
-        a row of modules or names.
+        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words. A word is a text of one-letter symbols, a
+        `Word`, or a row of modules or names. Texts with blanks between letters, or numbers in parentheses behind them, are read
+        as `derive` prints words.
     constants
         The symbols that stay as they are; contexts pass over them. The brackets [ and ] always do.
     erasing
@@ -53,9 +54,11 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     Returns
     -------
     Fits
-        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first step
-        and letter that contradict those before, single letters that may be wrong, and contexts with which some system fits.
-        Letters that only the last word has are left as they are, since nothing is known of them.
+        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
+        step and letter that contradict those before, single letters that may be wrong, contexts with which some system fits.
+        Letters that only the last word has are left as they are, since nothing is known of them. Where modules have parameters
+        and no contexts are asked for, the systems are those with the fewest productions: conditions compare parameters with
+        numbers, and values are affine functions of parameters.
 
     Raises
     ------
@@ -78,12 +81,12 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
       F -> F-G+F+G-F
       G -> G G
     >>> print(infer(["a", "ab", "abb", "abba"]))
-    No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is a. \
-A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits.
+    No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is \
+a. A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits.
     """
     asked = _conditions(constants, erasing, context)
     found: list[Table] = []
-    with Task(lambda: f"The search for systems was not finished, after {len(found)} {'was' if len(found) == 1 else 'were'} found,"):
+    with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
         rows = read_words(words)
         try:
             found += islice(tables(problem_of(rows, asked)), MOST_FITS + 1)
@@ -135,7 +138,7 @@ def _what_is_certain(found: Sequence[Table]) -> str:
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
     """Why no system fits."""
     where = contradiction(rows, conditions)
-    wrong = tuple(slips(rows, where.step, conditions)) if where and conditions.context == (0, 0) else ()
+    wrong = tuple(slips(rows, where, conditions)) if where and conditions.context == (0, 0) else ()
     return Refusal(where, wrong, next(_wider(rows, conditions), None))
 
 

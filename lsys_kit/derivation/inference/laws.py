@@ -95,4 +95,4 @@ def plus(expression: Expression, amount: Value) -> Expression:
     >>> print(plus(Name("x"), -2))
     x - 2
     """
-    return Apply("+" if amount > 0 else "-", (expression, Number(normalised(abs(amount)))))
+    return Apply("+" if amount > 0 else "-", (expression, Number(normalised(amount if amount > 0 else -amount))))

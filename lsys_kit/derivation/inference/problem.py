@@ -1,8 +1,8 @@
 """The question that words ask: which successors of their letters turn each word into the next?
 
-A letter is a module between its neighbours: the same module between others is another letter, whose successor is free. Without
-contexts a letter is a module alone. Constants are known: they stay as they are, and contexts pass over them. So are the brackets
-of branches (ABOP, section 1.6.1), which contexts understand.
+A letter is a module between its neighbours: the same module between others is another letter, whose successor is free.
+Without contexts a letter is a module alone. Constants are known: they stay as they are, and contexts pass over them. So are the
+brackets of branches (ABOP, section 1.6.1), which contexts understand.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Systems from tables: the productions that turn each letter into its successor, with no more context than they need.
 
-What a module becomes nearly everywhere is the last of its productions; what it becomes between some neighbours stands before it.
+What a module becomes nearly everywhere is the last of its productions; what it becomes between some neighbours stands before
+it.
 """
 
 from __future__ import annotations

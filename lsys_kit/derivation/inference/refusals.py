@@ -14,7 +14,6 @@ from lsys_kit.derivation.inference.search import GivenUp
 from lsys_kit.derivation.inference.words import Row, text_of
 from lsys_kit.notation.model.modules import Module
 
-
 MOST_SUCCESSORS_TRIED = 5_000
 """Beyond so many trials it is not said where words contradict one another."""
 SOLUTIONS_COMPARED = 20
@@ -35,6 +34,8 @@ class Contradiction:
         That letter.
     needed, there
         What it must become as elsewhere, and what stands in its place; None where no successor has the right length.
+    begin
+        Where that stands in the later word, from 0.
     """
 
     step: int
@@ -42,6 +43,7 @@ class Contradiction:
     module: Module | None
     needed: Row | None = None
     there: Row = ()
+    begin: int = 0
 
     def __str__(self) -> str:
         said = f"Step {self.step} cannot come from step {self.step - 1}"
@@ -70,15 +72,18 @@ def _contradiction(words: Sequence[Row], conditions: Conditions) -> Contradictio
         return Contradiction(step, 0, None)
     some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
     asked = {_asked(words[step], letters[:place + 1], table, conditions) for table in some}
-    needed, there = asked.pop() if len(asked) == 1 else (None, ())
-    return Contradiction(step, place + 1, letters[place].module, None if needed == there else needed, there)
+    several = len(asked) > 1
+    needed, there, begin = asked.pop()
+    if several or needed == there:
+        needed, there = None, ()
+    return Contradiction(step, place + 1, letters[place].module, needed, there, begin)
 
 
-def _asked(word: Row, letters: Sequence[Letter], table: Table, conditions: Conditions) -> tuple[Row | None, Row]:
-    """What the last of some letters would become, and what stands in its place."""
+def _asked(word: Row, letters: Sequence[Letter], table: Table, conditions: Conditions) -> tuple[Row | None, Row, int]:
+    """What the last of some letters would become, what stands in its place, and where."""
     *before, needed = (successor(letter, table, conditions) for letter in letters)
     begin = sum(len(each or ()) for each in before)
-    return needed, word[begin:begin + len(needed or ())]
+    return needed, word[begin:begin + len(needed or ())], begin
 
 
 def first_impossible_step(words: Sequence[Row], conditions: Conditions) -> int:

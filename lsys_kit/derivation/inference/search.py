@@ -1,4 +1,4 @@
-"""The search for all solutions of equations between words: what must be is put in, then the letter with the fewest choices is tried.
+"""The search for all solutions of equations between words: what must be is put in, then a letter with few choices is tried.
 
 Equations that have no unknown letter in common are solved apart, and what was found for a group is kept: it is met again
 wherever the other letters were tried in another way. So the search is exhaustive, and a question that falls into small ones is

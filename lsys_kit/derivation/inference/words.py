@@ -25,8 +25,8 @@ MODULE = re.compile(rf"\s*(\w+?(?=\W|$)|\S)(?:{ARGUMENTS})?")
 def read_words(given: object) -> tuple[Row, ...]:
     """The words of steps 0, 1, 2, ... as rows of modules.
 
-    A text is a row of one-letter symbols. Where one of the texts has a blank, or numbers in parentheses behind a symbol, all are
-    read as `derive` prints words.
+    A text is a row of one-letter symbols. Where one of the texts has a blank, or numbers in parentheses behind a symbol, all
+    are read as `derive` prints words.
 
     >>> [len(word) for word in read_words(["ar", "albr"])]
     [2, 4]
@@ -66,7 +66,7 @@ def _row(word: object, step: int, printed: bool) -> Row:
     for module in row:
         if module.symbol == CUT or (module.symbol[:1] == "?" and len(module.symbol) > 1):
             raise ModelValueError(f'The word of step {step} has the module "{quotable(module.symbol)}", which is no letter '
-                                  f"that rules alone replace", hint="Such a module cuts a branch, or asks what the turtle sees.")
+                                  "that rules alone replace", hint="Such a module cuts a branch, or asks what the turtle sees.")
     return row
 
 
