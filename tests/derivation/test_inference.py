@@ -194,6 +194,7 @@ def test_a_refusal_names_a_slip_in_few_words() -> None:
     (["a", "ab", "aba", "abaab", "abaababa", "abaacabaabaab"], "if letter 5 of step 5, c, were b."),
     (["+a", "a+"], "letter 1 of step 0, +, would have to become +, and there is a."),
     (["a+b", "ab"], "letter 1 of step 0, a, has no successor"),
+    (["a", "aa", "aa"], "letter 1 of step 1, a, has no successor"),
     (["abc", "ab"], "letter 1 of step 0, a, has no successor with which all others can have theirs."),
 ])
 def test_a_refusal_says_where_and_why(words: list[str], said: str) -> None:

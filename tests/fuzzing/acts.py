@@ -50,6 +50,8 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "figure": (lambda system: kit.figure(system, n=6),),
         "animate": (lambda system: kit.animate(system, 9), lambda film: film.gif),
         "growth": (kit.growth, repr),
+        "infer": (lambda system: kit.infer(kit.derive(system, 4)), repr),
+        "infer contexts": (lambda system: kit.infer(kit.derive(system, 4), context=(1, 1), erasing=True), repr),
         "growth of symbols": (lambda system: kit.growth(system, **symbols(system)), repr),
         "lengths": (kit.growth, lambda found: found.lengths(10**6)),
         "late counts": (kit.growth, lambda found: found.counts(10**6)),

@@ -54,7 +54,7 @@ def _stays(kind: Kind, case: Case) -> bool:
 
 
 def fewest_cases(kind: Kind, successors: dict[Values, Row]) -> list[Case]:
-    """The fewest cases that the modules of a kind fall into; those of simple laws, which one point shows, rather than others."""
+    """The fewest cases that the modules of a kind fall into, rather with simple laws, which one point shows, than others."""
     points = sorted(successors.items())
     fewest = len({_symbols(word) for word in successors.values()})
     return next(found for most in count(fewest) for free in (1, POINTS_FOR_TWO_NUMBERS - 1)

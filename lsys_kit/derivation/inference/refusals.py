@@ -72,9 +72,8 @@ def _contradiction(words: Sequence[Row], conditions: Conditions) -> Contradictio
         return Contradiction(step, 0, None)
     some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
     asked = {_asked(words[step], letters[:place + 1], table, conditions) for table in some}
-    several = len(asked) > 1
-    needed, there, begin = asked.pop()
-    if several or needed == there:
+    needed, there, begin = asked.pop() if len(asked) == 1 else (None, (), place)
+    if needed == there:
         needed, there = None, ()
     return Contradiction(step, place + 1, letters[place].module, needed, there, begin)
 
