@@ -17,8 +17,8 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_SHOWN = 20
 """So many systems are shown, and so many letters named."""
-STEPS_AHEAD, MODULES_AHEAD = 20, 100_000
-"""So many steps, and words of so many modules, are looked at to see where systems part."""
+MOST_COMPARED, STEPS_AHEAD, MODULES_AHEAD = 100, 10, 100_000
+"""So many systems, steps, and words of so many modules, are looked at to see where systems part."""
 
 
 @dataclass(frozen=True)
@@ -108,8 +108,9 @@ def _explanation(fits: Fits) -> str:
     common = [rule for rule in fits[0].productions if all(rule in system.productions for system in fits)]
     if len(fits) == 1:
         return "\n".join([f"One system fits these {len(fits.words)} words:", *_lines(common, "  "), *_unknown(fits)])
-    step = parting_step(fits)
-    later = "as far as was looked, later words are the same" if step is None else f"they part at step {step}"
+    step = parting_step(fits[:MOST_COMPARED], len(fits.words))
+    later = "as far as was looked, later words are the same" if step is None else \
+        f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
     lines = [f"{len(fits)} systems fit these {len(fits.words)} words; {later}:"]
     if common:
         lines += [" all have", *_lines(common, "  ")]
@@ -135,17 +136,17 @@ def _unknown(fits: Fits) -> Iterator[str]:
         yield f"Nothing is known of what becomes of {', '.join(unknown[:MOST_SHOWN])}{more}: only the last word has it."
 
 
-def parting_step(fits: Sequence[LSystem]) -> int | None:
-    """The first step at which some systems have different words; None where there is none as far as one can look.
+def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
+    """The first step from `start` on at which some systems have different words; None where there is none as far as is looked.
 
     >>> from lsys_kit.notation.read import read
-    >>> parting_step([read("axiom: a\\na -> a b"), read("axiom: a\\na -> a b\\nb -> a")])
+    >>> parting_step([read("axiom: a\\na -> a b"), read("axiom: a\\na -> a b\\nb -> a")], 1)
     2
     """
     first, found = derive(fits[0], 0), None
     for system in fits[1:]:
-        other, step = derive(system, 0), 0
-        most = STEPS_AHEAD if found is None else found - 1
+        other, step = derive(system, 0), start
+        most = start + STEPS_AHEAD if found is None else found - 1
         while step <= most and _small(first, step) and _small(other, step):
             check_budget()
             if first.to(step)[step] != other.to(step)[step]:
