@@ -281,6 +281,15 @@ def test_what_cannot_be_looked_for_is_refused(choices: Any, message: str) -> Non
         infer(["a", "ab"], **choices)
 
 
+def test_contexts_need_branches_that_are_well_nested() -> None:
+    words = ["ab", "b[a", "a]"]
+    assert "With context" not in str(infer(words))
+    with pytest.raises(ModelValueError, match=r"^The word of step 1 has a bracket without its partner"):
+        infer(words, context=(1, 0))
+    fits = infer(["ab", "[a]b", "[[a]]b"], context=(0, 1))
+    assert [[str(rule) for rule in fit.productions] for fit in fits] == [["a -> [a]"]]
+
+
 def test_words_are_texts_of_letters_or_rows_of_names_or_as_derive_prints_them() -> None:
     expected = infer(derive(system("J1"), 4)).systems
     printed = [str(word) for word in derive(system("J1"), 4)]

@@ -16,7 +16,7 @@ from itertools import islice
 from lsys_kit.budget import Task
 from lsys_kit.derivation.inference.cases import general_productions
 from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
-from lsys_kit.derivation.inference.problem import Conditions, Problem, Table, problem_of, tables
+from lsys_kit.derivation.inference.problem import Conditions, Problem, Table, problem_of, tables, well_nested
 from lsys_kit.derivation.inference.productions import productions_of, system_of
 from lsys_kit.derivation.inference.refusals import contradiction
 from lsys_kit.derivation.inference.search import GivenUp
@@ -88,6 +88,8 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
     found: list[Table] = []
     with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
         rows = read_words(words)
+        if asked.context != (0, 0):
+            _check_brackets(rows)
         try:
             found += islice(tables(problem_of(rows, asked)), MOST_FITS + 1)
         except ModelLimitError as error:
@@ -118,6 +120,14 @@ def _conditions(constants: object, erasing: object, context: object) -> Conditio
     return Conditions(frozenset(symbols), bool(erasing), (left, right))
 
 
+def _check_brackets(rows: tuple[Row, ...]) -> None:
+    """Contexts follow branches: they need words whose brackets are well nested."""
+    for step, row in enumerate(rows):
+        if not well_nested(row):
+            raise ModelValueError(f"The word of step {step} has a bracket without its partner, so that it has no contexts",
+                                  hint="Look for systems without contexts, or mend the word.")
+
+
 def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions) -> Fits:
     """The systems for tables; where modules have parameters, those with the fewest productions."""
     rules = [tuple(productions_of(table)) for table in found]
@@ -145,7 +155,7 @@ def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
 def _wider(rows: tuple[Row, ...], conditions: Conditions) -> Iterator[Wider]:
     """Wider conditions under which systems fit."""
     for erasing in dict.fromkeys((conditions.erasing, True)):
-        for context in CONTEXTS:
+        for context in CONTEXTS if all(map(well_nested, rows)) else ():
             if context[0] >= conditions.context[0] and context[1] >= conditions.context[1]:
                 wider = replace(conditions, erasing=erasing, context=context)
                 count = _count(problem_of(rows, wider))

@@ -18,7 +18,7 @@ from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
 from lsys_kit.derivation.inference.equations import Equation, put_in
 from lsys_kit.derivation.inference.search import Solution, solutions
 from lsys_kit.derivation.inference.words import Row
-from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 
 BRACKETS = frozenset("[]")
 FIRST_CHARACTER = 0xF0000
@@ -88,6 +88,8 @@ class Problem:
         How many letters the successors can have.
     possible
         False where the known letters alone contradict the words.
+    nested
+        Whether the brackets of a successor must be well nested, since contexts follow branches.
     """
 
     letters: tuple[Letter, ...]
@@ -95,6 +97,7 @@ class Problem:
     equations: tuple[Equation, ...]
     bounds: Bounds
     possible: bool
+    nested: bool
 
 
 def problem_of(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> Problem:
@@ -116,7 +119,7 @@ def problem_of(words: Sequence[Row], conditions: Conditions, last: int | None = 
     bounds = first_bounds(left, len(numbers), conditions.erasing)
     if behind:
         bounds.least[-1, -1] = 0 if conditions.erasing else behind
-    return Problem(tuple(numbers), tuple(codes), left, bounds, None not in equations)
+    return Problem(tuple(numbers), tuple(codes), left, bounds, None not in equations, conditions.context != (0, 0))
 
 
 def letters_of(word: Row, conditions: Conditions) -> Iterator[Letter]:
@@ -140,7 +143,23 @@ def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:
     """All answers, one after another; `GivenUp` where so many trials do not suffice."""
     if problem.possible:
         for solution in solutions(problem.equations, problem.bounds, trials):
-            yield table_of(problem, solution)
+            table = table_of(problem, solution)
+            if not problem.nested or all(map(well_nested, table.values())):
+                yield table
+
+
+def well_nested(word: Row) -> bool:
+    """Whether each bracket of a word has its partner.
+
+    >>> well_nested((Module("["), Module("a"), Module("]"))), well_nested((Module("]"), Module("[")))
+    (True, False)
+    """
+    depth = 0
+    for module in word:
+        depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
+        if depth < 0:
+            return False
+    return depth == 0
 
 
 def table_of(problem: Problem, solution: Solution) -> Table:
