@@ -308,6 +308,14 @@ def test_a_search_that_takes_too_long_keeps_what_it_found(monkeypatch: pytest.Mo
     assert texts(refused.value.partial) == [["a", "ab", "aba"]]  # type: ignore[arg-type]
 
 
+def test_that_no_system_fits_is_said_though_the_reason_takes_too_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    def long(*_: object) -> None:
+        raise ModelLimitError("The reason was not found", limit=1)
+
+    monkeypatch.setattr(infer_module, "contradiction", long)
+    assert str(infer(["ab", "c"])) == "No system fits these 2 words."
+
+
 def test_what_a_search_asks_of_the_budget_names_the_search() -> None:
     with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"^The search for systems was not finished, with 0 found"):
         infer(["ab" * 50, "ab" * 99])

@@ -100,8 +100,10 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
                                   partial=_fits(rows, found[:MOST_FITS], asked), hint=_what_is_certain(found))
         if found:
             return _fits(rows, found, asked)
-        with Task("No system fits these words, and the reason was not found"):
+        try:
             return Fits(rows, (), asked, _refusal(rows, asked))
+        except ModelLimitError:  # that none fits is known all the same
+            return Fits(rows, (), asked, Refusal(None))
 
 
 def _conditions(constants: object, erasing: object, context: object) -> Conditions:
