@@ -63,8 +63,8 @@ def test_a_clock_on_the_wall_is_seen() -> None:
     assert clocks_read(ast.parse(text)) == [3, 4]
 
 
-FILLED_IN = {"Chance", "Definitions", "Draft", "_Shares"}
-"""Classes of data that are filled in while a text is read or random numbers are drawn."""
+FILLED_IN = {"Chance", "Definitions", "Draft", "Effort", "_Shares"}
+"""Classes of data that are filled in while a text is read, random numbers are drawn or systems are searched for."""
 
 
 def test_records_are_frozen() -> None:
