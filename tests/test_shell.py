@@ -266,14 +266,18 @@ def test_page_takes_models_of_files_and_links_and_says_what_it_fixes(shell, mode
 
 def test_page_shows_a_map_too(shell, tmp_path):
     said = shell("page", "K28", "-n", "2", "-o", str(tmp_path / "a.html"))
-    assert said.out.startswith("Step 2: ")
-    assert said.out.endswith("Fixed on this page: stiffness = 1, rest = 0.1, pressure = 0.1, damping = 1.\n")
+    assert said.out == "Step 2: 9 vertices, 12 walls, 4 cells. ABAB | BABA | ABAB | BABA\n"
+
+
+def test_page_fixes_the_forces_of_cells_that_only_the_kernel_lays_out(shell, tmp_path):
+    said = shell("page", "K34", "-n", "1", "-o", str(tmp_path / "a.html"))
+    assert said.out.startswith("Step ")
+    assert said.out.endswith("Fixed on this page: stiffness = 1, rest = 0, pressure = 0.5, damping = 1.\n")
 
 
 def test_page_refuses_what_it_cannot_show(shell, tmp_path):
     target = str(tmp_path / "a.html")
     refused(shell("page", "J4", "-o", "j4.htm"), "j4.htm", "end in .html")
-    refused(shell("page", "K34", "-o", target), "not on a sphere")
     refused(shell("page", "J4", "--set", "lifeTimeA=99", "-o", target), "outside its slider's range")
     refused(shell("page", "J4", "--angle", "x", "-o", target), "x")
     assert not Path(target).exists()
