@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor
 from contextlib import closing
@@ -170,8 +171,8 @@ def _bar(runs: int, shown: bool) -> Any:
     """A progress bar, which vanishes when all is done."""
     from tqdm.auto import tqdm
 
-    hidden = {} if shown else {"disable": True}  # where nothing is said, TQDM_DISABLE of the environment decides
-    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, **hidden)
+    hidden = not shown or os.environ.get("TQDM_DISABLE", "0") not in ("", "0")  # tqdm's bar in notebooks does not look there
+    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=hidden)
 
 
 def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Outcome], stopped: str) -> Table:
