@@ -222,6 +222,11 @@ def test_nine_seeds_beside_each_other(explored):
     assert panel.at("canvas.lsys-canvas").screenshot() != before
 
 
+def test_the_seed_given_first_stands_at_its_slider(explored):
+    panel = explored("K7", 3, seed=5)
+    expect(panel.page.get_by_label("seed", exact=True)).to_have_value("5")
+
+
 def test_nine_variants_of_which_one_is_taken_on(explored):
     panel = explored("K5", 3)
     panel.view("nine variants")

@@ -41,7 +41,7 @@ export function openPanel(element, host, compared = null) {
   const above = slider("above", "the height from which it is seen: 0 is the side, 90 the top", DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }));
   const mark = list("mark", "the stage that is marked in all views", [["", "no stage"]], "", (name) => change({ mark: name }));
   const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
-  const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), 0, (at) => host.set("seed", at));
+  const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), host.get("seed"), (at) => host.set("seed", at));
   const die = button("die", "another seed, at random", () => sow(Math.floor(Math.random() * 1000)));
   const play = player(() => ({ now: host.get("step"), most: book.steps }), goTo, () => show());
   const reset = button("reset", "back to the first settings", goBack);
