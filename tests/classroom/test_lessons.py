@@ -131,7 +131,8 @@ def test_there_are_no_other_tables():
 
 # --- what is right ----------------------------------------------------------------------------------------------------
 
-@given(st.fractions(-10**9, 10**9, max_denominator=10**9), st.sampled_from([str, lambda number: f" {number.numerator} / {number.denominator} "]))
+@given(st.fractions(-10**9, 10**9, max_denominator=10**9),
+       st.sampled_from([str, lambda number: f" {number.numerator} / {number.denominator} "]))
 def test_a_fraction_is_right_however_it_is_spaced(number, spelt):
     assert is_right(spelt(number), [str(number)])
     assert not is_right(spelt(number + 1), [str(number)])
