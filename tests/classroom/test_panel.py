@@ -46,6 +46,13 @@ def test_the_slider_of_the_step_changes_word_tokens_and_drawing(explored):
     expect(panel.at("canvas")).to_have_attribute("data-step", "4")
 
 
+@pytest.mark.parametrize(("id", "step", "length"), [("J1", 6, "34"), ("P7", 4, "8.72"), ("P8", 6, "25.76")])
+def test_the_length_of_a_filament_is_said(explored, id, step, length):
+    panel = explored(id, step)
+    assert f"width {length}, height 1" in panel.explorer.text
+    expect(panel.at(".lsys-status")).to_contain_text(re.compile(rf"occupied; length {re.escape(length)}$"))
+
+
 def test_a_number_is_typed_as_a_person_writes_it(explored):
     panel = explored("P5", 3)
     box = panel.page.get_by_label("dt", exact=True)

@@ -35,6 +35,11 @@ export function sequence(book, step, { rows = 24, width = 600, height = SHEET.he
   };
 }
 
+// How long the filament of a step is, in the units of the model.
+export function filamentLength(book, step) {
+  return rowsUpTo(book, step, 1)[0].length;
+}
+
 function rowsUpTo(book, step, most) {
   if (!rowsOfBooks.has(book)) rowsOfBooks.set(book, new Map());
   const known = rowsOfBooks.get(book), found = [];

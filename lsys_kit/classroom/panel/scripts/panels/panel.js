@@ -8,6 +8,7 @@ import { themeOf } from "../drawing/colours.js";
 import { button, list, made, slider } from "../views/controls.js";
 import { countsView } from "../views/counts.js";
 import { drawingView } from "../drawing/drawing.js";
+import { filamentLength } from "../drawing/filament.js";
 import { seedsView, variantsView } from "../drawing/gallery.js";
 import { keeping } from "../views/keeping.js";
 import { ownKeys } from "../views/keys.js";
@@ -238,6 +239,7 @@ export function openPanel(element, host, compared = null) {
   function caption(now, tokens) {
     const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
     const parts = [`step ${now}: ${sizeOf(book, now)}`, `${occupied} of ${counted(stages, "stage")} occupied`];
+    if (book.data.mode === "filament") parts.push(`length ${Number(filamentLength(book, now).toFixed(2))}`);
     if (book.data.said) parts.push(book.data.said);
     if (now === book.steps && book.data.end) parts.push(book.data.end);
     return parts.join("; ");
