@@ -122,7 +122,7 @@ def summary(table: Table, marks: Sequence[str]) -> str:
 def _place(table: Table, number: int) -> str:
     """Where a cell stands, by the names of its row and column."""
     row, column, _ = table.blanks[number]
-    return f"row {table.rows[row][0]}, {prose_text(table.columns[column])}"
+    return f"row {prose_text(_cell_text(table.rows[row][0]))}, {prose_text(table.columns[column])}"
 
 
 def _cell_text(cell: str | Blank) -> str:
