@@ -35,6 +35,8 @@ from lsys_kit.worlds.derive import derive
 
 _AXIOM_LINE = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
 """An answer with an axiom of its own is the whole system."""
+MOST_QUOTED = 200
+"""How many characters of a production a reply quotes."""
 
 
 def _read(exercise: Exercise, answer: object) -> SystemAnswer:
@@ -136,7 +138,8 @@ def _typed(rule: Production, mine: SystemAnswer) -> str:
     source = mine.own.source
     own = next((found for found in mine.own.productions if found == rule and found.at), None)
     text = source[own.at[0] : own.at[1]] if own and own.at and source and own.at[1] <= len(source) else str(rule)
-    return f"\n  {' '.join(text.split())}"
+    line = " ".join(text.split())
+    return f"\n  {line if len(line) <= MOST_QUOTED else f'{line[:MOST_QUOTED]}...'}"
 
 
 def _likeness(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> tuple[float, bool]:
