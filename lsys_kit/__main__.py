@@ -99,6 +99,10 @@ def _argument_parser() -> argparse.ArgumentParser:
     page.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is seen first")
     page.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn at first")
     page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
+    site = command("site", commands.write_site,
+                   "Write the course as pages whose panels move, which need neither Python nor a network.",
+                   "Example: lsys-kit site -o course")
+    site.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the pages")
     lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
     _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks."))

@@ -200,6 +200,14 @@ def write_exercises(options: argparse.Namespace) -> None:
         print(path)
 
 
+def write_site(options: argparse.Namespace) -> None:
+    """Write the course as static pages."""
+    from lsys_kit.classroom.site.build import build_site
+
+    pages = build_site(options.output)
+    print(f"{len(pages)} pages are written. Open {quotable(str(pages[0]))} in a browser.")
+
+
 def open_lab(options: argparse.Namespace) -> None:
     """Copy the course and open it in JupyterLab."""
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import traitlets
@@ -89,6 +90,16 @@ class Prediction(VBox):  # type: ignore[misc]
         if not self._shown:
             self._shown = (widget(self._what),)
             self.children = (self.prompt, *self._shown)
+
+    @property
+    def answer(self) -> Mapping[str, Any]:
+        """What is shown once it is revealed, by media types."""
+        return self._media
+
+    @property
+    def page_data(self) -> dict[str, Any]:
+        """What a page without a kernel has to know of the question; what answers it stands beside it there."""
+        return {"question": self.prompt.question}
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live question; for a page without a kernel the question with its answer."""

@@ -100,8 +100,18 @@ class VoteBox(LessonWidget):
         ballot.observe(self._tell)
         self._tell()
 
+    @property
+    def page_data(self) -> dict[str, Any]:
+        """What a page without a kernel has to know: what is asked, and what is said for each first and each second vote."""
+        votes = range(NONE, len(LETTERS))
+        said = [[self._said(Ballot(first=first, second=second)) for second in votes] for first in votes]
+        return {"asked": self.asked, "again": self._again, "said": said}
+
+    def _said(self, ballot: Ballot) -> dict[str, str]:
+        return _reply(self._vote, ballot) if self._again else _receipt(ballot)
+
     def _tell(self, _: object = None) -> None:
-        self.said = _reply(self._vote, self._ballot) if self._again else _receipt(self._ballot)
+        self.said = self._said(self._ballot)
 
     def _stored(self) -> dict[str, Any]:
         options = "".join(f"<li>{prose_html(each.text)}</li>" for each in self._vote.options)

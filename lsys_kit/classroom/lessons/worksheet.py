@@ -73,6 +73,12 @@ class Worksheet(LessonWidget):
         given = [str(each)[:MOST_CHARACTERS + 1] for each in self.asked.get("entries", ())]
         return (given + [""] * len(self._table.blanks))[:len(self._table.blanks)]
 
+    @property
+    def page_data(self) -> dict[str, Any]:
+        """What a page without a kernel has to know: the table, and the right answers, which are no secret there."""
+        blanks = [{"right": list(blank.right), "within": blank.within} for _, _, blank in self._table.blanks]
+        return {"sheet": self.sheet, "blanks": blanks}
+
     def _check(self, _: object) -> None:
         marks = marked(self._table, self.entries)
         self.result = {"number": self.asked.get("number", 0), "marks": marks, "text": summary(self._table, marks)}

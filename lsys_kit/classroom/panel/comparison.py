@@ -92,6 +92,11 @@ class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
         """What both panels show, in words."""
         return f"{self.left.text}\n{self.right.text}"
 
+    @property
+    def page_data(self) -> dict[str, Any]:
+        """What a page without a kernel has to know of both panels."""
+        return {"left": self.left.page_data, "right": self.right.page_data}
+
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live panels, and for a page without a kernel their words and the picture of the left one."""
         bundle = super()._repr_mimebundle_(**options)

@@ -179,9 +179,14 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """
         save_page(path, self._page())
 
-    def _page(self) -> str:
+    @property
+    def page_data(self) -> dict[str, Any]:
+        """What a page without a kernel has to know of the panel as it stands."""
         with self._limited():  # each book is a task of its own
-            return page(self._opened.title or self._opened.kind, self._opened.page_data(self._chosen), self.text)
+            return self._opened.page_data(self._chosen)
+
+    def _page(self) -> str:
+        return page(self._opened.title or self._opened.kind, self.page_data, self.text)
 
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:

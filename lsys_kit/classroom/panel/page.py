@@ -1,17 +1,9 @@
-"""A page without a kernel: the panel of a system with the books of its settings, one HTML file with no address outside it.
-
-The data stand in the page as JSON in which no markup can begin; the scripts that run are named by their hashes in the page's
-Content Security Policy, which forbids everything else: other scripts, connections, frames and forms.
-"""
+"""A page without a kernel: the panel of a system with the books of its settings, one HTML file with no address outside it."""
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import json
-import re
 import time
-import zlib
 from collections.abc import Mapping, Sequence
 from itertools import product
 from math import prod
@@ -22,9 +14,10 @@ from lsys_kit.budget import current
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
+from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.derivation.core.rules import number_from, real_from
-from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, shown
-from lsys_kit.files import KIT_MARK, save_file
+from lsys_kit.errors import LSystemError, ModelFileError, quotable
+from lsys_kit.files import save_file
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import write
@@ -41,28 +34,11 @@ STYLE = """
 .lsys-page h1 { font-size: 20px; font-weight: 600; margin: 4px 0 8px; overflow-wrap: anywhere; }
 @media (prefers-color-scheme: dark) { .lsys-page { background: #161b20; color: #e8edf2; } }
 """
-_FIRST = """
-"use strict";
-const packed = JSON.parse(document.getElementById("lsys-data").textContent);
-const texts = ["style", "script"].map((name) => {
-  const bytes = Uint8Array.from(atob(packed[name]), (sign) => sign.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
-});
-Promise.all(texts).then(([style, script]) => {
-  const policy = window.trustedTypes?.createPolicy("lsys", { createScript: (text) => text });
-  const [looks, element] = ["style", "script"].map((name) => document.createElement(name));
-  looks.textContent = style;
-  element.text = policy ? policy.createScript(script) : script;
-  document.head.append(looks, element);
-});
-"""
-"""The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
 _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter")), frozenset(("tissue",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {"filament": _STROKES | _MAPS | _TISSUES, "plane": _CELLS | _MAPS | _TISSUES, "space": _CELLS | _MAPS | _TISSUES,
                "map": _CELLS | _TISSUES | {"turtle"}, "tissue": _CELLS | _MAPS | {"turtle"}}
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
-_LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
 
 def page(title: str, data: Mapping[str, Any], description: str, language: str = "en") -> str:
@@ -91,37 +67,21 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     >>> text.startswith("<!doctype html>"), text.count("<script"), "://" in text.partition("<script>")[0]
     (True, 2, False)
     """
-    if not isinstance(language, str) or not _LANGUAGE.fullmatch(language):
-        raise ModelValueError(f'A language is named as in "en" or "de-AT", not {shown(language)}')
-    script = f'"use strict";\n{compact("page", _NOT_NEEDED[data["mode"]])}\nopenPage();\n'
-    policy = (f"default-src 'none'; script-src {_hashed(_FIRST)} {_hashed(script)}; style-src 'unsafe-inline'; "
-              "img-src data: blob:; base-uri 'none'; form-action 'none'; "
-              "require-trusted-types-for 'script'; trusted-types lsys")
-    packed = {**data, "script": deflated_text(script), "style": deflated_text(style())}
-    content = json.dumps(packed, separators=(",", ":")).replace("<", "\\u003c")
-    return f"""<!doctype html>
-<html lang="{language}">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="generator" content="{KIT_MARK.decode()}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta name="referrer" content="no-referrer">
-<meta name="description" content="{escaped(description)}">
-<link rel="icon" href="data:,">
-<title>{escaped(title)}</title>
-<style>{STYLE}</style>
-</head>
-<body class="lsys-page">
-<h1>{escaped(title)}</h1>
+    body = f"""<h1>{escaped(title)}</h1>
 <main id="lsys-here"></main>
 <noscript><p>Without JavaScript the panel cannot be moved. It shows: {escaped(description)}</p></noscript>
-<script type="application/json" id="lsys-data">{content}</script>
-<script>{_FIRST}</script>
-</body>
-</html>
 """
+    script = f'"use strict";\n{compact("page", not_needed(data["mode"]))}\nopenPage();\n'
+    return document(title, body, STYLE, description, Program(script, style(), data), language)
+
+
+def not_needed(*modes: str) -> frozenset[str]:
+    """The scripts that are not called on a page of panels that draw in these ways.
+
+    >>> sorted(not_needed("plane", "filament"))
+    ['map', 'relaxation', 'relaxing', 'tension', 'tissue']
+    """
+    return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
 
 
 def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed: int = 0, *, title: str = "",
@@ -214,16 +174,6 @@ def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 def deflated(content: object) -> str:
     """Anything as JSON, deflated (RFC 1950), in base 64."""
     return deflated_text(json.dumps(content, separators=(",", ":")))
-
-
-def deflated_text(text: str) -> str:
-    """A text, deflated (RFC 1950), in base 64."""
-    return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
-
-
-def _hashed(script: str) -> str:
-    """How a Content Security Policy names a script that may run."""
-    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
 
 
 def _book(system: LSystem, settings: Mapping[str, object], seed: int, title: str, least: int) -> dict[str, Any]:

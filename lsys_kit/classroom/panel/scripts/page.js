@@ -11,15 +11,22 @@ const LONGEST = 3_000; // milliseconds in which the cells of a map come to rest 
 export async function openPage() {
   const here = document.getElementById("lsys-here"), data = JSON.parse(document.getElementById("lsys-data").textContent);
   try {
-    const books = JSON.parse(await inflated(bytesOf(data.books), "deflate", MOST_BYTES));
-    openPanel(here, pageHost(data, books, await linkedSettings(data)));
+    openPanel(here, await hostWith(data, true));
     addEventListener("hashchange", () => location.reload());
   } catch (fault) {
-    here.textContent = `This browser cannot show the panel; a newer one can. (${fault})`;
+    here.textContent = cannot(fault);
   }
 }
 
-export function pageHost(data, books, linked) {
+export const cannot = (fault) => `This browser cannot show the panel; a newer one can. (${fault})`;
+
+// The host of a panel with the books that are in its data. `alone` on a page it keeps what is seen in the page's address.
+export async function hostWith(data, alone) {
+  const books = JSON.parse(await inflated(bytesOf(data.books), "deflate", MOST_BYTES));
+  return pageHost(data, books, await linkedSettings(data), alone);
+}
+
+export function pageHost(data, books, linked, alone = true) {
   const { constants } = data.model, answer = data.mode === "map" ? (settings) => relaxedTo(answerAt(books, [], []).book, settings)
     : (settings) => answerAt(books, constants.map((each) => each.texts.indexOf(settings[each.name])), constants);
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
@@ -39,7 +46,7 @@ export function pageHost(data, books, linked) {
       return () => handlers.set(name, handlers.get(name).filter((each) => each !== handler));
     },
     // The address says what is seen, so that it can be sent, and the page opened again as it was.
-    save: () => address().then((there) => history.replaceState(null, "", there)).catch(() => {}),
+    save: () => alone && address().then((there) => history.replaceState(null, "", there)).catch(() => {}),
     book: (asked) => Promise.resolve(answer(asked.constants)),
     rules: () => Promise.resolve(null),
     variants: () => Promise.resolve({ variants: [] }),

@@ -1,33 +1,5 @@
-// The question of a prediction in Jupyter, with its box. What answers it is a widget of its own, which the kernel puts below.
+// The question of a prediction as a widget of Jupyter; what answers it is a widget of its own, which the kernel puts below.
 
-import { made } from "./views/controls.js";
-import { freshId, question, told } from "./lessons/asking.js";
-import { prose } from "./lessons/prose.js";
+import { askForPrediction } from "./lessons/predicting.js";
 
-function render({ model, el }) {
-  return question(model, el, "prediction", ["revealed"], (root) => {
-    const id = freshId(), status = made("p", { class: "lsys-said", role: "status", tabindex: -1 });
-    const box = made("input", { type: "text", id, maxlength: 1000, autocomplete: "off", oninput: () => { show.disabled = !box.value.trim(); } });
-    const reveal = (typed) => {
-      told(model, { typed, revealed: true }, status);
-      if (!model.get("revealed")) return;
-      status.focus();
-    };
-    const show = made("button", { type: "submit", disabled: true }, "Show");
-    const unsure = made("button", { type: "button", onclick: () => reveal("") }, "I have no idea, show me");
-    const form = made("form", { class: "lsys-predict", onsubmit: (event) => {
-      event.preventDefault();
-      if (box.value.trim()) reveal(box.value.trim());
-    } }, box, show, unsure);
-    root.append(made("label", { class: "lsys-asked", for: id }, prose(model.get("question"))), form, status);
-
-    return () => {
-      if (!model.get("revealed")) return;
-      const typed = model.get("typed");
-      form.hidden = true;
-      status.replaceChildren(...(typed ? ["You said: ", made("b", { class: "mathjax_ignore tex2jax_ignore" }, typed)] : ["You wanted to see it."]));
-    };
-  });
-}
-
-export default { render };
+export default { render: askForPrediction };

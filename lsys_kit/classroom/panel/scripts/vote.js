@@ -1,36 +1,5 @@
-// A vote in Jupyter: a question and four buttons. The kernel alone knows which is right, and says so only the second time.
+// A vote as a widget of Jupyter.
 
-import { made } from "./views/controls.js";
-import { freshId, question, told } from "./lessons/asking.js";
-import { prose } from "./lessons/prose.js";
+import { askForVote } from "./lessons/voting.js";
 
-const LETTERS = "ABCD";
-
-function render({ model, el }) {
-  return question(model, el, "vote", ["chosen", "said"], (root) => {
-    const { question: text, options, picture, described } = model.get("asked"), id = freshId();
-    const status = made("div", { class: "lsys-said", role: "status" });
-    const before = made("p", { class: "lsys-before" });
-    const buttons = options.map((option, number) => made("button", {
-      type: "button", class: "lsys-option", "aria-pressed": "false",
-      onclick: () => told(model, { chosen: number }, status),
-    }, made("b", { class: "lsys-letter" }, LETTERS[number]), prose(option)));
-    root.append(made("p", { class: "lsys-asked", id }, prose(text)));
-    if (picture) root.append(made("img", { class: "lsys-mystery", src: picture, alt: described }));
-    root.append(before, made("div", { class: "lsys-options", role: "group", "aria-labelledby": id }, ...buttons), status);
-
-    return () => {
-      const chosen = model.get("chosen"), said = model.get("said");
-      buttons.forEach((button, number) => button.setAttribute("aria-pressed", String(number === chosen)));
-      before.textContent = said.before ?? "";
-      before.hidden = !said.before;
-      status.className = said.verdict ? `lsys-said ${said.verdict === "Right" ? "lsys-right" : "lsys-wrong"}` : "lsys-said";
-      status.replaceChildren();
-      if (said.verdict) status.append(made("b", {}, `${said.verdict === "Right" ? "✓" : "✗"} ${said.verdict}. `));
-      if (said.text) status.append(prose(said.text));
-      if (said.changed) status.append(made("p", {}, said.changed));
-    };
-  });
-}
-
-export default { render };
+export default { render: askForVote };

@@ -21,7 +21,7 @@ export function question(model, el, name, traits, build) {
 }
 
 // Tell the kernel what was done, or say in `status` that there is none.
-export function told(model, values, status) {
+export function tellModel(model, values, status) {
   for (const [name, value] of Object.entries(values)) model.set(name, value);
   model.save_changes();
   if (model.comm_live === false) status.replaceChildren(GONE);

@@ -1,0 +1,120 @@
+"""An HTML file with no address outside it: its style, its data and its scripts are in it, and nothing else runs.
+
+The data stand in the page as JSON in which no markup can begin; the scripts that run are named by their hashes in the page's
+Content Security Policy, which forbids everything else: other scripts, connections, frames and forms.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from lsys_kit.errors import ModelValueError, shown
+from lsys_kit.files import KIT_MARK
+from lsys_kit.pictures.style.labels import escaped
+
+_FIRST = """
+"use strict";
+const packed = JSON.parse(document.getElementById("lsys-data").textContent);
+const texts = ["style", "script"].map((name) => {
+  const bytes = Uint8Array.from(atob(packed[name]), (sign) => sign.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
+});
+Promise.all(texts).then(([style, script]) => {
+  const policy = window.trustedTypes?.createPolicy("lsys", { createScript: (text) => text });
+  const [looks, element] = ["style", "script"].map((name) => document.createElement(name));
+  looks.textContent = style;
+  element.text = policy ? policy.createScript(script) : script;
+  document.head.append(looks, element);
+});
+"""
+"""The script that inflates the others and the style. A policy that names both by their hashes lets no other run."""
+_LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
+
+
+@dataclass(frozen=True)
+class Program:
+    """What runs in a page: a script, the style of what it makes, and the data that it reads."""
+
+    script: str
+    style: str
+    data: Mapping[str, Any]
+
+
+def document(title: str, body: str, style: str, description: str, program: Program | None = None, language: str = "en") -> str:
+    """One HTML file.
+
+    Parameters
+    ----------
+    title
+        What the window is called.
+    body
+        HTML that holds nothing from outside.
+    style
+        The style of the body, which needs no script.
+    description
+        What the page shows, in words, for search.
+    program
+        What runs in it; without it nothing does.
+    language
+        The language of the page, as in "en" or "de-AT".
+
+    Raises
+    ------
+    ModelValueError
+        There is no language of that form.
+
+    Examples
+    --------
+    >>> document("Algae", "<main><h1>Algae</h1></main>", "", "Two cells").count("<script")
+    0
+    """
+    if not isinstance(language, str) or not _LANGUAGE.fullmatch(language):
+        raise ModelValueError(f'A language is named as in "en" or "de-AT", not {shown(language)}')
+    return f"""<!doctype html>
+<html lang="{language}">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{_policy(program)}">
+<meta name="generator" content="{KIT_MARK.decode()}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta name="referrer" content="no-referrer">
+<meta name="description" content="{escaped(description)}">
+<link rel="icon" href="data:,">
+<title>{escaped(title)}</title>
+<style>{style}</style>
+</head>
+<body class="lsys-page">
+{body}{_scripts(program) if program else ""}</body>
+</html>
+"""
+
+
+def deflated_text(text: str) -> str:
+    """A text, deflated (RFC 1950), in base 64."""
+    return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
+
+
+def _policy(program: Program | None) -> str:
+    """What a page lets run, load and send: its own scripts, its own pictures, nothing."""
+    runs = f"script-src {_hashed(_FIRST)} {_hashed(program.script)}; " if program else ""
+    return (f"default-src 'none'; {runs}style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
+            "require-trusted-types-for 'script'; trusted-types lsys")
+
+
+def _scripts(program: Program) -> str:
+    packed = {**program.data, "script": deflated_text(program.script), "style": deflated_text(program.style)}
+    content = json.dumps(packed, separators=(",", ":")).replace("<", "\\u003c")
+    return f'<script type="application/json" id="lsys-data">{content}</script>\n<script>{_FIRST}</script>\n'
+
+
+def _hashed(script: str) -> str:
+    """How a Content Security Policy names a script that may run."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"

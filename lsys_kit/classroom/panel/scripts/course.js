@@ -1,0 +1,89 @@
+// A page of the course without a kernel: its panels, votes, predictions and tables, each where its data belong.
+
+import { hostWith, cannot } from "./page.js";
+import { openComparison } from "./panels/compare.js";
+import { openPanel } from "./panels/panel.js";
+import { askForEntries } from "./lessons/filling.js";
+import { askForPrediction } from "./lessons/predicting.js";
+import { askForVote } from "./lessons/voting.js";
+import { checked } from "./lessons/checking.js";
+
+const KINDS = { panel, comparison, vote, prediction, worksheet };
+
+export function openCoursePage() {
+  const { parts } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, ballots: new Map() };
+  for (const place of document.querySelectorAll("[data-part]")) if (!place.parentElement.closest("[data-part]")) open(place, page);
+}
+
+// Put a part in its place, instead of what stands there for readers without scripts.
+async function open(place, page) {
+  const { kind, data } = page.parts[Number(place.dataset.part)];
+  try {
+    await KINDS[kind](place, data, page);
+    place.dataset.open = "";
+  } catch (fault) {
+    place.append(cannot(fault));
+  }
+}
+
+async function panel(place, data) {
+  const host = await hostWith(data, false);
+  place.replaceChildren();
+  openPanel(place, host);
+}
+
+async function comparison(place, { left, right }) {
+  const hosts = await Promise.all([left, right].map((data) => hostWith(data, false)));
+  place.replaceChildren();
+  openComparison(place, hosts);
+}
+
+// Both votes on a question know of one another.
+function vote(place, { asked, again, said }, { ballots }) {
+  const key = JSON.stringify([asked.question, asked.options]), ballot = ballots.get(key) ?? { votes: [-1, -1], tellers: [] };
+  ballots.set(key, ballot);
+  const saying = () => said[ballot.votes[0] + 1][ballot.votes[1] + 1];
+  const model = modelOf({ asked, chosen: -1, said: saying() }, () => {
+    ballot.votes[Number(again)] = model.get("chosen");
+    for (const tell of ballot.tellers) tell();
+  });
+  ballot.tellers.push(() => model.tell({ said: saying() }));
+  place.replaceChildren();
+  askForVote({ model, el: place });
+}
+
+function prediction(place, { question }, page) {
+  const answer = place.querySelector("[data-answer]");
+  const model = modelOf({ question, typed: "", revealed: false }, () => {
+    place.append(answer);
+    for (const each of answer.querySelectorAll("[data-part]")) open(each, page);
+  });
+  place.replaceChildren();
+  askForPrediction({ model, el: place });
+}
+
+function worksheet(place, data) {
+  const model = modelOf({ sheet: data.sheet, asked: {}, result: {} }, () => {
+    const { number, entries } = model.get("asked");
+    model.tell({ result: { number, ...checked(data, entries) } });
+  });
+  place.replaceChildren();
+  askForEntries({ model, el: place });
+}
+
+// What a widget's script asks of its model, without a kernel: `saved` is called when the page was told something.
+function modelOf(values, saved) {
+  const handlers = new Map();
+  const tell = (changes) => {
+    Object.assign(values, changes);
+    for (const name of Object.keys(changes)) for (const handler of handlers.get(`change:${name}`) ?? []) handler();
+  };
+  return {
+    get: (name) => values[name],
+    set: (name, value) => tell({ [name]: value }),
+    on: (event, handler) => handlers.set(event, [...(handlers.get(event) ?? []), handler]),
+    off: (event, handler) => handlers.set(event, (handlers.get(event) ?? []).filter((each) => each !== handler)),
+    save_changes: saved,
+    tell,
+  };
+}

@@ -1,0 +1,148 @@
+"""The Markdown of a notebook as HTML: links lead to pages of the site, mathematics becomes MathML, and of HTML
+only a few plain tags pass."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Container
+from functools import partial
+from pathlib import PurePosixPath
+from posixpath import normpath
+from typing import Any
+
+from lsys_kit.classroom.lessons.displayed import escaped_lines
+from lsys_kit.errors import LSystemError
+from lsys_kit.pictures.style.labels import escaped
+
+Links = Callable[[str], str | None]
+"""What an address in a notebook becomes on its page; None where nothing is there."""
+
+PLAIN_TAGS = ("br", "details", "sub", "summary", "sup")
+"""The tags of HTML that notebooks may use in their texts, without attributes."""
+_PLAIN_TAG = re.compile(rf"&lt;(/?(?:{'|'.join(PLAIN_TAGS)}))&gt;")
+
+
+def markdown_html(text: str, links: Links) -> str:
+    """A cell of Markdown as HTML. Of HTML in it no more passes than the plain tags of `PLAIN_TAGS`.
+
+    Parameters
+    ----------
+    text
+        CommonMark with tables and mathematics between dollar signs, as Jupyter has it.
+    links
+        Where a link leads.
+
+    Examples
+    --------
+    >>> markdown_html("## An *alga*\\n\\n`a -> ab`", lambda address: address)
+    '<h2 id="An-alga">An <em>alga</em></h2>\\n<p><code>a -&gt; ab</code></p>\\n'
+    >>> markdown_html("<b>no</b> [markup](x.html) [gone](y.html)", {"x.html": "X.html"}.get)
+    '<p>&lt;b&gt;no&lt;/b&gt; <a href="X.html">markup</a> gone</p>\\n'
+    """
+    mistune = _mistune()
+
+    class Renderer(mistune.HTMLRenderer):  # type: ignore[misc, name-defined]
+        def heading(self, text: str, level: int, **_: Any) -> str:
+            return f'<h{level} id="{heading_id(text)}">{text}</h{level}>\n'
+
+        def link(self, text: str, url: str, title: str | None = None) -> str:
+            address = links(url)
+            return text if address is None else f'<a href="{escaped(address)}">{text}</a>'
+
+        def inline_html(self, html: str) -> str:
+            return plain_tags(html)
+
+        def block_html(self, html: str) -> str:
+            return plain_tags(html)
+
+        def image(self, text: str, url: str, title: str | None = None) -> str:
+            return str(text)
+
+    renderer = Renderer(escape=True)
+    read = mistune.create_markdown(renderer=renderer, plugins=["table", "math"])
+    renderer.register("inline_math", lambda _, text: mathml(text))
+    renderer.register("block_math", lambda _, text: f"<div class=\"formula\">{mathml(text, 'block')}</div>\n")
+    renderer.register("table", lambda _, text: f'<div class="scroll" tabindex="0"><table>\n{text}</table></div>\n')
+    return str(read(text))
+
+
+def plain_tags(html: str) -> str:
+    """HTML with its plain tags; all else in it is text.
+
+    >>> plain_tags("<sup>3</sup><b onclick=x>")
+    '<sup>3</sup>&lt;b onclick=x&gt;'
+    """
+    return _PLAIN_TAG.sub(r"<\1>", escaped_lines(html))
+
+
+def heading_id(html: str) -> str:
+    """What a link to a heading names, as in Jupyter: its text with hyphens for blanks.
+
+    >>> heading_id("2 An <em>alga</em> &amp; more")
+    '2-An-alga-&amp;-more'
+    """
+    return re.sub(r"<[^>]*>", "", html).strip().replace(" ", "-")
+
+
+def mathml(latex: str, display: str = "inline") -> str:
+    """A formula as MathML, which browsers show without help; one that cannot be read stays as it is written.
+
+    >>> mathml("x^2")
+    '<math display="inline"><mrow><msup><mi>x</mi><mn>2</mn></msup></mrow></math>'
+    """
+    try:
+        from latex2mathml.converter import convert
+    except ImportError:
+        raise missing("latex2mathml") from None
+    try:
+        made = convert(latex.strip().strip("$"), display=display)
+    except Exception:
+        return f"<code>{escaped(latex)}</code>"
+    return str(made).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "")
+
+
+def address_on_site(page: str, pages: Container[str], address: str) -> str | None:
+    """Where a link of a notebook leads on the site: to a page of it, or a place on the same page; else nowhere.
+
+    Parameters
+    ----------
+    page
+        The notebook that has the link, relative to the course.
+    pages
+        The notebooks of the site.
+    address
+        The link.
+
+    Examples
+    --------
+    >>> there = {"notebooks/01.ipynb", "exercises/01.ipynb"}
+    >>> address_on_site("notebooks/01.ipynb", there, "../exercises/01.ipynb#try")
+    '../exercises/01.html#try'
+    >>> address_on_site("notebooks/01.ipynb", there, "02.ipynb") is None
+    True
+    """
+    file, _, place = address.partition("#")
+    if not file:
+        return address
+    target = normpath(str(PurePosixPath(page).parent / file))
+    if target not in pages:
+        return None
+    return f"{file.removesuffix('.ipynb')}.html{'#' * bool(place)}{place}"
+
+
+def links_of(page: str, pages: Container[str]) -> Links:
+    """The links of a notebook on the site."""
+    return partial(address_on_site, page, pages)
+
+
+def missing(package: str) -> LSystemError:
+    """The error that a package is not there which the site needs."""
+    return LSystemError(f"The site cannot be built without {package}", hint="Install it with: pip install 'lsys-kit[site]'")
+
+
+def _mistune() -> Any:
+    try:
+        import mistune
+    except ImportError:
+        raise missing("mistune") from None
+    return mistune

@@ -1,0 +1,171 @@
+"""The pages of the site: a lesson, its exercises, a reference, and the course with all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+from posixpath import relpath
+from typing import Any
+
+from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
+from lsys_kit.classroom.lessons.widget import prose_html, prose_text
+from lsys_kit.classroom.panel.bundle import compact, style
+from lsys_kit.classroom.panel.document import Program, document
+from lsys_kit.classroom.panel.page import not_needed
+from lsys_kit.classroom.site.cells import Parts, cells_html
+from lsys_kit.classroom.site.markdown import links_of
+from lsys_kit.pictures.style.labels import escaped
+
+INDEX = "index.html"
+COURSE = "L-systems: a course"
+"""The title of the first page."""
+_KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change rules and
+code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is right stands in
+it, and is no secret.</p>
+"""
+_ALL_KEPT = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and tables are
+answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it opens the course in
+Jupyter.</p>
+"""
+_HOW = """<div class="note"><p><strong>How to answer.</strong> Type <code>lsys-kit lab</code>, and open <code>{name}</code> in
+JupyterLab. There is a cell below each question for the answer, which is checked when the cell is run, with hints after a
+try.</p></div>
+"""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A notebook on the site.
+
+    Attributes
+    ----------
+    name
+        Its file, relative to the course.
+    title
+        Its title, as a text.
+    lesson
+        What is declared of it, if it is a lesson.
+    """
+
+    name: str
+    title: str
+    lesson: Lesson | None = None
+
+    @property
+    def page(self) -> str:
+        """The file of its page, relative to the site."""
+        return f"{self.name.removesuffix('.ipynb')}.html"
+
+    @property
+    def folder(self) -> str:
+        """Its folder in the course."""
+        return str(PurePosixPath(self.name).parent)
+
+
+def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) -> str:
+    """The page of a notebook.
+
+    Parameters
+    ----------
+    entry
+        The notebook.
+    cells
+        Its cells; those of exercises are shown without the code that checks answers.
+    entries
+        All notebooks of the site, in their order.
+    """
+    links, parts, [head, *rest] = links_of(entry.name, {each.name for each in entries}), Parts(), _seen(entry, cells)
+    begin = cells_html([head], links, parts) + _note(entry) + cells_html(rest, links, parts)
+    row = _neighbours(entry, entries)
+    body = (f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
+            f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="other pages">{row}</nav></footer>\n')
+    described = prose_text(entry.lesson.question) if entry.lesson else entry.title
+    return document(entry.title, body, style("course"), described, _program(parts))
+
+
+def index_page(entries: Sequence[Entry]) -> str:
+    """The first page: the lessons with their questions, and what belongs to them."""
+    lessons = [each for each in entries if each.folder == "notebooks"]
+    others = [each for each in entries if each.folder == "notebooks/reference"]
+    rows = "".join(_lesson_row(each, entries) for each in lessons)
+    references = "".join(f'<li><a href="{escaped(each.page)}">{escaped(each.title)}</a></li>\n' for each in others)
+    tracks = ", ".join(f'<span class="track">{letter}</span> {text}' for letter, text in TRACKS.items())
+    body = f"""<a class="skip" href="#main">Skip to the lessons</a>
+<main id="main" class="index">
+<h1>{COURSE}</h1>
+<p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict, look, move a
+slider, change a rule.</p>
+{_ALL_KEPT}
+<h2 id="lessons">Lessons</h2>
+<p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
+<ol class="lessons">
+{rows}</ol>
+<h2 id="reference">To look things up</h2>
+<ul>
+{references}</ul>
+</main>
+"""
+    return document(COURSE, body, style("course"), "Lessons on L-systems with panels to move")
+
+
+def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
+    """A lesson in the list: its title, what it asks, how long it takes, its tracks, its exercises."""
+    exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
+    told = entry.lesson
+    facts = [f"{told.minutes} minutes", *(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track)] \
+        if told else []
+    also = [f'<a href="{escaped(exercises.page)}">exercises</a>'] if exercises else []
+    asked = f"<p>{prose_html(told.question)}</p>" if told else ""
+    number = f"<span>{told.number}</span> " if told else ""
+    return (f'<li><h3>{number}<a href="{escaped(entry.page)}">{escaped(entry.title)}</a></h3>{asked}'
+            f'<p class="quiet">{" · ".join([*facts, *also])}</p></li>\n')
+
+
+def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
+    """The cells of a notebook that its page shows."""
+    return [each for each in cells if not (entry.folder == "exercises" and each.cell_type == "code" and _checks(each.source))]
+
+
+def _checks(source: str) -> bool:
+    """Whether code asks for an answer, or gets ready for that."""
+    return "check" in source or not source.strip()
+
+
+def _note(entry: Entry) -> str:
+    """What is said on a page of what can be done on it."""
+    return {"notebooks": _KEPT, "exercises": _HOW.format(name=escaped(entry.name))}.get(entry.folder, "")
+
+
+def _above(entry: Entry) -> str:
+    """The way back to the first page."""
+    home = relpath(INDEX, entry.folder)
+    return f'<nav aria-label="the course"><a href="{home}">{COURSE}</a></nav>'
+
+
+def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
+    """Links to the pages before and after one of the same kind, and from a lesson to its exercises or back."""
+    return "\n".join(f'<a class="{kind}" href="{escaped(relpath(other.page, entry.folder))}"><span>{label}</span> '
+                     f"{escaped(other.title)}</a>" for kind, label, other in _others(entry, entries))
+
+
+def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
+    """Where one may go on from a page: how the link looks, what it is called, the page."""
+    alike = [each for each in entries if each.folder == entry.folder]
+    place = alike.index(entry)
+    if place:
+        yield "before", "Before", alike[place - 1]
+    pair, label = {"notebooks": ("exercises", "Exercises"), "exercises": ("notebooks", "Lesson")}.get(entry.folder, ("", ""))
+    yield from (("also", label, each) for each in entries if each.name == f"{pair}/{PurePosixPath(entry.name).name}")
+    if place + 1 < len(alike):
+        yield "after", "Next", alike[place + 1]
+
+
+def _program(parts: Parts) -> Program | None:
+    """What runs in a page with these parts; nothing, where it has none."""
+    if not parts:
+        return None
+    modes = [data["mode"] for part in parts for data in (part["data"], *part["data"].values())
+             if isinstance(data, dict) and "mode" in data]
+    script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else frozenset())}\nopenCoursePage();\n'
+    return Program(script, style() + style("lessons"), {"parts": parts})
