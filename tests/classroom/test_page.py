@@ -57,7 +57,7 @@ class Parts(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.tags.append(tag)
         self.attributes += attrs
-        if tag not in ("meta", "link"):
+        if tag not in ("meta", "link", "img", "br", "hr"):
             self._open.append(tag)
             self.inside.setdefault(tag, []).append("")
 

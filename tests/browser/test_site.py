@@ -1,0 +1,171 @@
+"""The course as static pages in a real browser: each page is opened from a file, asks for nothing, and its panels answer."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import axe_playwright_python
+import pytest
+from playwright.sync_api import Browser, Page, Route, expect
+
+from lsys_kit.classroom.course import course_files
+from lsys_kit.classroom.site.build import build_site
+from tests.browser.test_lessons import move_every_slider
+
+pytestmark = pytest.mark.slow
+AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
+PAGES = ["index.html", *(name.replace(".ipynb", ".html") for name in course_files() if name.endswith(".ipynb"))]
+LESSONS = [name for name in PAGES if name.startswith("notebooks/") and "reference" not in name]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    build_site(folder)
+    return folder
+
+
+@pytest.fixture
+def opened(browser: Browser, site: Path) -> Iterator[Callable[..., Page]]:
+    """Opens a page from its file; whatever else it asks for, or complains of, is a fault."""
+    asked: list[str] = []
+    faults: list[str] = []
+    contexts = []
+
+    def files_only(route: Route) -> None:
+        asked.append(route.request.url)
+        if route.request.url.startswith("file:"):
+            route.continue_()
+        else:
+            route.abort()
+
+    def open_one(name: str, **choices) -> Page:
+        contexts.append(browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **choices}))
+        page = contexts[-1].new_page()
+        page.route("**/*", files_only)
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.on("console", lambda message: faults.append(message.text))
+        page.goto((site / name).as_uri())
+        return page
+
+    yield open_one
+    for context in contexts:
+        context.close()
+    assert faults == []
+    assert all(url.startswith(site.as_uri()) for url in asked)
+
+
+def all_parts_open(page: Page) -> None:
+    """Every part is in its place, but for those that a prediction still hides."""
+    expect(page.locator("[data-part]:not([data-open]):not([data-answer] *)")).to_have_count(0)
+
+
+def shot(page: Page, name: str, config: pytest.Config) -> None:
+    folder = config.getoption("screenshots")
+    if folder:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        page.screenshot(path=Path(folder) / f"site-{name.replace('/', '-')}.png", full_page=True)
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_a_lesson_is_worked_through_without_a_kernel(opened, pytestconfig, name: str) -> None:
+    page = opened(name)
+    all_parts_open(page)
+    answer_predictions(page)
+    cast_votes(page)
+    check_tables(page)
+    panels = page.locator(".part .lsys-panel:not(.lsys-both .lsys-panel)")
+    assert panels.count()
+    for place in range(panels.count()):
+        expect(panels.nth(place).locator("canvas[data-drawn]").first).to_be_visible()
+        move_every_slider(panels.nth(place))
+    shot(page, name, pytestconfig)
+
+
+def answer_predictions(page: Page) -> None:
+    """Type something for the first prediction, and ask to see all others; only then is the answer there."""
+    asked = page.get_by_role("region", name="prediction")
+    for place in range(asked.count()):
+        shown = page.locator(".part-prediction").nth(place).locator("[data-answer]")
+        expect(shown).to_have_count(0)
+        if place:
+            asked.nth(place).get_by_role("button", name="I have no idea, show me").click()
+        else:
+            asked.nth(place).get_by_role("textbox").fill("21")
+            asked.nth(place).get_by_role("button", name="Show", exact=True).click()
+            expect(asked.nth(place).get_by_role("status")).to_have_text("You said: 21")
+        expect(shown).to_be_visible()
+
+
+def cast_votes(page: Page) -> None:
+    """Vote for the first option, and for the second at the end, which is replied to."""
+    for place, said in enumerate(("Your vote, A, is kept.", "ight.")):
+        box = page.get_by_role("region", name="vote")
+        if box.count() > place:
+            box.nth(place).get_by_role("button").nth(place).click()
+            expect(box.nth(place).get_by_role("status")).to_contain_text(said)
+    if page.get_by_role("region", name="vote").count() > 1:
+        expect(page.get_by_role("region", name="vote").nth(1)).to_contain_text("Your first vote was A.")
+
+
+def check_tables(page: Page) -> None:
+    """Fill each table with what is hardly right, and let it be checked."""
+    sheets = page.get_by_role("region", name="table to fill")
+    for place in range(sheets.count()):
+        sheets.nth(place).get_by_role("textbox").first.fill("no idea")
+        sheets.nth(place).get_by_role("button", name="Check").click()
+        expect(sheets.nth(place).get_by_role("status")).to_contain_text("Look again at row")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_fits_a_phone_and_axe_finds_nothing_serious(opened, pytestconfig, name: str, scheme: str) -> None:
+    page = opened(name, viewport={"width": 400, "height": 800}, color_scheme=scheme, has_touch=True)
+    all_parts_open(page)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+    assert page.evaluate("document.documentElement.lang") == "en"
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = page.evaluate("""async () => (await axe.run()).violations
+        .filter(({ impact }) => impact === "critical" || impact === "serious")
+        .map((each) => [each.id, ...each.nodes.slice(0, 3).map((node) => node.html.slice(0, 200))])""")
+    assert found == [], json.dumps(found, indent=1)
+    shot(page, f"{name}-{scheme}", pytestconfig)
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_headings_are_in_order_and_links_lead_to_what_is_there(opened, site: Path, name: str) -> None:
+    page = opened(name, java_script_enabled=False)
+    levels = [int(each) for each in page.locator("h1, h2, h3, h4, h5").evaluate_all("found => found.map(each => each.tagName[1])")]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in zip(levels, levels[1:], strict=False))
+    for link in page.locator("a").evaluate_all("found => found.map(each => each.getAttribute('href'))"):
+        file, _, place = link.partition("#")
+        target = (site / name).parent / file if file else site / name
+        assert target.is_file(), link
+        if place:
+            assert f'id="{place}"' in target.read_text("utf-8"), link
+
+
+def test_a_page_is_left_by_keys_and_its_skip_link_leads_to_the_text(opened) -> None:
+    page = opened(LESSONS[0])
+    all_parts_open(page)
+    page.keyboard.press("Tab")
+    expect(page.locator(".skip")).to_be_focused()
+    page.keyboard.press("Enter")
+    assert page.url.endswith("#main")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.querySelector('main').contains(document.activeElement)")
+
+
+def test_without_scripts_every_question_can_be_read_and_every_answer_opened(opened) -> None:
+    page = opened(LESSONS[0], java_script_enabled=False)
+    predictions = page.locator(".part-prediction details")
+    for place in range(predictions.count()):
+        expect(predictions.nth(place).locator("[data-answer]")).to_be_hidden()
+        predictions.nth(place).locator("summary").click()
+        expect(predictions.nth(place).locator("[data-answer]")).to_be_visible()
+    for part in page.locator(".part").all():
+        assert part.inner_text().strip()

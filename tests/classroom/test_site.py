@@ -1,0 +1,246 @@
+"""The course as static pages: what stands in them, where their links lead, and that nothing else of the user's is touched."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import re
+from pathlib import Path
+
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output, writes
+from playwright.sync_api import Browser
+
+from lsys_kit import LSystemError, ModelFileError, compare, explore, predict, vote, worksheet
+from lsys_kit.classroom.lessons.declared import declared, names
+from lsys_kit.classroom.lessons.worksheet import marked, summary
+from lsys_kit.classroom.site.build import build_site
+from lsys_kit.classroom.site.cells import cells_html, title_of
+from lsys_kit.classroom.site.markdown import address_on_site, markdown_html, mathml
+from lsys_kit.classroom.site.pages import Entry, index_page, notebook_page
+from lsys_kit.classroom.site.showing import PART, part
+from tests.classroom.front_end import joined
+from tests.classroom.test_page import Parts
+from tests.test_hostile_names import HOSTILE
+
+LESSON, EXERCISES, OTHER = "notebooks/01_all_at_once.ipynb", "exercises/01_all_at_once.ipynb", "notebooks/02_more.ipynb"
+ENTRIES = [Entry(LESSON, "All at once", declared("01_all_at_once")), Entry(OTHER, "More & more"), Entry(EXERCISES, "Exercises")]
+
+
+def plain(text: str) -> str:
+    return markdown_html(text, lambda address: address)
+
+
+def ran(source: str, widget: object = None):
+    """A code cell as it is after a run for the site."""
+    data = part(widget) if widget is not None else {"text/plain": "1"}
+    return new_code_cell(source, outputs=[new_output("execute_result", data)])
+
+
+def ran_prediction(question: str, widget: object):
+    """A prediction as it is after such a run: what answers it is a part, too."""
+    data = part(predict(question, "..."))
+    data[PART]["answer"] = part(widget)
+    return new_code_cell("predict()", outputs=[new_output("execute_result", data)])
+
+
+def lesson_page() -> str:
+    cells = [new_markdown_cell("# All at once\n\n[try](../exercises/01_all_at_once.ipynb), [gone](99.ipynb)"),
+             ran('vote("01")', vote("01")), ran("explore('J4')", explore("J4")), ran_prediction("Why?", explore("K5", 2)),
+             ran("compare('P2', 'P3')", compare("P2", "P3")), ran("w", worksheet("01", "counts")),
+             ran('vote("01", again=True)', vote("01", again=True))]
+    return notebook_page(ENTRIES[0], cells, ENTRIES)
+
+
+# --- Markdown ---------------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("text", HOSTILE, ids=ascii)
+def test_no_text_of_a_notebook_becomes_markup(text: str) -> None:
+    allowed = {"p", "h1", "h2", "em", "strong", "code", "pre", "ul", "ol", "li", "table", "thead", "tbody", "tr", "th", "td", "div",
+               "a", "br", "blockquote", "hr", "details", "summary", "sup", "sub", "math", "mi", "mn", "mo", "mrow", "mfrac"}
+    assert set(Parts(f"<main>{plain(f'A {text} B')}</main>").tags) <= allowed | {"main"}
+
+
+@pytest.mark.parametrize("text", ["<script>x</script>", "<img src=x onerror=y>", "<sup onclick=x>a</sup>", "<details open>",
+                                  "![a picture](https://example.org/a.png)"])
+def test_of_html_only_plain_tags_pass(text: str) -> None:
+    for written in (text, f"Look: {text}"):
+        assert not re.search(r"<(script|img|sup|details)", plain(written))
+
+
+def test_a_folded_answer_stays_folded_and_its_markdown_is_read() -> None:
+    found = plain("<details><summary>Answer</summary>\n\nIt has **3** cells, x<sup>2</sup>.\n\n</details>")
+    assert "<details><summary>Answer</summary>" in found
+    assert "<p>It has <strong>3</strong> cells, x<sup>2</sup>.</p>" in found
+
+
+def test_formulas_are_mathml_without_an_address() -> None:
+    found = plain("so $N(t) = x^{t-A}$, and\n\n$$1 = x^{-A} + x^{-B}.$$")
+    assert found.count("<math") == 2
+    assert 'display="block"' in found
+    assert "$" not in found
+    assert "://" not in found
+
+
+def test_a_formula_that_cannot_be_read_stays_as_it_is_written() -> None:
+    assert mathml(r"\frac{") == r"<code>\frac{</code>"
+
+
+def test_a_bar_in_a_table_is_a_bar() -> None:
+    assert "<code>|</code>" in plain("| a | b |\n|---|---|\n| `\\|` | c |")
+
+
+@pytest.mark.parametrize(("address", "leads"), [
+    ("#Summary", "#Summary"), ("02_more.ipynb", "02_more.html"), ("../exercises/01_all_at_once.ipynb", "../exercises/01_all_at_once.html"),
+    ("02_more.ipynb#A-place", "02_more.html#A-place"), ("03_not_there.ipynb", None), ("https://example.org", None),
+    ("javascript:alert(1)", None), ("teacher/01_all_at_once.md", None), ("../../../etc/passwd", None)])
+def test_links_lead_to_pages_of_the_site_or_nowhere(address: str, leads: str | None) -> None:
+    assert address_on_site(LESSON, {each.name for each in ENTRIES}, address) == leads
+
+
+# --- pages ------------------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("text", [lesson_page(), index_page(ENTRIES)], ids=["lesson", "index"])
+def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(text: str) -> None:
+    parts = Parts(text)
+    policy = next(value for _, value in parts.attributes if value and value.startswith("default-src 'none'"))
+    assert "unsafe-eval" not in policy
+    assert ("script-src 'sha256-" in policy) == ("<script" in text)
+    assert not [name for name, _ in parts.attributes if name.startswith("on")]
+    links = [value for name, value in parts.attributes if name in ("href", "src", "action")]
+    assert all(re.match(r"data:|#|[\w./]+\.html$", link or "") for link in links), links
+    assert "teacher" not in text
+    assert text.encode().find(b"lsys-kit") < 4_096
+
+
+def test_each_part_has_its_place_and_its_data() -> None:
+    text = lesson_page()
+    places = re.findall(r'data-part="(\d+)"', text)
+    kinds = [each["kind"] for each in json.loads(Parts(text).inside["script"][0])["parts"]]
+    assert sorted(map(int, places)) == list(range(len(kinds)))
+    assert kinds == ["vote", "panel", "prediction", "panel", "comparison", "worksheet", "vote"]
+
+
+def test_code_that_gives_an_answer_away_is_folded() -> None:
+    shown = cells_html([ran("predict('Why?', 'Because.')", predict("Why?", "Because."))], lambda each: each, [])
+    assert shown.index("Code of this cell") < shown.index("Because.&#x27;")
+    assert shown.index("<summary>Why?") < shown.index("Because.")
+
+
+def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
+    cells = [new_markdown_cell("# Exercises"), ran("from lsys_kit import check"), new_markdown_cell("## 1.1 By hand"),
+             ran('answer = ...\ncheck("1.1", answer)'), ran("draw(system('K5'))")]
+    text = notebook_page(ENTRIES[2], cells, ENTRIES)
+    assert "check(" not in text
+    assert "lsys-kit lab" in text
+    assert "draw(" in text
+    assert '<a class="also" href="../notebooks/01_all_at_once.html">' in text
+
+
+def test_pages_lead_on_and_back() -> None:
+    text = lesson_page()
+    for link in ('href="../index.html"', 'class="after" href="02_more.html"', 'class="also" href="../exercises/01_all_at_once.html"',
+                 '<a href="../exercises/01_all_at_once.html">try</a>', ", gone"):
+        assert link in text
+    assert 'class="before"' not in text
+
+
+def test_the_first_page_has_each_lesson_with_what_it_asks_and_how_long_it_takes() -> None:
+    text = index_page(ENTRIES)
+    for said in ("All at once", "who is wrong?", "50 minutes", "More &amp; more", 'href="exercises/01_all_at_once.html"'):
+        assert said in text
+
+
+def test_the_title_is_the_first_heading() -> None:
+    assert title_of([new_markdown_cell("text\n\n# The *K5* `plant`\n\n# Not this")], "x") == "The K5 plant"
+
+
+# --- tables without a kernel --------------------------------------------------------------------------------------------------
+
+TYPED = ["", " ", "2", " 2 ", "4/2", "2.0", "02", "+2", "-2", "−2", "2,0", "200%", "200 %", "1,000", "2/0", "al br", "AL  Br", "1.5",
+         "1.618", "1.62", "x" * 201, "1e3", "٢", "5*5", "5 * 5", "no", "½", "1,5", "12,345.5"]
+CELLS = [(["2"], "0"), (["-2", "two"], "0"), (["25", "5*5"], "0"), (["1.618"], "0.001"), (["al br"], "0"), (["1000"], "0"),
+         (["12345.5"], "1/2"), (["1/2"], "1%"), (["no", "none"], "0")]
+
+
+def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> None:
+    from lsys_kit.classroom.lessons.answers import is_right
+
+    tab = browser.new_page()
+    cases = [[typed, *cell] for typed, cell in itertools.product(TYPED, CELLS) if typed != "٢"]
+    found = tab.evaluate(f"cases => {{ {joined('checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases)
+    assert found == [is_right(*case) for case in cases]
+    assert len(set(found)) == 2
+    tab.close()
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_page_says_of_a_table_what_the_kernel_says(browser: Browser, name: str) -> None:
+    tab = browser.new_page()
+    for table in declared(name).tables:
+        right = [blank.right[0] for _, _, blank in table.blanks]
+        data = worksheet(name[:2], table.id).page_data
+        for entries in (right, right[:1], [], ["?", *right[1:]], [*right[:-1], "?"], ["?"] * len(right)):
+            found = tab.evaluate(f"([data, entries]) => {{ {joined('prose', 'checking')}\nreturn checked(data, entries); }}", [data, entries])
+            padded = [*entries, *[""] * (len(right) - len(entries))]
+            marks = marked(table, padded)
+            assert found == {"marks": marks, "text": summary(table, marks)}
+    tab.close()
+
+
+# --- files --------------------------------------------------------------------------------------------------------------------
+
+@pytest.fixture
+def course(tmp_path: Path) -> Path:
+    """A course of one lesson, one exercise and one reference."""
+    home = tmp_path / "kit"
+    for name, source in ((LESSON, "from lsys_kit import *\n\nexplore('J1', 3)"), (EXERCISES, "check(1)"),
+                         ("notebooks/reference/notation.ipynb", "print('read')")):
+        (home / name).parent.mkdir(parents=True, exist_ok=True)
+        (home / name).write_text(writes(new_notebook(cells=[new_markdown_cell("# Title"), new_code_cell(source)])))
+    return home
+
+
+@pytest.mark.slow
+def test_a_site_is_built_twice_and_each_page_is_the_same(course: Path, tmp_path: Path) -> None:
+    (tmp_path / "site").mkdir()
+    (tmp_path / "site" / "mine.txt").write_text("mine")
+    pages = build_site(tmp_path / "site", course)
+    assert [str(page.relative_to(tmp_path / "site")) for page in pages] == [
+        "index.html", "notebooks/01_all_at_once.html", "exercises/01_all_at_once.html", "notebooks/reference/notation.html"]
+    texts = [page.read_text("utf-8") for page in pages]
+    assert '"kind":"panel"' in texts[1]
+    assert "<pre>read</pre>" in texts[3]
+    assert [page.read_text("utf-8") for page in build_site(tmp_path / "site", course)] == texts
+    assert (tmp_path / "site" / "mine.txt").read_text() == "mine"
+
+
+def test_nothing_is_run_where_a_page_would_replace_what_is_not_the_kits(course: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "site" / "notebooks" / "01_all_at_once.html"
+    mine.parent.mkdir(parents=True)
+    mine.write_text("mine")
+    with pytest.raises(ModelFileError, match="not made by the kit"):
+        build_site(tmp_path / "site", course)
+    assert mine.read_text() == "mine"
+    assert not (tmp_path / "site" / "index.html").exists()
+
+
+def test_a_folder_that_is_a_file_is_no_folder(course: Path, tmp_path: Path) -> None:
+    (tmp_path / "site").write_text("mine")
+    with pytest.raises(ModelFileError, match="cannot be written"):
+        build_site(tmp_path / "site", course)
+
+
+@pytest.mark.slow
+def test_a_cell_that_fails_is_said_with_its_lesson(course: Path, tmp_path: Path) -> None:
+    (course / OTHER).write_text(writes(new_notebook(cells=[new_markdown_cell("# Title"), new_code_cell("1 / 0")])))
+    with pytest.raises(LSystemError, match=r"A cell of notebooks/02_more\.ipynb fails: ZeroDivisionError"):
+        build_site(tmp_path / "site", course)
+
+
+def test_the_teachers_pages_are_not_on_the_site(course: Path) -> None:
+    from lsys_kit.classroom.course import course_files
+
+    (course / "notebooks" / "teacher").mkdir()
+    (course / "notebooks" / "teacher" / "01_all_at_once.ipynb").write_text("{}")
+    assert not [name for name in course_files(course) if "teacher" in name]
