@@ -61,7 +61,7 @@ def markdown_html(text: str, links: Links) -> str:
     renderer = Renderer(escape=True)
     read = mistune.create_markdown(renderer=renderer, plugins=["table", "math"])
     renderer.register("inline_math", lambda _, text: mathml(text))
-    renderer.register("block_math", lambda _, text: f"<div class=\"formula\">{mathml(text, 'block')}</div>\n")
+    renderer.register("block_math", lambda _, text: f"<div class=\"formula\" tabindex=\"0\">{mathml(text, 'block')}</div>\n")
     renderer.register("table", lambda _, text: f'<div class="scroll" tabindex="0"><table>\n{text}</table></div>\n')
     renderer.register("table_cell", _table_cell)
     return str(read(text))
