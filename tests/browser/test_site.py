@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from html import unescape
+from itertools import pairwise
 from pathlib import Path
+from urllib.parse import unquote
 
 import axe_playwright_python
 import pytest
@@ -137,16 +140,17 @@ def test_a_page_fits_a_phone_and_axe_finds_nothing_serious(opened, pytestconfig,
 @pytest.mark.parametrize("name", PAGES)
 def test_headings_are_in_order_and_links_lead_to_what_is_there(opened, site: Path, name: str) -> None:
     page = opened(name, java_script_enabled=False)
-    levels = [int(each) for each in page.locator("h1, h2, h3, h4, h5").evaluate_all("found => found.map(each => each.tagName[1])")]
+    tags = page.locator("h1, h2, h3, h4, h5").evaluate_all("found => found.map(each => each.tagName)")
+    levels = [int(tag[1]) for tag in tags]
     assert levels[0] == 1
     assert levels.count(1) == 1
-    assert all(after <= before + 1 for before, after in zip(levels, levels[1:], strict=False))
+    assert all(after <= before + 1 for before, after in pairwise(levels))
     for link in page.locator("a").evaluate_all("found => found.map(each => each.getAttribute('href'))"):
         file, _, place = link.partition("#")
         target = (site / name).parent / file if file else site / name
         assert target.is_file(), link
         if place:
-            assert f'id="{place}"' in target.read_text("utf-8"), link
+            assert f'id="{unquote(place)}"' in unescape(target.read_text("utf-8")), link
 
 
 def test_a_page_is_left_by_keys_and_its_skip_link_leads_to_the_text(opened) -> None:

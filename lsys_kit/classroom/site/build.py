@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from tqdm import tqdm
 
@@ -53,7 +54,7 @@ def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ..
     return tuple(places.values())
 
 
-def _run(files: Mapping[str, Path], stored: Mapping[str, object]) -> Iterator[tuple[str, object]]:
+def _run(files: Mapping[str, Path], stored: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     """The notebooks: exercises as they are stored, all others run; how many are done is shown."""
     exercises = {name for name in files if name.startswith("exercises/")}
     with tqdm(total=len(files), desc="pages", unit="page") as bar:
@@ -71,7 +72,8 @@ def _make_room(folder: Path, places: Mapping[str, Path]) -> None:
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
         except OSError as fault:
-            raise ModelFileError(f'The site cannot be written to "{quotable(str(folder))}": {fault.strerror or fault}') from None
+            name = quotable(str(folder))
+            raise ModelFileError(f'The site cannot be written to "{name}": {fault.strerror or fault}') from None
         if os.path.lexists(place) and not made_by_the_kit(place):
             raise ModelFileError(f'"{quotable(str(place))}" is there already, and was not made by the kit',
                                  hint="It would be lost: choose another folder, or delete it first.")

@@ -20,13 +20,13 @@ from lsys_kit.pictures.style.labels import escaped
 INDEX = "index.html"
 COURSE = "L-systems: a course"
 """The title of the first page."""
-_KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change rules and
-code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is right stands in
-it, and is no secret.</p>
+_KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change
+rules and code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is
+right stands in it, and is no secret.</p>
 """
-_ALL_KEPT = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and tables are
-answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it opens the course in
-Jupyter.</p>
+_ALL_KEPT = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
+tables are answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it
+opens the course in Jupyter.</p>
 """
 _HOW = """<div class="note"><p><strong>How to answer.</strong> Type <code>lsys-kit lab</code>, and open <code>{name}</code> in
 JupyterLab. There is a cell below each question for the answer, which is checked when the cell is run, with hints after a
@@ -94,8 +94,8 @@ def index_page(entries: Sequence[Entry]) -> str:
     body = f"""<a class="skip" href="#main">Skip to the lessons</a>
 <main id="main" class="index">
 <h1>{COURSE}</h1>
-<p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict, look, move a
-slider, change a rule.</p>
+<p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
+look, move a slider, change a rule.</p>
 {_ALL_KEPT}
 <h2 id="lessons">Lessons</h2>
 <p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>

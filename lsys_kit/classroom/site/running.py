@@ -53,8 +53,9 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
         if stopped is not None and stopped.is_set():
             raise KeyboardInterrupt
 
-    client = nbclient.NotebookClient(notebook, timeout=SECONDS, kernel_name="python3", store_widget_state=False, extra_arguments=["--log-level=ERROR"],
-                                     on_cell_start=unless_stopped, resources={"metadata": {"path": str(path.parent)}})
+    client = nbclient.NotebookClient(
+        notebook, timeout=SECONDS, kernel_name="python3", store_widget_state=False, extra_arguments=["--log-level=ERROR"],
+        on_cell_start=unless_stopped, resources={"metadata": {"path": str(path.parent)}})
     try:
         client.execute(env={**os.environ, "TQDM_DISABLE": "1"})
     except nbclient.exceptions.CellExecutionError as failed:
