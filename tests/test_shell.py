@@ -567,3 +567,14 @@ def test_the_lab_without_jupyterlab_says_how_to_get_it(shell, monkeypatch, tmp_p
     assert said.status == BAD_INPUT
     assert "pip install 'lsys-kit[lab]'" in said.err
     assert "The course is in" in said.out
+
+
+# --- the site ---------------------------------------------------------------------------------------------------------
+
+def test_a_site_is_not_written_over_what_is_not_the_kits(shell, tmp_path):
+    (tmp_path / "index.html").write_text("mine")
+    said = shell("site", "-o", str(tmp_path))
+    assert said.status == BAD_INPUT
+    assert "index.html" in said.err
+    assert "was not made by the kit" in said.err
+    assert (tmp_path / "index.html").read_text() == "mine"
