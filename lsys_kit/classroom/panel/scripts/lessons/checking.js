@@ -64,5 +64,5 @@ function summary(sheet, marks) {
 function placeOf({ columns, rows }, number) {
   const places = rows.flatMap((cells) => cells.flatMap((cell, column) => (cell === null ? [[cells[0], column]] : [])));
   const [row, column] = places[number];
-  return `row ${row}, ${plain(columns[column])}`;
+  return `row ${plain(row)}, ${plain(columns[column])}`;
 }
