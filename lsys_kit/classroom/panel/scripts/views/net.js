@@ -4,7 +4,7 @@ import { drawn } from "./controls.js";
 import { fillColour, lineColour } from "../drawing/colours.js";
 import { onKey, onMouse } from "./keys.js";
 
-const LEGIBLE = 0.82; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
+const LEGIBLE = { terms: 0.82, labels: 0.65 }; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
 
 // `chosen` learns of the place that was clicked, `pointed` of the one that the mouse is on, or of -1.
@@ -14,10 +14,12 @@ export function netView(parent, chosen, pointed) {
   function open(next, theme) {
     net = next;
     places = new Map();
+    const least = leastScale(net), needed = `${Math.round(least * net.width)}px`;
     const sheet = drawn("svg", {
-      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group", style: `min-width:${Math.round(LEGIBLE * net.width)}px;min-height:${Math.round(LEGIBLE * net.height)}px`,
-      "aria-label": net.description,
+      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group",
+      style: `min-width:${needed};min-height:${Math.round(least * net.height)}px`, "aria-label": net.description,
     });
+    parent.closest(".lsys-view").style.setProperty("--lsys-needed", needed);
     for (const place of net.places) sheet.append(stage(place, theme));
     for (const arc of net.arcs) sheet.append(
       drawn("path", { class: "lsys-band", d: arc.band }), drawn("path", { class: "lsys-arc", d: arc.path }), drawn("path", { d: arc.head, class: "lsys-head" }));
@@ -74,6 +76,11 @@ export function netView(parent, chosen, pointed) {
   }
 
   return { open, fill, light };
+}
+
+function leastScale({ places, bars, notes, besides }) {
+  const small = notes.length || besides.length || bars.some((bar) => bar.terms) || places.some((place) => place.subscript);
+  return small ? LEGIBLE.terms : LEGIBLE.labels;
 }
 
 function tspans({ letter, subscript, values }) {
