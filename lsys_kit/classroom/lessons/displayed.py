@@ -13,7 +13,7 @@ from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.pictures.style.labels import escaped
 
 _IMAGES: Mapping[str, str] = {"image/svg+xml": "svg+xml", "image/png": "png", "image/jpeg": "jpeg"}
-_STYLE = "line-height:1.4;overflow-x:auto;margin:4px 0"
+_STYLE = "line-height:1.4;overflow-x:auto;margin:4px 0;white-space:pre-wrap;word-break:normal;overflow-wrap:anywhere"
 
 
 def media(what: object) -> dict[str, Any]:

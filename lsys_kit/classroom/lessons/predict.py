@@ -83,7 +83,7 @@ class Prediction(VBox):  # type: ignore[misc]
         self.prompt, self._what = Prompt(question=question), what
         self._media, self._shown = media(what), tuple[Any, ...]()
         forget_figure(what)
-        super().__init__([self.prompt])
+        super().__init__([self.prompt], _dom_classes=("lsys-prediction",))
         self.prompt.observe(self._reveal, "revealed")
 
     def _reveal(self, _: object) -> None:
