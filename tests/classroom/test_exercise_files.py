@@ -8,6 +8,7 @@ from lsys_kit import ModelFileError, check, exercises
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.exercises import session
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
+from lsys_kit.classroom.exercises.keys import KEYS
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from tests.exercise_guide import GUIDE, with_table
@@ -59,6 +60,18 @@ def test_a_good_file_has_no_problems(folder):
     ('steps = 6', 'steps = "6"', 14, '"steps" must be a whole number'),
     ('steps = 6', 'step = 6', 14, 'There is no key "step". Did you mean "steps"?'),
     ('asks = "length"', 'asks = "matrix"', 13, 'This kind cannot ask "matrix". It can ask: length'),
+    ('asks = "length"', 'asks = "first step without s"', 13,
+     'This kind cannot ask "first step without s". It can ask: length, "count a", strokes, "first step past 1000".'),
+    ('asks = "length"', 'asks = "first"', 13, 'This kind cannot ask "first"'),
+    ('asks = "length"', 'asks = "count"', 13, 'This kind cannot ask "count"'),
+    ('asks = "length"', 'asks = "length 3"', 13, 'This kind cannot ask "length 3"'),
+    ('steps = 6', 'at = [6]', 14, 'A question of the kind "number" has no "at". Write steps = ...'),
+    ('steps = 6', 'steps = 10001', 14, '"steps" must be a whole number up to 10,000'),
+    ('steps = 6', 'steps = 0', 15, "The system gives another answer: 1."),
+    ('a -> ab\\nb -> a"', 'a -> aaaaaa"\nconstants = { a = "1/0" }', 13, '"constants" must be a table'),
+    ('a -> ab\\nb -> a"\nasks = "length"\nsteps = 6', 'a -> aaaaaa"\nasks = "length"\nsteps = 9999', 15,
+     "The system gives another answer: a number too long to write down"),
+    ('solution = "21"', 'solution = "21"\ntolerance = "s"', 16, '"tolerance" must be a number'),
     ('solution = "21"', 'solution = "22"', 15, "The system gives another answer: 21"),
     ('solution = "21"', 'solution = "many"', 15, '"solution" cannot be read'),
     ('solution = "21"\n', '', 6, '"solution" is missing'),
@@ -82,6 +95,18 @@ def test_a_mistake_is_told_with_file_line_and_what_to_try(folder, was, becomes, 
     (folder / "good.toml").write_text(GOOD.replace(was, becomes), encoding="utf-8")
     found = [str(problem) for problem in problems_in(folder)]
     assert any(says in problem and f"good.toml, line {line}" in problem for problem in found), found
+
+
+@pytest.mark.parametrize(("successor", "solution", "said"), [
+    ("ab", "abaab", []), ("a[b]", "a[b][a][a[b]]", ['"word reversed" yields no wrong answer here'])])
+def test_a_word_with_brackets_is_not_read_backwards(folder, successor, solution, said):
+    text = GOOD[:GOOD.index("[[exercise.slips]]")]
+    for was, becomes in (('"number"', '"word"'), ('asks = "length"\nsteps = 6', "steps = 3"), ('["sequential"]', '["word reversed"]'),
+                         ("a -> ab", f"a -> {successor}"), ('"21"', f'"{solution}"')):
+        assert was in text
+        text = text.replace(was, becomes)
+    (folder / "good.toml").write_text(text, encoding="utf-8")
+    assert [problem.what for problem in problems_in(folder)] == said
 
 
 def test_a_duplicate_id_is_an_error_that_names_both_places(folder):
@@ -157,18 +182,34 @@ def test_the_guide_lists_every_misconception():
     assert GUIDE.read_text(encoding="utf-8") == with_table(GUIDE.read_text(encoding="utf-8"))
 
 
-def test_the_examples_of_the_guide_are_read(tmp_path):
-    text = GUIDE.read_text(encoding="utf-8")
-    blocks = re.findall(r"```toml\nkind = .*?```", text, re.DOTALL)
-    assert len(blocks) == 9
-    for number, block in enumerate(blocks):
-        body = block.removeprefix("```toml\n").removesuffix("```")
-        common = f'id = "g.{number}"\ntitle = "t"\nquestion = "?"\nexplanation = "e"\nhints = ["x", "y", "z"]\nobjective = 1\n'
-        head, tables = [*body.split("[[", 1), ""][:2]
-        more = f"[[{tables}" if tables else ""
-        top = 'title = "t"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\n'
-        (tmp_path / "guide.toml").write_text(top + common + head + more, encoding="utf-8")
-        assert [str(problem) for problem in problems_in(tmp_path)] == [], block
+EXAMPLES = re.findall(r"```toml\n(kind = .*?)```", GUIDE.read_text(encoding="utf-8"), re.DOTALL)
+TOP = 'title = "t"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\n'
+COMMON = 'id = "g.1"\ntitle = "t"\nquestion = "?"\nexplanation = "e"\nhints = ["x", "y", "z"]\nobjective = 1\n'
+ODD = ('""', '"s"', '"first"', '"count "', '"lengths 3"', '"\\u0000"', '"((("', '"1/0"', '-1', '0', '1.5', 'inf', 'nan', '10000',
+       '99999999999999999999999', '[]', '[1]', '[-1]', '["s"]', '[[]]', '{}', '{ a = 1 }', '{ a = "1/0" }', '{ a = ["x"] }',
+       '[{}]', '[{ a = "x" }]', 'true', '1979-05-27', '"J1"', '"axiom: a"')
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_the_examples_of_the_guide_are_read(tmp_path, example):
+    (tmp_path / "guide.toml").write_text(TOP + COMMON + example, encoding="utf-8")
+    assert [str(problem) for problem in problems_in(tmp_path)] == []
+
+
+def test_the_guide_has_an_example_of_each_form():
+    assert len(EXAMPLES) == 9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_no_value_of_any_key_stops_the_check(tmp_path, example):
+    head, *tables = (COMMON + example).split("[[", 1)
+    for key in KEYS:
+        others = "".join(line for line in head.splitlines(keepends=True) if not line.startswith(f"{key} ="))
+        for value in ODD:
+            rest = "".join(f"[[{each}" for each in tables if not each.startswith(f"exercise.{key}"))
+            (tmp_path / "odd.toml").write_text(f"{TOP}{key} = {value}\n{others}{rest}", encoding="utf-8")
+            assert all(problem.file == "odd.toml" and problem.line for problem in problems_in(tmp_path)), (key, value)
 
 
 def test_every_misconception_is_a_clause_and_a_sentence():

@@ -5,6 +5,7 @@ The right answer and the answers that misconceptions lead to are computed by the
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -77,7 +78,7 @@ class History:
 
     def values(self, exercise: Exercise, steps: int) -> list[int]:
         """The number that is asked for, at each of the steps 0 to `steps`."""
-        last = steps + self.offset
+        last = max(steps + self.offset, 0)
         what, _, symbol = exercise.asks.partition(" ")
         symbol = symbol if what in ("count", "counts") else ""
         if what == "strokes":
@@ -198,6 +199,22 @@ ASKED_OF_KIND: Mapping[str, tuple[str, ...]] = {
     "drawing": ("drawing",),
 }
 """What each kind may ask; a word, words, a net and a drawing need not say it."""
+MORE_ASKED: Mapping[str, tuple[str, str]] = {
+    "count": (r" \S+", "count a"),
+    "counts": (r"( \S+)?", "counts a"),
+    "first": (r" step past \d[\d,]{0,30}", "first step past 1000"),
+}
+"""For the first words of `asks` that more follows: its form, and an example."""
+
+
+def is_asked_in_full(asks: str) -> bool:
+    """Whether all that `asks` says can be understood.
+
+    >>> is_asked_in_full("first step past 1,000"), is_asked_in_full("first step without a"), is_asked_in_full("length 3")
+    (True, False, False)
+    """
+    what = asks.partition(" ")[0]
+    return what in ASKED and re.fullmatch(re.escape(what) + MORE_ASKED.get(what, ("", ""))[0], asks) is not None
 
 
 def what_is_asked(exercise: Exercise) -> str:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import MISSING, dataclass, fields
 from typing import Any
 
-from lsys_kit.classroom.exercises.asked import ASKED_OF_KIND
+from lsys_kit.classroom.exercises.asked import ASKED_OF_KIND, MORE_ASKED, is_asked_in_full
 from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.derivation.core.rules import number_from
-from lsys_kit.errors import quotable
+from lsys_kit.errors import LSystemError, quotable
 from lsys_kit.notation.analysis.checks import suggestion
 
+MOST_STEPS = 10_000
+"""The last step that a question may ask for."""
 _TABLE_LINE = re.compile(r"^\s*\[\[\s*exercise(?:\.(slips|options))?\s*\]\]")
 
 
@@ -84,15 +87,21 @@ def _is_count(value: object) -> bool:
     return isinstance(value, int) and not isinstance(value, bool) and value >= 0
 
 
+def _is_step(value: object) -> bool:
+    return isinstance(value, int) and _is_count(value) and value <= MOST_STEPS
+
+
 def _is_number(value: object) -> bool:
-    return isinstance(value, int | float | str) and not isinstance(value, bool)
+    with suppress(LSystemError):
+        return isinstance(value, int | float | str) and not isinstance(value, bool) and number_from(value) is not None
+    return False
 
 
 def _is_values(value: object) -> bool:
     return isinstance(value, dict) and all(map(_is_number, value.values()))
 
 
-_KEYS: Mapping[str, tuple[Callable[[object], bool], str]] = {
+KEYS: Mapping[str, tuple[Callable[[object], bool], str]] = {
     **dict.fromkeys(
         (
             "id",
@@ -113,8 +122,9 @@ _KEYS: Mapping[str, tuple[Callable[[object], bool], str]] = {
         (_is_text, 'a text, as "..."'),
     ),
     **dict.fromkeys(("hints", "expects", "unlikely", "symbols", "probes"), (_is_texts, 'a list of texts, as ["...", "..."]')),
-    **dict.fromkeys(("objective", "steps"), (_is_count, "a whole number")),
-    "at": (lambda value: isinstance(value, list) and all(map(_is_count, value)), "a list of whole numbers"),
+    "objective": (_is_count, "a whole number"),
+    "steps": (_is_step, f"a whole number up to {MOST_STEPS:,}"),
+    "at": (lambda value: isinstance(value, list) and all(map(_is_step, value)), f"a list of whole numbers up to {MOST_STEPS:,}"),
     "tolerance": (_is_number, "a number"),
     "drawn": (lambda value: isinstance(value, bool), "true or false"),
     "constants": (_is_values, "a table, as { name = 1 }"),
@@ -173,10 +183,10 @@ def exercise_problems(source: Source, number: int, declared: object) -> Iterator
         if key not in declared:
             yield problem(key, f'"{key}" is missing', f"Write {key} = ...")
     for key, value in declared.items():
-        if key not in _KEYS:
-            yield problem(key, f'There is no key "{quotable(key)}"', suggestion(key, _KEYS))
-        elif not _KEYS[key][0](value):
-            yield problem(key, f'"{key}" must be {_KEYS[key][1]}')
+        if key not in KEYS:
+            yield problem(key, f'There is no key "{quotable(key)}"', suggestion(key, KEYS))
+        elif not KEYS[key][0](value):
+            yield problem(key, f'"{key}" must be {KEYS[key][1]}')
         elif key in _NAMED and value not in _NAMED[key]:
             yield problem(
                 key,
@@ -188,13 +198,19 @@ def exercise_problems(source: Source, number: int, declared: object) -> Iterator
                 yield problem(key, f'There is no misconception "{quotable(unknown)}"', suggestion(unknown, MISCONCEPTIONS))
     yield from _part_problems(problem, declared, "slips", Slip, ("answer",))
     yield from _part_problems(problem, declared, "options", Option, ("text",))
-    asked = ASKED_OF_KIND.get(str(declared.get("kind")), ())
-    if "asks" in declared and str(declared["asks"]).partition(" ")[0] not in asked:
-        yield problem(
-            "asks", f'This kind cannot ask "{quotable(str(declared["asks"]))}"', f"It can ask: {', '.join(asked) or 'nothing'}."
-        )
+    yield from _asked_problems(problem, declared)
+
+
+def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]) -> Iterator[Problem]:
+    kind, asks = str(declared.get("kind")), str(declared.get("asks", ""))
+    asked = ASKED_OF_KIND.get(kind, ())
+    if "asks" in declared and (asks.partition(" ")[0] not in asked or not is_asked_in_full(asks)):
+        forms = (f'"{MORE_ASKED[each][1]}"' if each in MORE_ASKED else each for each in asked)
+        yield problem("asks", f'This kind cannot ask "{quotable(asks)}"', f"It can ask: {', '.join(forms) or 'nothing'}.")
     if "asks" in declared and "system" not in declared:
         yield problem("asks", '"asks" needs a "system"')
+    if "at" in declared and kind not in ("table", "words"):
+        yield problem("at", f'A question of the kind "{quotable(kind)}" has no "at"', "Write steps = ..., the step that is asked for.")
 
 
 def _part_problems(

@@ -116,6 +116,7 @@ def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
         "system": lambda: exercise.system and asked_system(exercise),
         "given": lambda: exercise.given and read(exercise.given),
         "solution": lambda: judged(exercise, exercise.solution),
+        "steps": lambda: what_is_asked(exercise) and answer_by(exercise, right_history(exercise)),
     }
     for key, read_it in readers.items():
         try:
@@ -126,7 +127,10 @@ def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
 
 
 def _short(answer: object) -> str:
-    text = " ".join(map(str, answer)) if isinstance(answer, tuple) else str(answer)
+    try:
+        text = " ".join(map(str, answer)) if isinstance(answer, tuple) else str(answer)
+    except ValueError:  # Python writes no whole number of more than 4,300 digits
+        return "a number too long to write down"
     return text if len(text) <= 80 else f"{text[:80]}..."
 
 

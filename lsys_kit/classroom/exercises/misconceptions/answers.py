@@ -32,7 +32,7 @@ from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.rewriting import WrongStep, words_by
 from lsys_kit.classroom.exercises.misconceptions.systems import is_sensible
 from lsys_kit.derivation.core.states import States
-from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.derive import derive
 
@@ -166,8 +166,9 @@ def transposed(exercise: Exercise) -> Iterator[tuple[object, ...]]:
 
 
 def backwards(solution: Sequence[Any]) -> Iterator[tuple[Any, ...]]:
-    """A row from its end to its beginning."""
-    yield tuple(reversed(solution))
+    """A row from its end to its beginning; none of a word with brackets, which read backwards close nothing."""
+    if not any(isinstance(each, Module) and each.symbol in OPENING | CLOSING for each in solution):
+        yield tuple(reversed(solution))
 
 
 def never(_: Exercise) -> Iterator[Any]:

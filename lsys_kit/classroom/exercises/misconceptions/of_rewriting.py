@@ -136,7 +136,7 @@ OF_REWRITING = (
     ),
     Misconception(
         "word reversed",
-        "kinds word and table",
+        "kind table; kind word without brackets",
         "write it from right to left",
         "It is read from left to right.",
         together(by_solutions("word", backwards), by_solutions("table", backwards)),
