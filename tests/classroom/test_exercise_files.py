@@ -65,7 +65,7 @@ def test_a_good_file_has_no_problems(folder):
     ('asks = "length"', 'asks = "first"', 13, 'This kind cannot ask "first"'),
     ('asks = "length"', 'asks = "count"', 13, 'This kind cannot ask "count"'),
     ('asks = "length"', 'asks = "length 3"', 13, 'This kind cannot ask "length 3"'),
-    ('steps = 6', 'at = [6]', 14, 'A question of the kind "number" has no "at". Write steps = ...'),
+    ('steps = 6', 'at = [6]', 14, 'The kind "number" has no "at". Write steps = ...'),
     ('steps = 6', 'steps = 10001', 14, '"steps" must be a whole number up to 10,000'),
     ('steps = 6', 'steps = 0', 15, "The system gives another answer: 1."),
     ('a -> ab\\nb -> a"', 'a -> aaaaaa"\nconstants = { a = "1/0" }', 13, '"constants" must be a table'),
@@ -101,8 +101,8 @@ def test_a_mistake_is_told_with_file_line_and_what_to_try(folder, was, becomes, 
     ("ab", "abaab", []), ("a[b]", "a[b][a][a[b]]", ['"word reversed" yields no wrong answer here'])])
 def test_a_word_with_brackets_is_not_read_backwards(folder, successor, solution, said):
     text = GOOD[:GOOD.index("[[exercise.slips]]")]
-    for was, becomes in (('"number"', '"word"'), ('asks = "length"\nsteps = 6', "steps = 3"), ('["sequential"]', '["word reversed"]'),
-                         ("a -> ab", f"a -> {successor}"), ('"21"', f'"{solution}"')):
+    for was, becomes in (('"number"', '"word"'), ('asks = "length"\nsteps = 6', "steps = 3"),
+                         ('["sequential"]', '["word reversed"]'), ("a -> ab", f"a -> {successor}"), ('"21"', f'"{solution}"')):
         assert was in text
         text = text.replace(was, becomes)
     (folder / "good.toml").write_text(text, encoding="utf-8")
@@ -185,9 +185,9 @@ def test_the_guide_lists_every_misconception():
 EXAMPLES = re.findall(r"```toml\n(kind = .*?)```", GUIDE.read_text(encoding="utf-8"), re.DOTALL)
 TOP = 'title = "t"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\n'
 COMMON = 'id = "g.1"\ntitle = "t"\nquestion = "?"\nexplanation = "e"\nhints = ["x", "y", "z"]\nobjective = 1\n'
-ODD = ('""', '"s"', '"first"', '"count "', '"lengths 3"', '"\\u0000"', '"((("', '"1/0"', '-1', '0', '1.5', 'inf', 'nan', '10000',
-       '99999999999999999999999', '[]', '[1]', '[-1]', '["s"]', '[[]]', '{}', '{ a = 1 }', '{ a = "1/0" }', '{ a = ["x"] }',
-       '[{}]', '[{ a = "x" }]', 'true', '1979-05-27', '"J1"', '"axiom: a"')
+ODD = ('""', '"s"', '"first"', '"count "', '"lengths 3"', '"\\u0000"', '"((("', '"1/0"', '-1', '0', '1.5', 'inf', 'nan',
+       '10000', '99999999999999999999999', '[]', '[1]', '[-1]', '["s"]', '[[]]', '{}', '{ a = 1 }', '{ a = "1/0" }',
+       '{ a = ["x"] }', '[{}]', '[{ a = "x" }]', 'true', '1979-05-27', '"J1"', '"axiom: a"')
 
 
 @pytest.mark.parametrize("example", EXAMPLES)

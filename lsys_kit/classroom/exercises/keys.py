@@ -124,7 +124,10 @@ KEYS: Mapping[str, tuple[Callable[[object], bool], str]] = {
     **dict.fromkeys(("hints", "expects", "unlikely", "symbols", "probes"), (_is_texts, 'a list of texts, as ["...", "..."]')),
     "objective": (_is_count, "a whole number"),
     "steps": (_is_step, f"a whole number up to {MOST_STEPS:,}"),
-    "at": (lambda value: isinstance(value, list) and all(map(_is_step, value)), f"a list of whole numbers up to {MOST_STEPS:,}"),
+    "at": (
+        lambda value: isinstance(value, list) and all(map(_is_step, value)),
+        f"a list of whole numbers up to {MOST_STEPS:,}",
+    ),
     "tolerance": (_is_number, "a number"),
     "drawn": (lambda value: isinstance(value, bool), "true or false"),
     "constants": (_is_values, "a table, as { name = 1 }"),
@@ -210,7 +213,7 @@ def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]
     if "asks" in declared and "system" not in declared:
         yield problem("asks", '"asks" needs a "system"')
     if "at" in declared and kind not in ("table", "words"):
-        yield problem("at", f'A question of the kind "{quotable(kind)}" has no "at"', "Write steps = ..., the step that is asked for.")
+        yield problem("at", f'The kind "{quotable(kind)}" has no "at"', "Write steps = ..., the step that is asked for.")
 
 
 def _part_problems(
