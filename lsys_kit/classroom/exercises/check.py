@@ -65,9 +65,13 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     >>> check("1.1")
     Not answered yet. Replace the ... with your word, as a text in quotation marks.
     """
-    asked = exercise_of(exercise)
+    return checked(exercise_of(exercise), answer, hint, solution, f'check("{exercise.strip()}", answer')
+
+
+def checked(asked: Exercise, answer: object, hint: object, solution: object, call: str) -> Verdict:
+    """The verdict on an answer to an exercise, which is asked for by a call that begins so."""
     require(solution, bool, 'True or False for "solution"')
-    hints = _hints(asked, hint)
+    hints = _hints(asked, hint, call)
     if _untouched(asked, answer):
         after = " Hints and the solution are shown after a try." if solution or hints else ""
         return Verdict("Not answered yet", f"Replace the ... with your {ANSWER_KINDS[asked.kind].what}.{after}")
@@ -116,13 +120,13 @@ def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     return judged(exercise, answer)
 
 
-def _hints(exercise: Exercise, number: object) -> list[str]:
+def _hints(exercise: Exercise, number: object, call: str) -> list[str]:
     """The hints up to one, as lines."""
     most = len(exercise.hints)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number <= most:
         raise ModelValueError(f"Exercise {exercise.id} has the hints 1 to {most}")
     shown = [f"Hint {at} of {most}: {hint}" for at, hint in enumerate(exercise.hints[:number], 1)]
-    more = [f'One more: check("{exercise.id}", answer, hint={number + 1}).'] if 0 < number < most else []
+    more = [f"One more: {call}, hint={number + 1})."] if 0 < number < most else []
     return [*shown, *more]
 
 

@@ -73,6 +73,28 @@ def _declared(exercise: Exercise) -> Iterator[WrongAnswer]:
 
 
 def _computed(exercise: Exercise) -> Iterator[WrongAnswer]:
+    for misconception, answer, right in _yielded(exercise):
+        if not right:
+            yield WrongAnswer(answer, misconception, near=misconception.near)
+
+
+def right_by_mistake(exercise: Exercise) -> tuple[str, ...]:
+    """The misconceptions that are looked for in an exercise and yield the right answer: it does not uncover them.
+
+    >>> squares = Exercise("1", "", "number", "", "4", "", (), system="axiom: a\\na -> aa", asks="length", steps=2)
+    >>> right_by_mistake(squares)[:3]
+    ('sequential', 'one production a step', 'branches kept')
+    """
+    return tuple(dict.fromkeys(misconception.name for misconception, _, right in _yielded(exercise) if right))
+
+
+@lru_cache(maxsize=512)
+def _yielded(exercise: Exercise) -> tuple[tuple[Misconception, Any, bool], ...]:
+    """The answers that misconceptions yield, and whether they are right."""
+    return tuple(_each_yielded(exercise))
+
+
+def _each_yielded(exercise: Exercise) -> Iterator[tuple[Misconception, Any, bool]]:
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     started = time.process_time()
     for misconception in MISCONCEPTIONS.values():
@@ -84,8 +106,8 @@ def _computed(exercise: Exercise) -> Iterator[WrongAnswer]:
                 if answer is None or any(_alike(exercise, answer, other) for other in found):
                     continue
                 found.append(answer)
-                if not kind.same(exercise, answer, solution) and not _alike(exercise, answer, solution):
-                    yield WrongAnswer(answer, misconception, near=misconception.near)
+                right = kind.same(exercise, answer, solution) or _alike(exercise, answer, solution)
+                yield misconception, answer, right
                 if len(found) >= MOST_ANSWERS:
                     break
 

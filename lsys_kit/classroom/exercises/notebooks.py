@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 from lsys_kit.classroom.exercises.check import check
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
-from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.session import exercises
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
@@ -83,20 +83,9 @@ def _introduction(lesson: Lesson) -> str:
 
 def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
     name = f"exercise-{exercise.id.replace('.', '-')}"
-    yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}{_shown_below(exercise)}")
+    yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}{listing(exercise)}")
     yield _code(f"{name}-answer", f'answer = {_template(exercise)}\ncheck("{exercise.id}", answer)', check(exercise.id))
     yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # hints 1 to {len(exercise.hints)}')
-
-
-def _shown_below(exercise: Exercise) -> str:
-    """The options of a choice, or the numbered lines of a program."""
-    if exercise.options:
-        return "\n\n" + "\n".join(f"- **{letter}** {option.text}" for letter, option in
-                                  zip(letters(exercise), exercise.options, strict=True))
-    if exercise.kind == "line":
-        lines = exercise.text.strip("\n").splitlines()
-        return "\n\n" + "\n".join(f"    {number:2}  {line}" for number, line in enumerate(lines, 1))
-    return ""
 
 
 def _template(exercise: Exercise) -> str:

@@ -18,6 +18,21 @@ def letters(exercise: Exercise) -> str:
     return ascii_uppercase[: len(exercise.options)]
 
 
+def listing(exercise: Exercise) -> str:
+    """What stands below a question, in Markdown: the options of a choice, or the numbered lines of a program.
+
+    >>> listing(Exercise("1", "", "line", "", "2", "", (), text="a\\nb")).splitlines()[2:]
+    ['     1  a', '     2  b']
+    """
+    if exercise.options:
+        options = zip(letters(exercise), exercise.options, strict=True)
+        return "\n\n" + "\n".join(f"- **{letter}** {option.text}" for letter, option in options)
+    if exercise.kind == "line":
+        lines = exercise.text.strip("\n").splitlines()
+        return "\n\n" + "\n".join(f"    {number:2}  {line}" for number, line in enumerate(lines, 1))
+    return ""
+
+
 def _plain(text: str) -> str:
     return " ".join(text.replace("`", "").split()).strip(".\"'").casefold()
 
