@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lsys_kit.budget import limits
     from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
+    from lsys_kit.classroom.exercises.practice.practice import practice
     from lsys_kit.classroom.exercises.session import exercises
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.vote import vote
@@ -71,7 +72,7 @@ _HOMES = {
     "growth": "derivation.growth.growth", "infer": "derivation.inference.infer", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
-    "predict": "classroom.lessons.predict", "qr_code": "pictures.qr_codes",
+    "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict", "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
     "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
@@ -111,6 +112,7 @@ __all__ = [
     "map_systems",
     "plot",
     "pnml",
+    "practice",
     "predict",
     "qr_code",
     "read",

@@ -1,0 +1,88 @@
+"""What the makers of practice exercises share: random systems, and how a question shows them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from random import Random
+from typing import TypeAlias
+
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.notation.read import read
+from lsys_kit.worlds.derive import derive
+
+Rules: TypeAlias = Mapping[str, Sequence[str]]
+"""For each letter what it becomes."""
+OF_OVERLAPS = ("all matches applied", "first match overlooked")
+OF_ORDER = ("daughters reversed", "plus and minus swapped", "pen up")
+OF_PICTURES = ("angle between strokes", "angle of the whole fork")
+OF_SILENT_LETTERS, OF_BRANCHES = ("letters vanish",), ("branches kept", "brackets dropped")
+"""Misconceptions that change nothing where productions do not overlap, where order does not count, where nothing is drawn,
+where every letter has a production, where there are no branches."""
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A kind of exercises that are made at random.
+
+    Attributes
+    ----------
+    title
+        What is practised.
+    lesson
+        The number of the lesson that it goes with.
+    draft
+        From a source of chance and a level to an exercise, which may be too easy, or None if there is none.
+    """
+
+    title: str
+    lesson: int
+    draft: Callable[[Random, int], Exercise | None]
+
+
+def random_rules(chance: Random, letters: Sequence[str], longest: int) -> Rules:
+    """A production for each letter, with 1 to `longest` letters.
+
+    >>> random_rules(Random(1), "ab", 2)
+    {'a': ['a'], 'b': ['a', 'b']}
+    """
+    return {letter: [chance.choice(letters) for _ in range(chance.randint(1, longest))] for letter in letters}
+
+
+def rules_text(rules: Rules) -> str:
+    """Productions in the kit's notation.
+
+    >>> rules_text({"a": ["a", "b"]})
+    'a -> a b'
+    """
+    return "\n".join(f"{letter} -> {' '.join(successor)}" for letter, successor in rules.items())
+
+
+def system_text(axiom: str, rules: Rules) -> str:
+    """A system in the kit's notation."""
+    return f"axiom: {axiom}\n{rules_text(rules)}"
+
+
+def quoted_lines(text: str) -> str:
+    """A listing in a question, as Markdown."""
+    return "\n\n" + "\n".join(f"    {line}" for line in text.splitlines()) + "\n\n"
+
+
+def words_of(system: str, steps: int) -> list[str]:
+    """The words of a system, as texts."""
+    return [str(word) for word in derive(read(system), steps)]
+
+
+def size_of(word: str) -> int:
+    """How many modules are written in a word.
+
+    >>> size_of("A(1)B(2)"), size_of("a b"), size_of("F[+F]")
+    (2, 2, 5)
+    """
+    return sum(map(len, re.sub(r"\([^)]*\)", "", word).split()))
+
+
+def derivation_text(words: Sequence[str]) -> str:
+    """Words with their steps, for an explanation."""
+    return "Step by step:\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
