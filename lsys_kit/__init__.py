@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
     from lsys_kit.classroom.exercises.practice.practice import practice
+    from lsys_kit.classroom.exercises.scores import score
     from lsys_kit.classroom.exercises.session import exercises
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.vote import vote
@@ -74,7 +75,7 @@ _HOMES = {
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict", "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
-    "stages": "derivation.petri.stages",
+    "score": "classroom.exercises.scores", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
     "variants": "classroom.variants", "vote": "classroom.lessons.vote", "worksheet": "classroom.lessons.worksheet",
     "write": "notation.write",
@@ -118,6 +119,7 @@ __all__ = [
     "read",
     "read_cellwork",
     "read_map",
+    "score",
     "stages",
     "sweep",
     "system",

@@ -52,7 +52,7 @@ AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "animate": lambda: (GROWING, 1), "check": lambda: ("1.1", "al"), "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
     "derive": lambda: (GROWING, 1), "exercises": tuple,
-    "practice": lambda: ("derive", 1, 1), "draw": lambda: (GROWING, 1), "draw_hierarchy": tuple,
+    "practice": lambda: ("derive", 1, 1), "score": lambda: ("1.1",), "draw": lambda: (GROWING, 1), "draw_hierarchy": tuple,
     "cellwork_system": lambda: ("K33",), "compare": lambda: (GROWING, GROWING), "link": lambda: (GROWING, {"step": 1}),
     "linked": lambda: (link(GROWING),), "qr_code": lambda: ("text",), "variants": lambda: (GROWING, 2),
     "cellwork_systems": tuple, "read_cellwork": lambda: (str(cellwork_system("K33")),),

@@ -14,6 +14,7 @@ from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
+from lsys_kit.classroom.exercises.scores import keep_score
 from lsys_kit.classroom.exercises.session import exercise_of
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, require
@@ -65,7 +66,10 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     >>> check("1.1")
     Not answered yet. Replace the ... with your word, as a text in quotation marks.
     """
-    return checked(exercise_of(exercise), answer, hint, solution, f'check("{exercise.strip()}", answer')
+    asked = exercise_of(exercise)
+    verdict = checked(asked, answer, hint, solution, f'check("{asked.id}", answer')
+    keep_score(asked.id, verdict)
+    return verdict
 
 
 def checked(asked: Exercise, answer: object, hint: object, solution: object, call: str) -> Verdict:

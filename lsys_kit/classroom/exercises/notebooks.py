@@ -7,6 +7,7 @@ on every machine. `python -m lsys_kit.classroom.exercises.notebooks exercises` w
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -28,6 +29,13 @@ answer is a cell for hints, which come after a try: remove its first `#` and run
 `check("{id}", answer, solution=True)` shows the solution.
 
 The answers come with the kit, where anybody can find them. This is a self-check, not an examination."""
+
+
+_MARKS = """\
+## For a class
+
+Where answers are marked with nbgrader, each cell below gives the score of one exercise, from 0 to 1. Whoever learns alone does
+not need them."""
 
 
 def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
@@ -72,6 +80,8 @@ def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
     yield _markdown("summary", f"## Summary\n\n{lesson.summary}\n\n[Back to the lesson](../notebooks/{lesson.name}.ipynb)")
+    yield _markdown("marks", _MARKS)
+    yield from map(_score_cell, lesson.exercises)
 
 
 def _introduction(lesson: Lesson) -> str:
@@ -86,6 +96,19 @@ def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
     yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}{listing(exercise)}")
     yield _code(f"{name}-answer", f'answer = {_template(exercise)}\ncheck("{exercise.id}", answer)', check(exercise.id))
     yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # hints 1 to {len(exercise.hints)}')
+
+
+def _score_cell(exercise: Exercise) -> NotebookCell:
+    """A locked cell that nbgrader takes a point from, or part of it (nbgrader's metadata of cells, version 3).
+
+    The cells for answers are not declared as solutions: nbgrader would put a text of its own in the place of their templates.
+    """
+    name = f"score-{re.sub('[^A-Za-z0-9_-]', '-', exercise.id)}"
+    cell = _code(name, f'from lsys_kit import score\n\nscore("{exercise.id}")')
+    graded = {"schema_version": 3, "grade_id": name, "grade": True, "points": 1, "locked": True, "solution": False,
+              "task": False}
+    shown = {"data": {"text/plain": ["0.0"]}, "execution_count": None, "metadata": {}, "output_type": "execute_result"}
+    return {**cell, "metadata": {"nbgrader": graded}, "outputs": [shown]}
 
 
 def _template(exercise: Exercise) -> str:
