@@ -156,7 +156,8 @@ def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> No
         if chance.random() < 0.5 and hasattr(type(result), attribute):
             told.append(f".{attribute}")
             getattr(result, attribute)
-    for method in METHODS:
+    own = type(result).__module__.startswith("lsys_kit")  # matplotlib's axes have methods of the same names
+    for method in METHODS if own else ():
         if chance.random() < 0.3 and callable(getattr(type(result), method, None)):
             value = chance.choice((*range(6), *EXTREME))
             if method == "save":
