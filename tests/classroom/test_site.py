@@ -150,7 +150,7 @@ def test_pages_lead_on_and_back() -> None:
 
 def test_the_first_page_has_each_lesson_with_what_it_asks_and_how_long_it_takes() -> None:
     text = index_page(ENTRIES)
-    for said in ("All at once", "who is wrong?", "50 minutes", "More &amp; more", 'href="exercises/01_all_at_once.html"'):
+    for said in ("All at once", "who is right?", "50 minutes", "More &amp; more", 'href="exercises/01_all_at_once.html"'):
         assert said in text
 
 
