@@ -571,9 +571,10 @@ def test_the_lab_without_jupyterlab_says_how_to_get_it(shell, monkeypatch, tmp_p
 
 # --- the site ---------------------------------------------------------------------------------------------------------
 
-def test_a_site_is_not_written_over_what_is_not_the_kits(shell, tmp_path):
+def test_a_site_is_not_written_over_what_is_not_the_kits(shell, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # a message names no long path in full
     (tmp_path / "index.html").write_text("mine")
-    said = shell("site", "-o", str(tmp_path))
+    said = shell("site", "-o", ".")
     assert said.status == BAD_INPUT
     assert "index.html" in said.err
     assert "was not made by the kit" in said.err

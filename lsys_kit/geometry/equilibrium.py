@@ -33,6 +33,8 @@ MOST_NEWTON_STEPS = 12
 """Newton's method doubles the number of right digits in a step: from three of them on it needs three or four steps."""
 FARTHEST_STEP = 0.05
 """Newton's method goes no farther than this in a step, so that it finds the equilibrium that is near and no other."""
+MOST_ENTRIES = 4_000_000
+"""A cell of n walls fills so many as (2 n)^2 entries of the matrix: Newton's method is not for cells of thousands of walls."""
 STEADYING = 1e-9
 """The stiffness that is added in all directions, since no force keeps a map as a whole from being moved and turned."""
 
@@ -88,6 +90,8 @@ def equilibrium(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES)
 
 def _balanced(points: Floats, tissue: Tissue, forces: Forces) -> Floats | None:
     """The positions near some others where all forces balance (Newton's method), or None if they are not found."""
+    if np.sum((2 * tissue.sizes.astype(np.float64)) ** 2) > MOST_ENTRIES:
+        return None
     push, room = _push(points, tissue, forces)
     for _ in range(MOST_NEWTON_STEPS):
         size = np.abs(push).max()
