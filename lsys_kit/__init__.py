@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
     from lsys_kit.classroom.exercises.practice.practice import practice
+    from lsys_kit.classroom.exercises.registry import exercises
     from lsys_kit.classroom.exercises.scores import score
-    from lsys_kit.classroom.exercises.session import exercises
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.vote import vote
     from lsys_kit.classroom.lessons.worksheet import worksheet
@@ -68,7 +68,7 @@ _HOMES = {
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "draw_hierarchy": "pictures.hierarchy",
     "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
-    "exercises": "classroom.exercises.session",
+    "exercises": "classroom.exercises.registry",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth.growth", "infer": "derivation.inference.infer", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",

@@ -6,7 +6,7 @@ import pytest
 
 from lsys_kit import ModelFileError, check, exercises
 from lsys_kit.__main__ import main
-from lsys_kit.classroom.exercises import session
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.keys import KEYS
 from lsys_kit.classroom.exercises.lint import problems_in
@@ -42,7 +42,7 @@ says = "Not that many."
 @pytest.fixture(autouse=True)
 def no_other_folder(monkeypatch):
     """What a test adds to the session is gone after it."""
-    monkeypatch.setattr(session, "_added", {})
+    monkeypatch.setattr(registry, "_added", {})
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from lsys_kit.classroom.exercises.keys import Problem, Source
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
-from lsys_kit.classroom.exercises.session import kit_questions
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
 

@@ -17,7 +17,7 @@ from lsys_kit.classroom.exercises.check import check
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import listing
-from lsys_kit.classroom.exercises.session import exercises
+from lsys_kit.classroom.exercises.registry import exercises
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
 
@@ -41,7 +41,7 @@ not need them."""
 def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
     """The notebook of a lesson's exercises, as the text of its file; `folder` has their questions, if these are not the kit's.
 
-    >>> from lsys_kit.classroom.exercises.session import lessons
+    >>> from lsys_kit.classroom.exercises.registry import lessons
     >>> json.loads(exercise_notebook(lessons()[0]))["cells"][1]["source"]
     ['from lsys_kit import check']
     """
