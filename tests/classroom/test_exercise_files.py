@@ -41,7 +41,7 @@ says = "Not that many."
 
 @pytest.fixture(autouse=True)
 def no_other_folder(monkeypatch):
-    """What a test adds to the session is gone after it."""
+    """What a test adds is gone after it."""
     monkeypatch.setattr(registry, "_added", {})
 
 

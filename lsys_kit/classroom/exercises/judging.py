@@ -22,7 +22,7 @@ NEAR, NEAR_UNKNOWN, RECOGNISED, MOST_UNKNOWN, READABLE = 0.6, 0.5, 0.4, 0.3, 0.0
 MOST_ASKED = 3
 """So many misconceptions at most are asked about."""
 MOST_SECONDS = 8
-"""So long misconceptions are looked for in an exercise, once in a session: enough for all but worlds slow to derive."""
+"""So long misconceptions are looked for in an exercise, once: enough for all but worlds slow to derive."""
 MOST_ANSWERS = 60
 """So many answers of one misconception are tried."""
 

@@ -1,4 +1,4 @@
-"""The exercises of a session: those of the kit, and those of the folders that were added."""
+"""The exercises that `check` knows: those of the kit, and those of the folders that were added."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class ExerciseList(tuple[Exercise, ...]):
 
 
 def exercises(folder: str | Path | None = None) -> ExerciseList:
-    """The exercises there are; with a folder, add those in its files, so that `check` knows them in this session.
+    """The exercises there are; with a folder, add those in its files, so that `check` knows them.
 
     Parameters
     ----------

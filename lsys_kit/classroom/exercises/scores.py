@@ -1,4 +1,4 @@
-"""Scores: what the last check of each exercise in this session gave, for notebooks that are graded."""
+"""Scores: what the last check of each exercise gave, for notebooks that are graded."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def keep_score(exercise: str, verdict: Verdict) -> None:
 
 
 def score(exercise: str) -> float:
-    """The score of the answer to an exercise that was checked last in this session.
+    """The score of the answer to an exercise that was checked last.
 
     Graded notebooks end with a cell `score("1.1")` for each exercise, from which nbgrader takes the points. An answer that
     cannot be run was not checked.
