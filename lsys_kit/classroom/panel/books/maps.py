@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.panel.books.book import FEWEST_STEPS, MOST_BYTES, TIME_FOR_ASKED, packed, sentence
+from lsys_kit.classroom.panel.books.cells import last_held, span
 from lsys_kit.classroom.panel.books.net import net_entry
 from lsys_kit.derivation.maps.development import Development, develop, unmatched_markers
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
@@ -26,7 +26,7 @@ from lsys_kit.geometry.map_layout import equilibria, polygon, tissue
 from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
+from lsys_kit.notation.model.maps import Edge, MapSystem
 from lsys_kit.pictures.maps import STEPS
 from lsys_kit.pictures.style.labels import label_parts
 from lsys_kit.pictures.style.palette import colours
@@ -104,13 +104,8 @@ def _developed(system: MapSystem, asked: int) -> tuple[Sequence[Map], str]:
         if not isinstance(error.partial, Development):
             raise
         found, end = error.partial, sentence(error)
-    walls = accumulate(len(each.walls) for each in found)
-    last = max((step for step, sum in enumerate(walls) if sum <= MOST_UNASKED), default=0)
-    if max(asked, last) < found.steps:
-        last = max(asked, last)
-        return found[:last + 1], (f"The panel ends at step {last}: later maps take long to come to rest. "
-                                  f"The rules may ask for more: steps: {last + 1}")
-    return found[:], end
+    last, early = last_held((len(each.walls) for each in found), asked, MOST_UNASKED, "maps")
+    return found[:last + 1], early or end
 
 
 def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") -> dict[str, Any]:
@@ -143,17 +138,11 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
             "settings": {name: number_text(value) for name, value in settings.items()}, "chance": False,
             "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
             "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],
-            "productions": [{"text": str(rule), "at": _span(rule)} for rule in system.productions],
+            "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
             "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
             **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
             "forces": asdict(found.forces), "first": _flat(polygon(len(system.axiom))), "maps": _pages(found),
             "unknown": [], "said": "".join(unmatched_markers(system, found.maps)).rstrip("."), "growth": None}
-
-
-def _span(rule: EdgeProduction) -> list[int] | None:
-    """Between which offsets of its text a production stands."""
-    last = rule.successor[-1].at
-    return [rule.at[0], last[1]] if rule.at and last else None
 
 
 def _history(found: MapsAtRest, numbers: Mapping[Edge, int]) -> dict[str, Any]:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
 from typing import Any, TypeAlias
 
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.panel.books.book import FEWEST_STEPS, TIME_FOR_ASKED, sentence
+from lsys_kit.classroom.panel.books.cells import last_held
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.derivation.maps.development import Development, develop
@@ -95,13 +95,9 @@ def _developed(system: TissueSystem, asked: int) -> tuple[CellworkDevelopment | 
         if not isinstance(error.partial, CellworkDevelopment | Development):
             raise
         found, end = error.partial, sentence(error)
-    edges, most = accumulate(map(_edges, found)), MOST_UNASKED if isinstance(found, CellworkDevelopment) else MOST_ON_SPHERE
-    last = max((step for step, sum in enumerate(edges) if sum <= most), default=0)
-    if max(asked, last) < found.steps:
-        last = max(asked, last)
-        end = (f"The panel ends at step {last}: later steps take long to come to rest. "
-               f"The rules may ask for more: steps: {last + 1}")
-    return _up_to(found, last), end
+    unasked = MOST_UNASKED if isinstance(found, CellworkDevelopment) else MOST_ON_SPHERE
+    last, early = last_held(map(_edges, found), asked, unasked, "steps")
+    return _up_to(found, last), early or end
 
 
 def _up_to(found: CellworkDevelopment | Development, last: int) -> CellworkDevelopment | Development:

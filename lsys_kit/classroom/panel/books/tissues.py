@@ -16,6 +16,7 @@ import numpy as np
 
 from lsys_kit.budget import Task
 from lsys_kit.classroom.panel.books.book import packed
+from lsys_kit.classroom.panel.books.cells import span
 from lsys_kit.classroom.panel.books.net import net_entry
 from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest
 from lsys_kit.derivation.cellworks.cellwork import CellEdge, Cellwork
@@ -25,8 +26,7 @@ from lsys_kit.geometry.cellwork_layout import solid_tissue
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.sphere_layout import Placed
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.cellworks import CellworkProduction
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
+from lsys_kit.notation.model.maps import Edge, MapSystem
 from lsys_kit.pictures.cellworks import wall_labels
 from lsys_kit.pictures.spheres import kinds_of_cells, wall_arcs
 from lsys_kit.pictures.style.labels import label_parts
@@ -74,7 +74,7 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
             "title": title, "text": system.source, "notation": "map" if isinstance(system, MapSystem) else "cellwork",
             "noun": "cell", "mode": "tissue", "chance": False,
             "settings": {name: number_text(value) for name, value in settings.items()},
-            "productions": [{"text": str(rule), "at": _span(rule)} for rule in system.productions],
+            "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
             "steps": found.last, "end": found.end, "axiom": [], **_cells(found, edges, [*map(str, kinds)]), "net": diagram,
             "tokens": [*_tokens(found, kinds)], "sizes": [*map(size_text, found.steps)],
             "pages": _pages(found, {edge: number for number, edge in enumerate(kinds)}), "unknown": [],
@@ -84,12 +84,6 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
 def _divided(found: TissueAtRest) -> Iterator[bool]:
     """For each step but the first whether there are more cells than before."""
     return (len(after.cells) > len(before.cells) for before, after in pairwise(found.steps))
-
-
-def _span(rule: EdgeProduction | CellworkProduction) -> list[int] | None:
-    """Between which offsets of its text a production stands."""
-    last = rule.successor[-1].at
-    return [rule.at[0], last[1]] if rule.at and last else None
 
 
 def size_text(found: Cellwork | Map) -> str:
