@@ -80,7 +80,8 @@ class MapPicture(SVGPicture):
         counts = zip(self.maps[-1].counts, ("vertex", "wall", "cell"), ("vertices", "walls", "cells"), strict=True)
         last = ", ".join(f"{count:,} {one if count == 1 else many}" for count, one, many in counts)
         if self.step is not None:
-            return described([f"step {self.step} after {', '.join(f'{number:,}' for number in self.numbers)} iterations", last])
+            noun = "iteration" if [*self.numbers] == [1] else "iterations"
+            return described([f"step {self.step} after {', '.join(f'{number:,}' for number in self.numbers)} {noun}", last])
         steps = f"steps {self.numbers[0]} to {self.numbers[-1]}" if len(self.numbers) > 1 else ""
         return described([steps, ("the last: " if steps else "") + last, _unsettled_text(self.unsettled)])
 

@@ -7,7 +7,7 @@ import { sequence, paintSequence, cellAt } from "./filament.js";
 import { rowBetween, strokesBetween } from "./gliding.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
 import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
-import { paintForces } from "./tension.js";
+import { LONGEST_ARROW, paintForces } from "./tension.js";
 import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
 
@@ -18,7 +18,6 @@ const CLICK = 4; // pixels that a pointer may move in a click
 const MOST_GLIDING = 20_000; // modules of a step that is reached on the way
 const GLIDE = 350; // milliseconds from one step to the next
 const BESIDE_ARROWS = 0.27; // how far along a wall its label stands, where in its middle an arrow begins
-const WITH_ARROWS = 0.86; // how much smaller a map is where arrows stand around it
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
@@ -111,7 +110,7 @@ export function drawingView(parent, told) {
     } else {
       const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap() ? relaxed.shapes() : shapes;
       const box = isMap() && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
-      const forces = isMap() && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * WITH_ARROWS : near;
+      const forces = isMap() && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * (1 - (2 * LONGEST_ARROW) / Math.min(width, height)) : near;
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near: scaled, shift, box });
       if (isMap()) paintMap(visible, height, forces);
       else paint(pen, visible, frame, look);

@@ -10,7 +10,8 @@ import { pressuresOf, tensionsOf } from "./relaxation.js";
 export const PULL = "#0072b2";
 export const PUSH = "#d55e00";
 const THINNEST = 1.4, BROADEST = 8, PALEST = 0.6, DASHES = [6, 4]; // pixels, and how strong the colour of the weakest is
-const LONGEST_ARROW = 36, SHORTEST_ARROW = 4, HEAD = 6, SLENDER = 0.45; // pixels
+const ARROW = 36, SHORTEST_ARROW = 4, HEAD = 6, SLENDER = 0.45; // pixels; an arrow is so long where a force is as great as the greatest tension
+export const LONGEST_ARROW = 45;
 
 const known = new WeakMap();
 
@@ -33,7 +34,7 @@ function wallsBetween(tissue) {
 
 export const strongest = (tensions) => tensions.reduce((most, tension) => Math.max(most, Math.abs(tension)), 0);
 
-// Paint the springs, and on them the arrows; `most` is the tension of the broadest wall, and the force of the longest arrow.
+// Paint the springs, and on them the arrows; `most` is the tension of the broadest wall, and the force of an arrow of the usual length.
 export function paintForces(pen, shapes, frame, theme, { tensions, net, most, unit }) {
   const { from, to } = shapes.strokes, arrows = new Path2D(), heads = new Path2D();
   for (let i = 0; i < tensions.length; i++) {
@@ -44,7 +45,7 @@ export function paintForces(pen, shapes, frame, theme, { tensions, net, most, un
     [pen.lineWidth, pen.strokeStyle] = [THINNEST + share * (BROADEST - THINNEST), mixed(colour, theme.paper, PALEST + share * (1 - PALEST))];
     pen.stroke(new Path2D(`M${x} ${y}L${toX} ${toY}`));
     const force = (net[i] * Math.hypot(toX - x, toY - y)) / (frame.scale * unit);
-    addArrow(arrows, heads, [x, y], [toX, toY], (force / most) * LONGEST_ARROW);
+    addArrow(arrows, heads, [x, y], [toX, toY], (force / most) * ARROW);
   }
   pen.setLineDash([]);
   [pen.lineWidth, pen.strokeStyle, pen.fillStyle] = [1.4, theme.ink, theme.ink];
@@ -54,7 +55,7 @@ export function paintForces(pen, shapes, frame, theme, { tensions, net, most, un
 
 // An arrow from the middle of a wall to its left, or to its right if it is negative.
 function addArrow(arrows, heads, [x, y], [toX, toY], wanted) {
-  const size = Math.min(2 * LONGEST_ARROW, Math.abs(wanted)), length = Math.hypot(toX - x, toY - y);
+  const size = Math.min(LONGEST_ARROW, Math.abs(wanted)), length = Math.hypot(toX - x, toY - y);
   if (size < SHORTEST_ARROW || !length) return;
   const way = Math.sign(wanted) / length, right = way * (toY - y), down = -way * (toX - x); // y grows downwards here
   const [cx, cy] = [(x + toX) / 2, (y + toY) / 2], head = Math.min(HEAD, 0.6 * size), neck = size - head;

@@ -5,6 +5,7 @@ import { boundsOf } from "../drawing/painter.js";
 import { relaxation, startOf, tissueOf } from "../drawing/relaxation.js";
 import { forcesOf, PULL, PUSH, strongest } from "../drawing/tension.js";
 import { button, drawn, icon, list, made } from "./controls.js";
+import { counted } from "./word.js";
 
 const SPEEDS = [["1", "slow"], ["4", "normal"], ["20", "fast"]]; // iterations a frame
 const STILLS = 8, STILL = 1000; // with reduced motion so many stills, each shown for so many milliseconds
@@ -71,7 +72,7 @@ export function relaxing(changed) {
 
   function tell() {
     const page = book.data.maps[step], { iteration, farthest, end: ended } = way?.now ?? { iteration: page.iterations, end: page.settled ? "rest" : "unsettled" };
-    said.textContent = (SAID[ended] ?? SAID[""])(iteration.toLocaleString("en"), farthest);
+    said.textContent = (SAID[ended] ?? SAID[""])(iteration, farthest);
     legend.replaceChildren(sample(PULL, ""), ` pulls, at most with ${most.toPrecision(2)}; `, sample(PUSH, "6 4"), " pushes; arrows: the pressure on a wall, or the difference of two");
   }
 
@@ -111,10 +112,10 @@ export function relaxing(changed) {
 }
 
 const SAID = {
-  "": (iteration, farthest) => `iteration ${iteration}${Number.isFinite(farthest) ? `: a point moved by ${farthest.toPrecision(2)}` : ""}`,
-  rest: (iteration) => `at rest after ${iteration} iterations`,
-  unsettled: (iteration) => `does not settle: still moving after ${iteration} iterations`,
-  "blown up": (iteration) => `blows up after ${iteration} iterations: the points fly apart`,
+  "": (iteration, farthest) => `iteration ${iteration.toLocaleString("en")}${Number.isFinite(farthest) ? `: a point moved by ${farthest.toPrecision(2)}` : ""}`,
+  rest: (iteration) => `at rest after ${counted(iteration, "iteration")}`,
+  unsettled: (iteration) => `does not settle: still moving after ${counted(iteration, "iteration")}`,
+  "blown up": (iteration) => `blows up after ${counted(iteration, "iteration")}: the points fly apart`,
 };
 
 const split = (points) => ({ x: points.filter((_, i) => i % 2 === 0), y: points.filter((_, i) => i % 2) });
