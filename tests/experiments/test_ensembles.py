@@ -35,6 +35,12 @@ PLANT = system("K7")
 MODEL = "axiom: F\nF -> F[+F]F : 1/2\nF -> F : 1/2"
 
 
+@pytest.fixture
+def handed_out_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All runs but the first are handed out, however fast the machine is."""
+    monkeypatch.setattr(batches, "FIRST_SECONDS", 0.0)
+
+
 def twigs(derivation: Derivation) -> int:
     """A measure of a person's own."""
     return str(derivation[-1]).count("[")
@@ -134,6 +140,7 @@ class TestRefusals:
             ensemble("K7", 3)  # type: ignore[arg-type]
 
 
+@pytest.mark.usefixtures("handed_out_at_once")
 class TestWhatIsFinished:
     def test_runs_that_pass_a_limit_are_left_out_and_named(self) -> None:
         with limits(modules=100):
@@ -199,6 +206,7 @@ class Broken(Executor):
         return future
 
 
+@pytest.mark.usefixtures("handed_out_at_once")
 class TestWhoeverMakesTheRuns:
     def test_a_batch_takes_about_a_quarter_of_a_second(self) -> None:
         assert batches.batch_size(100_000, 0.0026) * 0.0026 == pytest.approx(batches.BATCH_SECONDS, rel=0.02)
