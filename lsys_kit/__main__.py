@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import NoReturn
 
-from lsys_kit import commands
+from lsys_kit.commands import course, models
 from lsys_kit.errors import LSystemError, printable
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
@@ -69,41 +69,41 @@ def _argument_parser() -> argparse.ArgumentParser:
         added.set_defaults(action=action)
         return added
 
-    command("list", commands.list_systems, "List the systems of the catalogue.")
-    derive = command("derive", commands.print_words, "Print the words of steps 0 to N, one per line.")
+    command("list", models.list_systems, "List the systems of the catalogue.")
+    derive = command("derive", models.print_words, "Print the words of steps 0 to N, one per line.")
     _add_system(derive, steps_needed=True)
     derive.add_argument("--counts", action="store_true", help="print the number of modules of each step instead")
     derive.add_argument("--json", action="store_true", help="print one JSON document")
-    draw = command("draw", commands.draw_word, "Draw the word of step N, or a filament with the steps before it.",
+    draw = command("draw", models.draw_word, "Draw the word of step N, or a filament with the steps before it.",
                    "Example: lsys-kit draw K5 -n 4 -o plant.gif")
     _add_system(draw, steps_needed=False)
     draw.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
     draw.add_argument("-o", "--output", required=True, metavar="FILE",
                       help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng)")
     draw.add_argument("--seconds", default="0.6", help="how long a film shows each step (default: 0.6)")
-    stages = command("stages", commands.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
+    stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
     stages.add_argument("-o", "--output", required=True, metavar="FILE",
                         help="a picture (.svg), or a net for Petri-net tools (.pnml)")
     stages.add_argument("--durations", action="store_true",
                         help="let a transition take a module's life span instead of one step")
-    convert = command("convert", commands.convert, "Print a model in another notation.",
+    convert = command("convert", models.convert, "Print a model in another notation.",
                       "Example: lsys-kit convert K5 --to plant-string -o plant.txt")
     _add_conversion(convert)
-    link = command("link", commands.print_link, "Print a model with its settings as an address, which the other commands read.",
+    link = command("link", models.print_link, "Print a model with its settings as an address, which the other commands read.",
                    "Example: lsys-kit link J4 -n 9 --set lifeTimeA=4 --qr j4.svg")
     _add_link(link)
-    page = command("page", commands.write_page, "Write a page with sliders, which needs neither Python nor a network.",
+    page = command("page", models.write_page, "Write a page with sliders, which needs neither Python nor a network.",
                    "Example: lsys-kit page J4 -n 9 -o j4.html")
     _add_model(page)
     page.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is seen first")
     page.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn at first")
     page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
-    site = command("site", commands.write_site,
+    site = command("site", course.write_site,
                    "Write the course as pages whose panels move, which need neither Python nor a network.",
                    "Example: lsys-kit site -o course")
     site.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the pages")
-    lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
+    lab = command("lab", course.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
     _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks."))
     return parser
@@ -115,12 +115,12 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
     text = "Say what is wrong with the exercises in a folder: in which file and line, and what to try."
     check = parts.add_parser("check", help=text, description=text, allow_abbrev=False)
     check.add_argument("folder", nargs="?", metavar="FOLDER", help="a folder of .toml files (default: those of the kit)")
-    check.set_defaults(action=commands.check_exercises)
+    check.set_defaults(action=course.check_exercises)
     text = "Write a notebook for each file of exercises in a folder."
     write = parts.add_parser("notebooks", help=text, description=text, allow_abbrev=False)
     write.add_argument("folder", metavar="FOLDER", help="a folder of .toml files")
     write.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the notebooks")
-    write.set_defaults(action=commands.write_exercises)
+    write.set_defaults(action=course.write_exercises)
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:

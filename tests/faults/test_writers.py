@@ -39,7 +39,7 @@ WRITERS: dict[str, tuple[Write, Write, tuple[str, ...]]] = {
     "a file": (lambda folder: save_file(folder / "a", b"lsys-kit old"), lambda folder: save_file(folder / "a", b"lsys-kit new"),
                ("files.py",)),
     "a model": (nothing, lambda folder: main(["convert", "K12", "--to", "grogra", "-o", str(folder / "a.txt")]),
-                ("files.py", "commands.py")),
+                ("files.py", "commands/models.py")),
     "the course": (older_course, lambda folder: copy_course(folder / "mine", folder / "kit"),
                    ("files.py", "classroom/course.py")),
     **{ending: (lambda folder, ending=ending: SMALL.save(folder / f"a.{ending}"),  # type: ignore[misc]

@@ -1,26 +1,21 @@
-"""The commands of the shell: what each does with its options, and how it finds the system that they name."""
+"""The commands about a model: its words, pictures, notations and pages."""
 
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import json
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING
 
-from lsys_kit.budget import current
-from lsys_kit.decoding import decoded
-from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
+from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
+from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, quotable
 from lsys_kit.files import create_file
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
-    from lsys_kit.notation.model.cellworks import CellworkSystem
-    from lsys_kit.notation.model.maps import MapSystem
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.films import Film
     from lsys_kit.pictures.picture import Picture
@@ -29,8 +24,6 @@ STEPS = 5
 """The number of steps drawn by default, if the system has none of its own."""
 FILMS = (".gif", ".apng")
 """The suffixes of files with several pictures."""
-MOST_NEIGHBOURS = 1_000
-"""How many files beside a missing one are searched for a similar name."""
 
 
 def list_systems(_: argparse.Namespace) -> None:
@@ -56,7 +49,7 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     from lsys_kit.derivation.core.states import States
     from lsys_kit.derivation.derive import lengths
 
-    system = _system_with_constants(options)
+    system = system_with_constants(options)
     counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).traits.d0l else \
         _derivation(system, options).lengths
     digits = sys.get_int_max_str_digits()
@@ -70,7 +63,7 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
 
 def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     """Each step with its number of modules, and its word."""
-    for step, word in enumerate(_derivation(_system_with_constants(options), options)):
+    for step, word in enumerate(_derivation(system_with_constants(options), options)):
         yield {"step": step, "modules": len(word), "word": str(word)}
 
 
@@ -102,7 +95,7 @@ def draw_word(options: argparse.Namespace) -> None:
         picture.save(options.output)
         print(picture)
         return
-    words = _derivation(_system_with_constants(options), options)
+    words = _derivation(system_with_constants(options), options)
     if Path(options.output).suffix.lower() in FILMS:
         shown: Picture | Film = animate(words, angle=options.angle, seconds=options.seconds)
     else:
@@ -116,7 +109,7 @@ def draw_stages(options: argparse.Namespace) -> None:
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.pictures.draw import draw
 
-    system = _system_with_constants(options)
+    system = system_with_constants(options)
     word = None if options.steps is None else _derivation(system, options)[-1]
     picture = draw(stages(system, durations=options.durations), tokens=word)
     picture.save(options.output)
@@ -127,7 +120,7 @@ def convert(options: argparse.Namespace) -> None:
     """Print a system in another notation, or write it into a new file; the notes of its reader go to the error stream."""
     from lsys_kit.notation.write import write
 
-    system = _named_system(options.system, options.notation, options.name)
+    system = named_system(options.system, options.notation, options.name)
     text = write(system, options.to)
     if options.output is not None:
         _keep(f"{text}\n", options.output)
@@ -141,7 +134,7 @@ def print_link(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.link import link
     from lsys_kit.pictures.qr_codes import qr_code
 
-    system = _system_or_cells(options)
+    system = system_or_cells(options)
     own = {"step": options.steps, "angle": options.angle, "seed": options.seed}
     settings = {name: value for name, value in own.items() if value is not None} | dict(options.settings)
     address = link(system, settings, options.base)
@@ -156,7 +149,7 @@ def write_page(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.panel.opened.opened import Viewing
     from lsys_kit.classroom.panel.page import page, save_page
 
-    system, (id, title) = _system_or_cells(options), _titles(options.system)
+    system, (id, title) = system_or_cells(options), _titles(options.system)
     what, seed = opened(system, id, dict(options.settings)), options.seed or getattr(system, "seed", None) or 0
     first = what.steps if options.steps is None else options.steps
     chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side)
@@ -178,124 +171,6 @@ def _titles(name: str) -> tuple[str, str]:
     return known.id, f"{known.id}: {known.title}"
 
 
-def check_exercises(options: argparse.Namespace) -> None:
-    """Print what is wrong with the exercises in a folder."""
-    from lsys_kit.classroom.exercises.declarations import QUESTIONS
-    from lsys_kit.classroom.exercises.lint import problems_in
-
-    problems = problems_in(options.folder or QUESTIONS)
-    for problem in problems:
-        print(problem)
-    if problems:
-        raise ModelFileError(f"{len(problems)} mistake{'s' * (len(problems) > 1)} in the exercises",
-                             hint="Each line above says where one is and what to try.")
-    print("No mistakes.")
-
-
-def write_exercises(options: argparse.Namespace) -> None:
-    """Write the notebooks of the exercises in a folder."""
-    from lsys_kit.classroom.exercises.notebooks import write_notebooks
-
-    for path in write_notebooks(options.output, options.folder):
-        print(path)
-
-
-def write_site(options: argparse.Namespace) -> None:
-    """Write the course as static pages."""
-    from lsys_kit.classroom.site.build import build_site
-
-    pages = build_site(options.output)
-    print(f"{len(pages)} pages are written. Open {quotable(str(pages[0]))} in a browser.")
-
-
-def open_lab(options: argparse.Namespace) -> None:
-    """Copy the course and open it in JupyterLab."""
-    from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
-
-    folder = Path(options.folder or FOLDER)
-    copied = copy_course(folder)
-    print(copy_report(folder, copied), flush=True)
-    if importlib.util.find_spec("jupyterlab") is None:
-        raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
-    from jupyterlab.labapp import LabApp
-
-    # In a container everybody is root; the server answers this machine alone, and asks for its token.
-    LabApp.launch_instance(["--ServerApp.allow_root=True", f"--ServerApp.root_dir={folder.resolve()}",
-                            f"--LabApp.default_url=/lab/tree/{copied[0].name}"])
-
-
-def _system_with_constants(options: argparse.Namespace) -> LSystem:
-    """The system that the command line names, with its constants set."""
-    from lsys_kit.derivation.core.rules import constants_of, number_from
-    from lsys_kit.notation.model.expressions import Number
-
-    system, values = _named_system(options.system, options.notation, options.name), dict(options.settings)
-    constants_of(system, values)
-    return replace(system, constants=tuple(
-        replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
-        for constant in system.constants))
-
-
-def _system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
-    """The system that the command line names, or the map or cellwork system of the catalogue."""
-    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
-
-    if is_cellwork_system(options.system):
-        return cellwork_system(options.system)
-    return map_system(options.system) if is_map_system(options.system) else \
-        _named_system(options.system, options.notation, options.name)
-
-
-def _named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
-    """The system of a link, or of the catalogue with this id or name; else that in the file of this name, or an entry."""
-    from lsys_kit.classroom.catalogue import system
-    from lsys_kit.notation.fragments import is_link
-    from lsys_kit.notation.read import read
-    from lsys_kit.notation.write import write
-
-    if name == "-":
-        return read(_decoded(sys.stdin.buffer, "the standard input"), notation, entry)
-    if is_link(name):
-        return read(name, notation, entry)
-    try:
-        found = system(name)
-    except ModelNameError:
-        return _system_in(name, notation, entry)
-    if entry is not None:
-        raise ModelValueError(f"{name} is one system of the catalogue", hint="Leave out --name.")
-    if notation is not None:
-        write(found, notation)  # raises an error that says what the notation lacks
-        return replace(found, notation=notation)
-    return found
-
-
-def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
-    """The system in a file; where none can be read, the file's name may hint at another format."""
-    from lsys_kit.notation.foreign import name_hint
-    from lsys_kit.notation.read import read
-
-    text = _file(name)
-    try:
-        return read(text, notation, entry)
-    except LSystemError as error:
-        hint = name_hint(name)
-        if hint and "which the kit does not read" not in error.message:
-            error.with_hint(f"{error.hint or ''} {hint}".strip())
-        raise
-
-
-def _file(name: str) -> str:
-    """The text of a model file."""
-    try:
-        with Path(name).open("rb") as file:
-            return _decoded(file, f'"{quotable(name)}"')
-    except FileNotFoundError:
-        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of that name in the catalogue',
-                             hint=_likely_name(name)) from None
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
-
-
 def _keep(text: str, name: str) -> None:
     """Write a text into a new file."""
     try:
@@ -305,18 +180,3 @@ def _keep(text: str, name: str) -> None:
                              hint="Files are never overwritten: choose another name.") from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
-
-
-def _decoded(file: BinaryIO, name: str) -> str:
-    """The text of a file, up to a little more than a model may have."""
-    most = 4 * current().text + 4
-    return decoded(file.read(most), name, most)
-
-
-def _likely_name(name: str) -> str:
-    """A hint at what was probably meant: a file in the same folder, or a system of the catalogue."""
-    from lsys_kit.classroom.catalogue import likely_system, systems
-
-    folder = Path(name).parent
-    beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []
-    return likely_system(name, beside) or f"Catalogue ids are {', '.join(systems())}."
