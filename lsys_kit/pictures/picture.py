@@ -28,6 +28,7 @@ from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.nets.diagram import drawn_stages
+from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
 
 if TYPE_CHECKING:
@@ -169,7 +170,7 @@ class NetPicture(SVGPicture):
             The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg),
-                             ".pnml": lambda: marked_xml(pnml(self.net, self.tokens))})
+                             ".pnml": lambda: marked_xml(pnml(self.net, self.tokens, positions_in(self.net)))})
 
     def __repr__(self) -> str:
         return unescape(self.svg.split('aria-label="')[1].split('"')[0])

@@ -119,9 +119,9 @@ def test_the_diagram_of_a_book_is_that_of_the_picture(name):
                      *(bar["line"] for bar in diagram["bars"])]
     circles = [tuple(float(circle.attrib[key]) for key in ("cx", "cy", "r")) for circle in root.iter(f"{SVG}circle")]
     assert circles == [(place["x"], place["y"], diagram["radius"]) for place in diagram["places"]]
-    texts = [text for text in root.iter(f"{SVG}text") if text.get("class") in ("note", "besides")]
+    texts = [text for text in root.iter(f"{SVG}text") if text.get("class") in ("note", "footnote")]
     assert [text.text for text in texts] == [*(text for *_, text in diagram["notes"]),
-                                             *(line["text"] for line in diagram["besides"])]
+                                             *(line["text"] for line in diagram["footnotes"])]
     assert root.attrib["aria-label"] == diagram["description"]
     assert [int(root.attrib[key]) for key in ("width", "height")] == [diagram["width"], diagram["height"]]
 
@@ -130,7 +130,7 @@ def test_where_there_is_no_diagram_the_book_says_why():
     rules = "\n".join(f"X < A_{i} -> {' '.join(f'B_{j}' for j in range(30))}" for i in range(30))
     made = book(read(f"axiom: X {' '.join(f'A_{i}' for i in range(30))}\n{rules}"))
     assert made["net"]["places"] == made["net"]["names"] == []
-    assert "900 arcs" in made["net"]["besides"][0]["text"]
+    assert "900 arcs" in made["net"]["footnotes"][0]["text"]
     assert {place for _, _, place, _ in made["states"]} == {-1}
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections import Counter
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import ModelValueError, derive, pnml, read, stages, system, systems, timed
+from lsys_kit import ModelValueError, derive, draw, pnml, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
@@ -148,3 +149,15 @@ def test_the_same_net_gives_the_same_bytes(step: int) -> None:
     net = stages(system("J5"))
     tokens = net.tokens(derive(system("J5"), step)[-1])
     assert pnml(net, tokens) == pnml(stages(system("J5")), tokens)
+
+
+def test_a_saved_net_has_the_places_of_its_picture(tmp_path: Path) -> None:
+    picture = draw(stages(system("J4")))
+    picture.save(tmp_path / "net.pnml")
+    nodes = {node.get("id"): node.find("p:graphics/p:position", NAMESPACE) for node in ET.parse(tmp_path / "net.pnml").iter()}
+    place, transition = nodes["p0"], nodes["t0"]
+    circle = next(ET.fromstring(picture.svg).iter("{http://www.w3.org/2000/svg}circle"))
+    assert place is not None
+    assert transition is not None
+    assert place.attrib == {"x": circle.get("cx"), "y": circle.get("cy")}
+    assert float(transition.attrib["x"]) > float(place.attrib["x"])

@@ -295,7 +295,7 @@ def test_durations_stand_at_the_bars_of_a_timed_net() -> None:
 
 def test_what_no_bar_shows_is_written_below() -> None:
     root = svg_of(stages(system("K26")))
-    below = [t for t in root.iter(f"{SVG}text") if t.get("class") == "besides"]
+    below = [t for t in root.iter(f"{SVG}text") if t.get("class") == "footnote"]
     assert ["".join(t.itertext()) for t in below] == ["besides: meta: f(x,y)f(u,v) : short = 1 -> f(x + u,y + v)"]
     assert "; besides: meta: f(x,y)f(u,v) : short = 1 -> f(x + u,y + v); tokens" in root.attrib["aria-label"]
     assert text_box(below[0])[2] < float(root.attrib["width"])

@@ -18,9 +18,10 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.expressions import Expression, function_of, names_in
+from lsys_kit.notation.model.expressions import Expression, function_of, names_in, sensed_in
 from lsys_kit.notation.model.modules import Item, Module, Pattern, Repeat, flat, joined
-from lsys_kit.notation.model.system import Production
+from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.write import as_written
 
 
 def by_symbol(states: States) -> Stages:
@@ -38,7 +39,7 @@ def by_symbol(states: States) -> Stages:
                 continue  # told besides
             arcs += [Arc(len(transitions), where[target], copies, spots, factor)
                      for target, copies, spots, factor in _products(rule.production.successor, states)]
-            transitions.append(Transition(where[kind], rule.number, _requirements(rule, chance),
+            transitions.append(Transition(where[kind], rule.number, _requirements(rule, chance, states.system),
                                           None if chance == 1 else chance, None, at_once))
     start = Counter(kind_of(states.modules[state]) for state in states.axiom)
     return Stages(system, tuple(Place(symbol, ()) for symbol, _ in kinds), tuple(transitions), tuple(arcs),
@@ -125,16 +126,24 @@ def _factor_text(item: Repeat) -> str:
     return text if text.isidentifier() else f"({text})"
 
 
-def _requirements(rule: Rule, chance: Value | None) -> str:
+def _requirements(rule: Rule, chance: Value | None, system: LSystem) -> str:
     """What a production asks for besides its symbol, as it is written; its weight too, where that is no probability."""
     production = rule.production
     before = f"{joined(map(str, production.left))} < " if production.left else ""
     after = f" > {joined(map(str, production.right))}" if production.right else ""
     named = before or after or any(index < len(production.predecessor.arguments) for index, _ in rule.equalities)
     context = f"{before}{production.predecessor}{after}" if named else ""
-    text = " : ".join(filter(None, (context, "" if production.condition is None else str(production.condition))))
+    text = " : ".join(filter(None, (context, _condition_text(production, system))))
     weight = f"with weight {production.probability}" if production.probability is not None and chance is None else ""
     return ", ".join(filter(None, (text, weight)))
+
+
+def _condition_text(production: Production, system: LSystem) -> str:
+    """A condition; a sensitive function is called in it as the model calls it."""
+    if production.condition is None:
+        return ""
+    asks = any(True for _ in sensed_in(production.condition))
+    return as_written(system, production.condition) if asks else str(production.condition)
 
 
 def _replaces_several(production: Production) -> bool:

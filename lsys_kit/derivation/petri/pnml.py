@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from lsys_kit.derivation.petri.net import Arc, Stages, Transition, likelihood
@@ -20,7 +21,8 @@ GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
 TOOL = {"tool": "lsys-kit", "version": "1"}
 
 
-def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
+def pnml(net: Stages, tokens: Sequence[int] | None = None,
+         positions: Mapping[str, tuple[float, float]] = MappingProxyType({})) -> str:
     """A stage diagram as PNML.
 
     Parameters
@@ -29,6 +31,9 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
         The stages of a system.
     tokens
         How many tokens lie in each place at first; by default those of the axiom.
+    positions
+        Where the middle of each place ("p0", "p1", ...) and transition ("t0", ...) stands in a picture, in pixels from the left
+        and from the top; tools that show the net put it there.
 
     Returns
     -------
@@ -85,11 +90,13 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
     for number, place in enumerate(net.places):
         node = SubElement(page, "place", id=f"p{number}")
         _labelled(node, "name", "/".join(dict.fromkeys(map(str, place.modules))) or place.symbol)
+        _placed(node, positions.get(f"p{number}"))
         if marking[number]:
             _labelled(node, "initialMarking", str(marking[number]))
     for number, transition in enumerate(net.transitions):
         node = SubElement(page, "transition", id=f"t{number}")
         _labelled(node, "name", net.line(number))
+        _placed(node, positions.get(f"t{number}"))
         _tool_specific(node, _terms(transition))
     for number, transition in enumerate(net.transitions):
         SubElement(page, "arc", id=f"f{number}", source=f"p{transition.place}", target=f"t{number}")
@@ -117,6 +124,13 @@ def _terms(transition: Transition) -> Mapping[str, str]:
 def _labelled(node: Element, tag: str, text: str) -> None:
     """Give an element a label: a child with a text."""
     SubElement(SubElement(node, tag), "text").text = _legal(text)
+
+
+def _placed(node: Element, position: tuple[float, float] | None) -> None:
+    """Say where an element stands in a picture, if that is known."""
+    if position is not None:
+        x, y = (f"{each:.1f}" for each in position)
+        SubElement(SubElement(node, "graphics"), "position", x=x, y=y)
 
 
 def _tool_specific(node: Element, terms: Mapping[str, str]) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 from lsys_kit.derivation.petri.net import Stages, Transition, likelihood
 from lsys_kit.notation.model.arithmetic import number_text
 
-LONGEST_CAPTION = 44
-"""Longer terms are abbreviated; their title shows the full text."""
+LONGEST_CAPTION, LONGEST_FOOTNOTE = 24, 120
+"""Longer terms are footnotes; longer footnotes are abbreviated. A caption's title shows the full text."""
 _UNITS = ((10 ** 12, "T"), (10 ** 9, "G"), (10 ** 6, "M"), (10 ** 3, "k"))
-
 
 
 def short(count: int) -> str:
@@ -76,5 +76,25 @@ def width_of(text: str, size: float) -> float:
                             0.8 if letter.isupper() else 0.64 for letter in text)
 
 
-def abbreviated(text: str) -> str:
-    return text if len(text) <= LONGEST_CAPTION else text[:LONGEST_CAPTION - 1].rstrip() + "…"
+def captions_of(net: Stages, places: Collection[int]) -> tuple[dict[int, str], tuple[str, ...]]:
+    """The text at each bar of some places that has any, and the numbered footnotes in which long ones stand.
+
+    >>> from lsys_kit.derivation.petri.stages import stages
+    >>> from lsys_kit.notation.read import read
+    >>> captions_of(stages(read("axiom: a(0)\\na(t) : t != 50 && t != 60 || t > 100 -> a(t+1)")), {0})
+    ({0: '(1)'}, ('(1) t ≠ 50 and t ≠ 60 or t > 100',))
+    """
+    captions: dict[int, str] = {}
+    footnotes: list[str] = []
+    for number, transition in enumerate(net.transitions):
+        text = terms_of(transition)
+        if len(text) > LONGEST_CAPTION and transition.place in places:
+            footnotes.append(f"({len(footnotes) + 1}) {text}")
+            captions[number] = f"({len(footnotes)})"
+        elif text:
+            captions[number] = text
+    return captions, tuple(map(_abbreviated, footnotes))
+
+
+def _abbreviated(text: str) -> str:
+    return text if len(text) <= LONGEST_FOOTNOTE else text[:LONGEST_FOOTNOTE - 1].rstrip() + "…"

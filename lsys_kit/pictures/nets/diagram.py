@@ -104,7 +104,7 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str]) -> Diagram:
     """What of the diagram does not depend on the tokens."""
     parts = parts_of(net, positions, steering)
     lines = "".join([*map(_arc_svg, parts.arcs), *map(_bar_svg, parts.bars), *map(_note_svg, parts.notes),
-                     *(_besides_svg(parts.foot + LINE * line, text) for line, text in enumerate(parts.besides))])
+                     *(_footnote_svg(parts.foot + LINE * line, text) for line, text in enumerate(parts.footnotes))])
     start = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {parts.width} {parts.height}" width="{parts.width}" '
              f'height="{parts.height}" style="max-width:100%;height:auto" font-family="sans-serif" fill="{INK}" role="img" '
              f'aria-label="{escaped(parts.description)}')
@@ -170,5 +170,5 @@ def _note_svg(note: NotePart) -> str:
             f'x="{x:.1f}" y="{y + 0.36 * SMALL:.1f}" font-size="{SMALL}" text-anchor="middle">{escaped(note.text)}</text>')
 
 
-def _besides_svg(y: float, text: str) -> str:
-    return f'<text class="besides" x="{EDGE:.1f}" y="{y:.1f}" font-size="{SMALL}">{escaped(text)}</text>'
+def _footnote_svg(y: float, text: str) -> str:
+    return f'<text class="footnote" x="{EDGE:.1f}" y="{y:.1f}" font-size="{SMALL}">{escaped(text)}</text>'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
+from itertools import accumulate, combinations, pairwise
 from typing import TypeAlias
 
 from lsys_kit.derivation.petri.net import Stages
@@ -111,6 +111,22 @@ def layout_of(net: Stages, plan: Plan, texts: Texts) -> Layout:
     arcs = {route.arc: _corners(route, net, plan, grid, circles, heights) for route in plan.routes}
     notes = {arc: _note(arc, width, arcs) for arc, width in texts.notes.items() if arc in arcs}
     return Layout(grid.width, grid.height, circles, bars, arcs, notes)
+
+
+def crossings(layout: Layout) -> int:
+    """The number of points in which two arcs of a layout cross."""
+    return sum(_crossings(a, b) for a, b in combinations(layout.arcs.values(), 2))
+
+
+def _crossings(first: Sequence[Point], second: Sequence[Point]) -> int:
+    """The number of points in which two lines cross, each a sequence of vertices."""
+    return sum(_turn(p, q, r) * _turn(p, q, s) < 0 and _turn(r, s, p) * _turn(r, s, q) < 0
+               for p, q in pairwise(first) for r, s in pairwise(second))
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    """Twice the area of a triangle: positive or negative by the side of a line on which a point lies."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _column(plan: Plan, place: int) -> int:

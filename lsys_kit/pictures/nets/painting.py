@@ -24,7 +24,7 @@ def paint_stages(sheet: Sheet, parts: Parts, tokens: Sequence[int], marked: Coll
         _paint_bar(sheet, bar)
     for note in parts.notes:
         _paint_note(sheet, note)
-    for number, text in enumerate(parts.besides):
+    for number, text in enumerate(parts.footnotes):
         sheet.text(EDGE, parts.foot + LINE * number, text, SMALL)
 
 

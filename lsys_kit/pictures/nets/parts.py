@@ -13,8 +13,9 @@ from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import COMMANDS, symbols_with
 from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.nets.captions import abbreviated, notes_of, readable, terms_of, width_of
-from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, layout_of
+from lsys_kit.pictures.nets.captions import captions_of, notes_of, readable, terms_of, width_of
+from lsys_kit.pictures.nets.layered_layout import layered_layout
+from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, crossings, layout_of
 from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
 from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
 from lsys_kit.pictures.style.palette import QUIET, colours
@@ -23,6 +24,8 @@ LABEL_SIZE, SMALL = 14, 11
 """Font sizes, in pixels."""
 LINE = 16.0
 """The height of a line below the diagram."""
+MOST_CROSSINGS = 1
+"""So many crossings are allowed in rows of places."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +46,10 @@ class PlacePart:
 
 @dataclass(frozen=True)
 class BarPart:
-    """The bar of a transition: its centre, half its height, the line to it as an SVG path; its terms, abbreviated and in full,
+    """The bar of a transition, whose number comes first: its centre, half its height, the line to it as an SVG path; its terms, abbreviated and in full,
     and the left end of their baseline."""
 
+    transition: int
     x: float
     y: float
     half: float
@@ -90,8 +94,9 @@ class Parts:
         The places in reading order.
     bars, arcs, notes
         The transitions, the arcs and the notes of arcs.
-    besides, foot
-        What else the system does, a line each, and the baseline of the first of these lines.
+    footnotes, foot
+        The terms for which there is no room at their bars, and what else the system does, a line each; and the baseline of the
+        first of these lines.
     """
 
     width: int
@@ -101,7 +106,7 @@ class Parts:
     bars: tuple[BarPart, ...]
     arcs: tuple[ArcPart, ...]
     notes: tuple[NotePart, ...]
-    besides: tuple[str, ...]
+    footnotes: tuple[str, ...]
     foot: float
 
 
@@ -121,24 +126,42 @@ def steering_of(system: LSystem) -> frozenset[str]:
 def parts_of(net: Stages, positions: bool, steering: frozenset[str]) -> Parts:
     """The parts of the diagram of a net; `positions` and `steering` as for `drawn_stages`."""
     rows = rows_of(net, shown_places(net, steering))
-    plan = planned(net, rows)
     order = tuple(place for row in rows for place in row)
     names = {place: place_text(net.places[place], net.system) for place in order}
     notes = notes_of(net, positions)
-    terms = {number: abbreviated(text) for number, transition in enumerate(net.transitions) if (text := terms_of(transition))}
-    layout = layout_of(net, plan, Texts({place: width_of(name, LABEL_SIZE) for place, name in names.items()},
-                                        {number: width_of(text, SMALL) for number, text in terms.items()},
-                                        {arc: width_of(text, SMALL) for arc, text in notes.items()}))
+    terms, numbered = captions_of(net, order)
+    texts = Texts({place: width_of(name, LABEL_SIZE) for place, name in names.items()},
+                  {number: width_of(text, SMALL) for number, text in terms.items()},
+                  {arc: width_of(text, SMALL) for arc, text in notes.items()})
+    layout = clearest_layout(net, rows, texts)
     besides = tuple(f"besides: {readable(text)}" for text in net.besides)
+    footnotes = (*numbered, *besides)
     fills = _fills(net, order)
     return Parts(
-        math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in besides)])),
-        math.ceil(layout.height + LINE * len(besides)), _description([*names.values()], besides),
+        math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in footnotes)])),
+        math.ceil(layout.height + LINE * len(footnotes)), _description([*names.values()], besides),
         tuple(_place(net, place, names[place], layout, *fills[place]) for place in order),
-        tuple(_bar(bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()),
+        tuple(_bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()),
         tuple(_arc(arc, corners) for arc, corners in layout.arcs.items()),
         tuple(NotePart(*layout.notes[arc], width_of(text, SMALL), text) for arc, text in notes.items() if arc in layout.notes),
-        besides, layout.height)
+        footnotes, layout.height)
+
+
+def positions_in(net: Stages) -> dict[str, Point]:
+    """Where places and transitions stand in the picture of a net, by their names in PNML."""
+    parts = parts_of(net, False, steering_of(net.system))
+    return {f"p{part.place}": (part.x, part.y) for part in parts.places} | {
+        f"t{part.transition}": (part.x, part.y) for part in parts.bars}
+
+
+def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts) -> Layout:
+    """Rows of places as in print, unless their arcs cross more than once, and less often in layers."""
+    in_rows = layout_of(net, planned(net, rows), texts)
+    count = crossings(in_rows)
+    if count <= MOST_CROSSINGS:
+        return in_rows
+    in_layers = layered_layout(net, [place for row in rows for place in row], texts)
+    return in_layers if crossings(in_layers) < count else in_rows
 
 
 def _description(names: Sequence[str], besides: Sequence[str]) -> str:
@@ -169,15 +192,17 @@ def _rank(place: Place) -> tuple[float, ...]:
     return tuple(0.0 if is_symbolic(value) else float(value) for value in place.modules[0].arguments) if place.modules else ()
 
 
-def _bar(bar: BarPosition, terms: str, full: str) -> BarPart:
-    return BarPart(bar.x, bar.y, bar.half, rounded_path(bar.line), terms, full, *bar.terms)
+def _bar(number: int, bar: BarPosition, terms: str, full: str) -> BarPart:
+    return BarPart(number, bar.x, bar.y, bar.half, rounded_path(bar.line), terms, full, *bar.terms)
 
 
 def _arc(number: int, corners: Sequence[Point]) -> ArcPart:
-    (x, y), down = corners[-1], corners[-1][0] == corners[-2][0]
-    (a, b), (c, d) = ((-3.4, -8.5), (3.4, -8.5)) if down else ((-8.5, -3.4), (-8.5, 3.4))
+    (x, y), (nx, ny) = corners[-1], _point_towards(corners[-1], corners[-2], 1.0)
+    back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
+    ends = [(x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1)]
+    head = "".join(f"L{a:.1f} {b:.1f}" for a, b in ends)
     return ArcPart(number, rounded_path(corners), rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
-                   f"M{x:.1f} {y:.1f}L{x + a:.1f} {y + b:.1f}L{x + c:.1f} {y + d:.1f}Z")
+                   f"M{x:.1f} {y:.1f}{head}Z")
 
 
 def rounded_path(corners: Sequence[Point]) -> str:

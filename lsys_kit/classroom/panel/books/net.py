@@ -40,8 +40,8 @@ def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
             "names": [*map(visible, names)],
             "places": [*map(_place, parts.places)], "bars": [*map(_bar, parts.bars)], "arcs": [*map(_arc, parts.arcs)],
             "notes": [*map(_note, parts.notes)],
-            "besides": [{"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": visible(text)}
-                        for line, text in enumerate(parts.besides)]}
+            "footnotes": [{"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": visible(text)}
+                        for line, text in enumerate(parts.footnotes)]}
 
 
 def _place(part: PlacePart) -> dict[str, Any]:

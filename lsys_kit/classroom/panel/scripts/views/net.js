@@ -32,7 +32,7 @@ export function netView(parent, chosen, pointed) {
     for (const [x, y, width, text] of net.notes) sheet.append(
       drawn("rect", { x: x - width / 2, y: y - 6, width, height: 12, class: "lsys-band-note" }),
       drawn("text", { x, y: y + 4, "text-anchor": "middle", class: "lsys-terms" }, text));
-    for (const line of net.besides) sheet.append(drawn("text", { x: line.x, y: line.y, class: "lsys-terms" }, line.text));
+    for (const line of net.footnotes) sheet.append(drawn("text", { x: line.x, y: line.y, class: "lsys-terms" }, line.text));
     parent.replaceChildren(sheet);
   }
 
@@ -78,8 +78,8 @@ export function netView(parent, chosen, pointed) {
   return { open, fill, light };
 }
 
-function leastScale({ places, bars, notes, besides }) {
-  const small = notes.length || besides.length || bars.some((bar) => bar.terms) || places.some((place) => place.subscript);
+function leastScale({ places, bars, notes, footnotes }) {
+  const small = notes.length || footnotes.length || bars.some((bar) => bar.terms) || places.some((place) => place.subscript);
   return small ? LEGIBLE.terms : LEGIBLE.labels;
 }
 

@@ -1,0 +1,87 @@
+"""Layers of graphs: laws of every layering, and how seldom the arcs of the catalogue's stage diagrams cross."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit import read, stages, system, systems
+from lsys_kit.errors import LSystemError
+from lsys_kit.pictures.nets.layers import Layers, layered
+from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
+from lsys_kit.pictures.nets.parts import clearest_layout, steering_of
+from lsys_kit.pictures.nets.routes import rows_of, shown_places
+
+
+@st.composite
+def graphs(draw: st.DrawFn) -> tuple[int, list[tuple[int, int]]]:
+    """Graphs without loops, as those of places and bars are."""
+    count = draw(st.integers(1, 9))
+    vertex = st.integers(0, count - 1)
+    return count, [(a, b) for a, b in draw(st.lists(st.tuples(vertex, vertex), max_size=16)) if a != b]
+
+
+def layers_of(graph: tuple[int, list[tuple[int, int]]]) -> Layers:
+    return layered(*graph, [1] * len(graph[1]))
+
+
+@given(graphs())
+def test_an_edge_runs_from_layer_to_layer(graph: tuple[int, list[tuple[int, int]]]) -> None:
+    found = layers_of(graph)
+    rank = {vertex: number for number, layer in enumerate(found.layers) for vertex in layer}
+    for number, (edge, chain) in enumerate(zip(graph[1], found.chains, strict=True)):
+        assert (chain[0], chain[-1]) == (edge[::-1] if number in found.turned else edge)
+        assert all(rank[b] == rank[a] + 1 for a, b in pairwise(chain))
+
+
+@given(graphs())
+def test_each_vertex_stands_in_one_layer(graph: tuple[int, list[tuple[int, int]]]) -> None:
+    found = layers_of(graph)
+    placed = [vertex for layer in found.layers for vertex in layer]
+    assert sorted(placed) == [*range(graph[0]), *sorted({v for chain in found.chains for v in chain if v >= graph[0]})]
+
+
+@given(graphs())
+def test_crossings_are_counted_as_one_sees_them(graph: tuple[int, list[tuple[int, int]]]) -> None:
+    found = layers_of(graph)
+    place = {vertex: number for layer in found.layers for number, vertex in enumerate(layer)}
+    rank = {vertex: number for number, layer in enumerate(found.layers) for vertex in layer}
+    pieces = [piece for chain in found.chains for piece in pairwise(chain)]
+    assert found.crossings == sum(
+        rank[a] == rank[c] and (place[a] - place[c]) * (place[b] - place[d]) < 0 for (a, b), (c, d) in combinations(pieces, 2))
+
+
+def test_a_tree_has_no_crossings() -> None:
+    assert layered(7, [(0, 5), (0, 4), (5, 1), (5, 2), (4, 3), (4, 6)], [1] * 6).crossings == 0
+
+
+def test_an_edge_that_closes_a_cycle_leads_back() -> None:
+    assert layered(3, [(0, 1), (1, 2), (2, 0)], [1] * 3).turned == {2}
+    assert layered(3, [(0, 1), (1, 2), (2, 0)], [1] * 3, [1]).turned == {0}
+
+
+def layout(name: str) -> Layout | None:
+    try:
+        net = stages(system(name))
+    except LSystemError:
+        return None
+    rows = rows_of(net, shown_places(net, steering_of(net.system)))
+    return clearest_layout(net, rows, Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {}))
+
+
+def test_arcs_cross_seldom() -> None:
+    layouts = [found for name in systems() if (found := layout(name))]
+    assert sum(map(crossings, layouts)) <= 45
+
+
+def test_a_row_of_stages_without_crossings_stays_a_row() -> None:
+    found = layout("J4")
+    assert found is not None
+    assert len({y for _, y in found.circles.values()}) == 2
+
+
+def test_a_sensitive_function_is_called_as_the_model_calls_it() -> None:
+    net = stages(read("\\angle 30,\n\\var f0 function 2 1,\n\\axiom a,\n(f0(1) > 60) a # F100 a"))
+    assert [transition.condition for transition in net.transitions] == ["f0(1) > 60"]
