@@ -46,8 +46,8 @@ class PlacePart:
 
 @dataclass(frozen=True)
 class BarPart:
-    """The bar of a transition, whose number comes first: its centre, half its height, the line to it as an SVG path; its terms, abbreviated and in full,
-    and the left end of their baseline."""
+    """A bar: the number of its transition; its centre, half its height, the line to it as an SVG path; its terms, in short
+    and in full, and the left end of their baseline."""
 
     transition: int
     x: float
@@ -141,7 +141,8 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str]) -> Parts:
         math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in footnotes)])),
         math.ceil(layout.height + LINE * len(footnotes)), _description([*names.values()], besides),
         tuple(_place(net, place, names[place], layout, *fills[place]) for place in order),
-        tuple(_bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()),
+        tuple(_bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number]))
+              for number, bar in layout.bars.items()),
         tuple(_arc(arc, corners) for arc, corners in layout.arcs.items()),
         tuple(NotePart(*layout.notes[arc], width_of(text, SMALL), text) for arc, text in notes.items() if arc in layout.notes),
         footnotes, layout.height)
