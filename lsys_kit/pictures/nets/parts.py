@@ -200,7 +200,7 @@ def _bar(number: int, bar: BarPosition, terms: str, full: str) -> BarPart:
 def _arc(number: int, corners: Sequence[Point]) -> ArcPart:
     (x, y), (nx, ny) = corners[-1], _point_towards(corners[-1], corners[-2], 1.0)
     back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
-    ends = [(x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1)]
+    ends = sorted((x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1))
     head = "".join(f"L{a:.1f} {b:.1f}" for a, b in ends)
     return ArcPart(number, rounded_path(corners), rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
                    f"M{x:.1f} {y:.1f}{head}Z")
