@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import NoReturn
 
-from lsys_kit.commands import course, models
+from lsys_kit.commands import classes, course, models
 from lsys_kit.errors import LSystemError, printable
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
@@ -105,8 +105,23 @@ def _argument_parser() -> argparse.ArgumentParser:
     site.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the pages")
     lab = command("lab", course.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
+    _add_class(command("collect", classes.collect_marks,
+                       "Write the marks of a class: check the answers in its notebooks, which are read and never run.",
+                       "Example: lsys-kit collect handed_in -o marks.csv"),
+               command("wall", classes.write_wall, "Write a page with everybody's plants, from files with links or models.",
+                       "Example: lsys-kit wall plants -o wall.html"))
     _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks."))
     return parser
+
+
+def _add_class(collect: argparse.ArgumentParser, wall: argparse.ArgumentParser) -> None:
+    """The options of the commands for a class."""
+    collect.add_argument("folder", metavar="FOLDER", help="notebooks, one for each student, or a folder for each student")
+    collect.add_argument("-o", "--output", required=True, metavar="FILE", help="a new file of comma-separated values (.csv)")
+    collect.add_argument("--exercises", metavar="FOLDER", help="a folder with exercises of your own, which are known as well")
+    wall.add_argument("folder", metavar="FOLDER", help="model files, or texts of links, one a line, perhaps after a name")
+    wall.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
+    wall.add_argument("--title", metavar="TEXT", help="the heading of the page (default: the name of the folder)")
 
 
 def _add_exercises(parser: argparse.ArgumentParser) -> None:

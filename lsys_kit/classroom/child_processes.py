@@ -1,7 +1,7 @@
 """Work on what others have made, in child processes with limits of time and memory.
 
-Where processes can be forked, each piece of work has a child of its own, which begins with all that has been loaded and computed
-here; elsewhere a child has a run of pieces. A child that takes too long, takes too much memory or crashes loses the piece it was
+Where processes can be forked, a child begins with all that has been loaded and computed here, and may have one piece alone;
+elsewhere it has a run of pieces. A child that takes too long, takes too much memory or crashes loses the piece it was
 at: the others are left to another child. What comes back is JSON.
 """
 
@@ -34,7 +34,7 @@ TOO_LONG, TOO_MUCH, CRASHED = "It takes too long", "It takes too much memory", "
 _FORKED = sys.platform not in ("win32", "darwin")  # on macOS forked processes may crash in libraries of the system
 _CONTEXT = multiprocessing.get_context("fork" if _FORKED else "spawn")
 _RUN = 1 if _FORKED else 25
-"""So many pieces a child has at most."""
+"""So many pieces a child has at least, where there are more: one that begins with nothing must load everything first."""
 
 _P = TypeVar("_P")
 
@@ -55,7 +55,8 @@ class _Child:
     deadline: float = field(default=0.0)
 
 
-def in_child_processes(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, label: str = "") -> list[Any]:
+def in_child_processes(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, label: str = "",
+                       together: int = 1) -> list[Any]:
     """What comes of each piece: what `work` returns, as JSON keeps it, or why it `Failed`.
 
     Parameters
@@ -68,6 +69,8 @@ def in_child_processes(work: Callable[[_P], Any], pieces: Sequence[_P], seconds:
         How much time of the processor a piece may take.
     label
         What the progress bar says; there is none on a stream that is no terminal.
+    together
+        So many pieces one child works on, one after another.
 
     Examples
     --------
@@ -76,19 +79,19 @@ def in_child_processes(work: Callable[[_P], Any], pieces: Sequence[_P], seconds:
     """
     results: list[Any] = [None] * len(pieces)
     with tqdm(total=len(pieces), desc=label, disable=None, delay=1, leave=False) as bar:
-        for number, result in _results(work, pieces, seconds):
+        for number, result in _results(work, pieces, seconds, max(together, _RUN)):
             results[number] = result
             bar.update()
     return results
 
 
-def _results(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int) -> Iterator[tuple[int, Any]]:
+def _results(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, together: int) -> Iterator[tuple[int, Any]]:
     """The results, as they come, each with its number."""
     waiting, many = deque(range(len(pieces))), _processors()
     with _killed_at_the_end() as at_work:
         while waiting or at_work:
             while waiting and len(at_work) < many:
-                _start(work, pieces, _taken(waiting), seconds, at_work)
+                _start(work, pieces, _taken(waiting, together), seconds, at_work)
             first = min(child.deadline for child in at_work.values())
             ready = set(wait([*at_work], max(0.0, first - time.monotonic())))
             for connection, child in [*at_work.items()]:
@@ -106,8 +109,8 @@ def _results(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int) -> I
                     _end(at_work, connection)
 
 
-def _taken(waiting: deque[int]) -> deque[int]:
-    return deque(waiting.popleft() for _ in range(min(_RUN, len(waiting))))
+def _taken(waiting: deque[int], many: int) -> deque[int]:
+    return deque(waiting.popleft() for _ in range(min(many, len(waiting))))
 
 
 def _start(work: Callable[[_P], Any], pieces: Sequence[_P], numbers: deque[int], seconds: int,
