@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkContext, SpawnContext
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
@@ -32,7 +33,8 @@ PATIENCE = 6
 """So many times the seconds of processor time a child may take by the clock on the wall, on a machine that is busy."""
 TOO_LONG, TOO_MUCH, CRASHED = "It takes too long", "It takes too much memory", "It ends the process that reads it"
 _FORKED = sys.platform not in ("win32", "darwin")  # on macOS forked processes may crash in libraries of the system
-_CONTEXT = multiprocessing.get_context("fork" if _FORKED else "spawn")
+_CONTEXT: ForkContext | SpawnContext = \
+    multiprocessing.get_context("fork") if _FORKED else multiprocessing.get_context("spawn")
 _RUN = 1 if _FORKED else 25
 """So many pieces a child has at least, where there are more: one that begins with nothing must load everything first."""
 

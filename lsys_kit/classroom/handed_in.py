@@ -1,4 +1,4 @@
-"""What a class has handed in: the files in a folder, found and read without following links or opening what is no plain file."""
+"""What a class has handed in: the files in a folder, found and read without following links or opening pipes and devices."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ class HandedIn:
 def handed_in(folder: str | Path, ending: str = "") -> list[HandedIn]:
     """The files with this ending in a folder, and what stands there in their place, in the order of their names.
 
-    A folder in it belongs to one student, with all that is in it; one without such files is listed with that as its problem, as are
-    links, which are never followed. Names that begin with a dot are passed over.
+    A folder in it belongs to one student, with all that is in it; one without such files is listed with that as its problem, as
+    are links, which are never followed. Names that begin with a dot are passed over.
 
     Raises
     ------
@@ -104,7 +104,8 @@ def _in_folder(path: Path, ending: str) -> Iterator[HandedIn]:
     for each in inside:
         yield HandedIn(path.name, os.path.relpath(each.path, path.parent), Path(each.path), _problem(each))
     if not inside:
-        yield HandedIn(path.name, path.name, path, f"There are no files {f'that end in {ending} ' if ending else ''}in this folder")
+        kind = f"whose names end in {ending} " if ending else ""
+        yield HandedIn(path.name, path.name, path, f"There are no files {kind}in this folder")
 
 
 def _files(folder: Path, ending: str, depth: int = DEPTH) -> Iterator[os.DirEntry[str]]:

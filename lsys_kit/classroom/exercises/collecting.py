@@ -1,8 +1,8 @@
 """The marks of a class, from the notebooks that its students have handed in.
 
-Answers are taken from notebooks as data, and each notebook is read and checked in a child process with limits of time and memory:
-one that is endless, huge, broken or malicious costs its own row of the table alone. What the answers are compared with is computed
-once, before the first child begins.
+Answers are taken from notebooks as data, and each notebook is read and checked in a child process with limits of time and
+memory: one that is endless, huge, broken or malicious costs its own row of the table alone. What the answers are compared with is
+computed once, before the first child begins.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def collect(folder: str | Path) -> list[Marks]:
     readable = [each for each in files if not each.problem]
     results = in_child_processes(scores_in, [each.path for each in readable], SECONDS, "checked")
     found = dict(zip(readable, results, strict=True))
-    return [_marks(list(own), found) for _, own in groupby(files, key=lambda each: each.name.partition("/")[0])]
+    return [_marks(list(own), found) for _, own in groupby(files, key=lambda each: Path(each.name).parts[0])]
 
 
 def _prepare() -> None:
@@ -163,8 +163,8 @@ def marks_table(marks: Sequence[Marks]) -> str:
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(["student", *map(cell, columns), "score", "remarks"])
     for each in marks:
-        total = round(sum(each.scores.values()), 6)
-        rows.writerow([cell(quotable(each.student)), *(each.scores.get(id, "") for id in columns), float(total), cell(" / ".join(_first(each.remarks)))])
+        scores, total = (each.scores.get(id, "") for id in columns), round(float(sum(each.scores.values())), 4)
+        rows.writerow([cell(quotable(each.student)), *scores, total, cell(" / ".join(_first(each.remarks)))])
     return text.getvalue()
 
 

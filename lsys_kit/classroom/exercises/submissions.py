@@ -2,8 +2,8 @@
 
 Of the cells only what somebody has written down is taken: the text, number or list in `answer = ...`, or in `check("1.1", ...)`
 itself. Cells are read from the first to the last; where an exercise is checked several times, the last counts, as in a
-notebook that is run. What would have to be computed is no answer here, except for sums and fractions of numbers, which are taken
-as they are written.
+notebook that is run. What would have to be computed is no answer here, except for sums and fractions of numbers, which are
+taken as they are written.
 """
 
 from __future__ import annotations
@@ -88,7 +88,8 @@ def _python(source: str) -> str:
 def _checked(statement: ast.stmt, names: dict[str, object]) -> Iterator[tuple[str, object]]:
     """The answers that a statement checks; what it assigns to a name is kept."""
     match statement:
-        case ast.Assign(targets=[ast.Name(id=name)], value=value) | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value):
+        case (ast.Assign(targets=[ast.Name(id=name)], value=value)
+              | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value)):
             names[name] = written(value, names)
     if isinstance(statement, ast.Expr | ast.Assign):
         for node in ast.walk(statement):
