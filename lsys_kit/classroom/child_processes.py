@@ -132,7 +132,8 @@ def _received(connection: Connection, child: _Child) -> Any:
     except (EOFError, OSError):
         child.process.kill()
         child.process.join()
-        return Failed({-getattr(signal, "SIGXCPU", 0): TOO_LONG}.get(child.process.exitcode or 0, CRASHED))
+        too_long = hasattr(signal, "SIGXCPU") and child.process.exitcode == -signal.SIGXCPU
+        return Failed(TOO_LONG if too_long else CRASHED)
     return result if done else Failed(result)
 
 

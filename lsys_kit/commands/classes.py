@@ -13,13 +13,10 @@ from lsys_kit.files import create_file
 def collect_marks(options: argparse.Namespace) -> None:
     """Write the marks of a class as a table."""
     from lsys_kit.classroom.exercises.collecting import collect, marks_table
-    from lsys_kit.classroom.exercises.registry import exercises
 
     if os.path.lexists(options.output):
         raise _exists(options.output)
-    if options.exercises is not None:
-        exercises(options.exercises)
-    marks = collect(options.folder)
+    marks = collect(options.folder, options.exercises)
     try:
         create_file(Path(options.output), marks_table(marks).encode())
     except FileExistsError:

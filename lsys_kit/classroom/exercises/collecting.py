@@ -1,8 +1,8 @@
 """The marks of a class, from the notebooks that its students have handed in.
 
 Answers are taken from notebooks as data, and each notebook is read and checked in a child process with limits of time and
-memory: one that is endless, huge, broken or malicious costs its own row of the table alone. What the answers are compared with is
-computed once, before the first child begins.
+memory: one that is endless, huge, broken or malicious costs its own row of the table alone. What the answers are compared with
+is computed once, before the first child begins.
 """
 
 from __future__ import annotations
@@ -58,23 +58,27 @@ class Marks:
     remarks: tuple[str, ...] = ()
 
 
-def collect(folder: str | Path) -> list[Marks]:
+def collect(folder: str | Path, own: str | None = None) -> list[Marks]:
     """The marks of all who have handed in notebooks.
 
     Parameters
     ----------
     folder
         Notebooks, one for each student, or folders, one for each student, with notebooks in them.
+    own
+        A folder with exercises of one's own, which are known beside those of the kit.
 
     Raises
     ------
     ModelFileError
-        There is no such folder, or there are no notebooks in it.
+        There is no such folder, there are no notebooks in it, or there are mistakes in the exercises of one's own.
     """
     files = handed_in(folder, ENDING)
+    if own is not None:
+        exercises(own)
     _prepare()
     readable = [each for each in files if not each.problem]
-    results = in_child_processes(scores_in, [each.path for each in readable], SECONDS, "checked")
+    results = in_child_processes(scores_in, [(each.path, own) for each in readable], SECONDS, "checked")
     found = dict(zip(readable, results, strict=True))
     return [_marks(list(own), found) for _, own in groupby(files, key=lambda each: Path(each.name).parts[0])]
 
@@ -112,14 +116,21 @@ def _marks(files: Sequence[HandedIn], results: Mapping[HandedIn, object]) -> Mar
 # In a child process
 
 
-def scores_in(path: Path) -> dict[str, object]:
-    """The scores of the answers in a notebook, with the replies to those that are not right."""
+def scores_in(handed: tuple[Path, str | None]) -> dict[str, object]:
+    """The scores of the answers in a notebook, with the replies to those that are not right.
+
+    With it comes the folder of further exercises, of which a child that was not forked knows nothing.
+    """
+    path, own = handed
     scores, replies, problems = dict[str, float](), dict[str, str](), list[str]()
     try:
         answers = answers_in(content_of(path, MOST_BYTES).decode("utf-8-sig", errors="replace"))
     except ModelFileError as mistake:
         return {"scores": scores, "replies": replies, "problems": [mistake.message]}
     known = {exercise.id for exercise in exercises()}
+    if own is not None and answers.found.keys() - known:
+        exercises(own)
+        known = {exercise.id for exercise in exercises()}
     problems += answers.problems
     problems += [f'there is no exercise "{quotable(id)}"' for id in answers.found if id not in known]
     end = time.process_time() + SECONDS - 5
