@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 import lsys_kit
+from lsys_kit import check, score
 from lsys_kit.__main__ import main
 from lsys_kit.classroom import child_processes
 from lsys_kit.classroom.exercises import collecting
@@ -174,6 +175,24 @@ def test_answers_that_take_all_the_time_cost_those_behind_them(tmp_path, monkeyp
     path.write_text(answered(RIGHT), encoding="utf-8")
     monkeypatch.setattr(collecting, "SECONDS", -1_000)
     assert "took all the time" in scores_in((path, None))["problems"][0]
+
+
+def test_a_fault_of_the_kit_costs_one_answer_alone(tmp_path, monkeypatch):
+    path = tmp_path / "a.ipynb"
+    path.write_text(notebook(f'check("1.1", {RIGHT!r})', 'check("1.2", 33)'), encoding="utf-8")
+    usual = collecting.checked
+    monkeypatch.setattr(collecting, "checked", lambda asked, *rest: usual(asked, *rest) if asked.id == "1.1" else 1 / 0)
+    found = scores_in((path, None))
+    assert found["scores"] == {"1.1": 1.0, "1.2": 0.0}
+    assert "ZeroDivisionError" in found["replies"]["1.2"]
+
+
+def test_marks_are_no_checks_of_the_teachers_own(tmp_path):
+    path = tmp_path / "a.ipynb"
+    path.write_text(answered(RIGHT, "1.1"), encoding="utf-8")
+    check("1.1", "al al br")
+    assert scores_in((path, None))["scores"] == {"1.1": 1.0}
+    assert score("1.1") == 0.6
 
 
 # Spreadsheets

@@ -18,9 +18,9 @@ from pathlib import Path
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.child_processes import Failed, in_child_processes
-from lsys_kit.classroom.exercises.check import check, checked
+from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.judging import wrong_answers
-from lsys_kit.classroom.exercises.registry import exercises
+from lsys_kit.classroom.exercises.registry import exercise_of, exercises
 from lsys_kit.classroom.exercises.submissions import COMPUTED, answers_in
 from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
@@ -86,7 +86,7 @@ def collect(folder: str | Path, own: str | None = None) -> list[Marks]:
 def _prepare() -> None:
     """Work out what answers are compared with, and load what reads them: children then find it done.
 
-    Of an exercise with mistakes `check` says so.
+    Of an exercise with mistakes its check says so.
     """
     for notation in DIALECTS:
         with suppress(LSystemError):
@@ -145,17 +145,19 @@ def scores_in(handed: tuple[Path, str | None]) -> dict[str, object]:
 
 
 def _check(id: str, answer: object, scores: dict[str, float], replies: dict[str, str]) -> None:
-    """Note the score of an answer, and the first line of the reply if it is not right."""
+    """Note the score of an answer, and the first line of the reply if it is not right; the teacher's own record is left alone."""
     try:
         with limits(bytes=2**28):
-            verdict = check(id, answer)
+            verdict = checked(exercise_of(id), answer, 0, False, "")
     except LSystemError as mistake:
         scores[id], replies[id] = 0.0, mistake.message
-        return
-    if verdict.said != "Not answered yet":
-        scores[id] = round(float(verdict), 4)
-    if verdict.said not in ("Correct", "Not answered yet"):
-        replies[id] = f"{verdict.said}. {verdict.message.splitlines()[0] if verdict.message else ''}".strip()
+    except Exception as fault:  # even a fault of the kit itself must not cost the other answers
+        scores[id], replies[id] = 0.0, f"It could not be checked ({type(fault).__name__})"
+    else:
+        if verdict.said != "Not answered yet":
+            scores[id] = round(float(verdict), 4)
+        if verdict.said not in ("Correct", "Not answered yet"):
+            replies[id] = f"{verdict.said}. {verdict.message}".splitlines()[0].strip()
 
 
 # The table
