@@ -47,8 +47,8 @@ def test_a_file_is_a_model_or_a_list_of_links(tmp_path):
 
 
 @pytest.mark.parametrize("line", [
-    f"Ann Lee: {LINK}", f"Ann Lee\t{LINK}", f"{LINK},Ann Lee", f'"Ann Lee";"{LINK}"', f"- Ann Lee - {LINK}",
-    f"Ann Lee <{LINK}>"])
+    f"Ann Lee: {LINK}", f"= Ann Lee = {LINK}", f"Ann Lee\t{LINK}", f"{LINK},Ann Lee", f'"Ann Lee";"{LINK}"',
+    f"- Ann Lee - {LINK}", f"Ann Lee <{LINK}>"])
 def test_a_name_may_stand_beside_a_link(line, tmp_path):
     assert given(tmp_path, all=f"{line}\n\n{LINK}\nwhat is this") == [
         ("Ann Lee", LINK, False), ("all 2", LINK, False), ("all 3", "what is this", True)]

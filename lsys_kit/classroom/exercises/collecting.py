@@ -145,7 +145,7 @@ def scores_in(handed: tuple[Path, str | None]) -> dict[str, object]:
 
 
 def _check(id: str, answer: object, scores: dict[str, float], replies: dict[str, str]) -> None:
-    """Note the score of an answer, and the first line of the reply if it is not right; the teacher's own record is left alone."""
+    """Note the score of an answer, and the first line of the reply if it is not right; nothing is kept for the teacher."""
     try:
         with limits(bytes=2**28):
             verdict = checked(exercise_of(id), answer, 0, False, "")
