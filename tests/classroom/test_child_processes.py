@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import time
 
 import pytest
 
@@ -25,8 +24,8 @@ def worked(what: object) -> object:
         case "endless":
             while True:
                 pass
-        case "sleep":
-            time.sleep(1_000)
+        case "wait":
+            signal.pause()
         case "memory":
             return len(bytearray(2**36))
         case "raise":
@@ -65,7 +64,7 @@ def test_an_endless_piece_costs_no_other(together):
 @pytest.mark.slow
 def test_a_piece_that_waits_costs_no_other(monkeypatch):
     monkeypatch.setattr(child_processes, "PATIENCE", 0.5)
-    assert found("sleep", "sleep", seconds=2) == [Failed(TOO_LONG)] * 2
+    assert found("wait", "wait", seconds=2) == [Failed(TOO_LONG)] * 2
 
 
 def test_a_child_writes_no_files(tmp_path, monkeypatch):
