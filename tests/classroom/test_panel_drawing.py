@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from lsys_kit import draw, read, system
 from tests.classroom.panel_page import PanelPage
 
 
@@ -166,3 +169,22 @@ def test_two_fingers_bring_it_nearer(opened):
         send("pointerup", 1, 100); send("pointerup", 2, 190);
     }""")
     expect(canvas).to_have_attribute("data-near", "1.80")
+
+
+@pytest.mark.parametrize(("name", "step"), [("K5", 3), ("K6", 7), ("J6", 6), ("K19", 9)])
+def test_width_and_height_of_a_drawing_are_said_as_the_kit_says_them(opened, name, step):
+    words = str(draw(system(name), step))
+    said = re.search(r"width [\d.]+, height [\d.]+", words)
+    expect(opened(name, step).at(".lsys-status")).to_contain_text(said.group())
+
+
+def test_a_turn_changes_the_width_that_is_said(opened):
+    panel = opened("K5", 3)
+    before = panel.at(".lsys-status").inner_text()
+    panel.control("angle").press("ArrowRight")
+    expect(panel.at(".lsys-status")).not_to_have_text(before)
+
+
+def test_what_has_no_drawing_has_no_width(opened):
+    panel = opened(read("axiom: a\na -> ab\nb -> a"), 4)
+    expect(panel.at(".lsys-status")).to_have_text("step 4: 8 modules; 2 of 2 stages occupied")

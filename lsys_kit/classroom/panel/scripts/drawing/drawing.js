@@ -6,7 +6,7 @@ import { relaxing } from "../views/relaxing.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
 import { rowBetween, strokesBetween } from "./gliding.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
-import { boundsOf, frameOf, paint, shapeAt } from "./painter.js";
+import { boundsOf, frameOf, paint, shapeAt, widthAndHeight } from "./painter.js";
 import { LONGEST_ARROW, paintForces } from "./tension.js";
 import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
@@ -275,6 +275,7 @@ export function drawingView(parent, told) {
   resized.observe(canvas);
   return {
     open, show, describe, canvas, home,
+    measured: () => (isFilament() || isMap() || isTissue() || fault ? null : widthAndHeight(shapes)),
     light(nextLook) {
       look = nextLook;
       draw();

@@ -50,10 +50,20 @@ export function boundsOf(shapes) {
   return { middle, pixel, extent: Math.max(...spans), across: across + bulge, up: spans[2] / 2 + bulge };
 }
 
-// Visit every point that is drawn, with how far the shape reaches beyond it.
-function eachPoint({ strokes, faces, rounds }, visit) {
+// Width and height from the front, in the units of the model, however broad the strokes are; null if nothing is drawn.
+export function widthAndHeight(shapes) {
+  const spans = [shapes.x, shapes.z ?? shapes.y].map((axis) => {
+    let [least, most] = [Infinity, -Infinity];
+    eachPoint(shapes, (i, reach) => ([least, most] = [Math.min(least, axis[i] - reach), Math.max(most, axis[i] + reach)]), 0);
+    return most - least;
+  });
+  return spans[0] >= 0 ? spans : null;
+}
+
+// Visit every point that is drawn, with how far the shape reaches beyond it; `broad` is 0 for strokes that are lines.
+function eachPoint({ strokes, faces, rounds }, visit, broad = 1) {
   for (let i = 0; i < strokes.n; i++) {
-    const reach = Math.max(0, strokes.widths[i] / 2);
+    const reach = broad * Math.max(0, strokes.widths[i] / 2);
     visit(strokes.from[i], reach);
     visit(strokes.to[i], reach);
   }

@@ -197,9 +197,9 @@ export function openPanel(element, host, compared = null) {
     if (view.word.open) word.show(book, now);
     net.fill(tokens);
     counts.show(now);
-    status.textContent = caption(now, tokens);
     const kept = play.playing || scale.select.value === "same" ? boxed : null, looks = look();
     drawing.show({ ...sides(), step: now, boxed: kept, glides: play.playing && !still.matches }, looks);
+    status.textContent = caption(now, tokens);
     drawing.describe(`Drawing of ${status.textContent}`);
     lightAround(looks);
     if (view.seeds.open) seeds.show(books, request(), sides(), looks);
@@ -236,10 +236,14 @@ export function openPanel(element, host, compared = null) {
     sentence.textContent = traced ? told(book, traced) : "";
   }
 
+  const rounded = (size) => Number((size + 1e-9).toFixed(2));
+
   function caption(now, tokens) {
     const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
     const parts = [`step ${now}: ${sizeOf(book, now)}`, `${occupied} of ${counted(stages, "stage")} occupied`];
-    if (book.data.mode === "filament") parts.push(`length ${Number(filamentLength(book, now).toFixed(2))}`);
+    if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now))}`);
+    const measured = drawing.measured();
+    if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
     if (book.data.said) parts.push(book.data.said);
     if (now === book.steps && book.data.end) parts.push(book.data.end);
     return parts.join("; ");
