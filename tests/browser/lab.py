@@ -135,6 +135,10 @@ class OpenNotebook:
             "return panel.content.model.sharedModel.cells.map((cell, n) => cell.getSource().includes(given) ? n : -1)"
             ".filter(n => n >= 0);", text)]
 
+    def hide_file_browser(self) -> None:
+        """Give the notebook the whole width, as on a narrow screen."""
+        self._ask("app.shell.collapseLeft();")
+
     def shot(self, name: str) -> None:
         """Take a picture of the tab, if pytest was given a folder with `--screenshots`."""
         if self.shots:
