@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
     from lsys_kit.classroom.exercises.check import check
     from lsys_kit.classroom.exercises.practice.practice import practice
+    from lsys_kit.classroom.exercises.progress import progress
     from lsys_kit.classroom.exercises.registry import exercises
     from lsys_kit.classroom.exercises.scores import score
     from lsys_kit.classroom.lessons.predict import predict
@@ -73,7 +74,8 @@ _HOMES = {
     "growth": "derivation.growth.growth", "infer": "derivation.inference.infer", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
-    "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict", "qr_code": "pictures.qr_codes",
+    "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict",
+    "progress": "classroom.exercises.progress", "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
     "score": "classroom.exercises.scores", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
@@ -115,6 +117,7 @@ __all__ = [
     "pnml",
     "practice",
     "predict",
+    "progress",
     "qr_code",
     "read",
     "read_cellwork",

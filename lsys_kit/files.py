@@ -7,6 +7,7 @@ followed.
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import shutil
@@ -22,6 +23,8 @@ KIT_MARK = b"lsys-kit"
 """What shows that a file was made by the kit; it is near the beginning or the end of each."""
 SEARCHED = 4_096
 """So many bytes at either end of a file may hold the mark."""
+_TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+"""How a file is opened to which lines are added: links are not followed, and nothing is waited for."""
 
 
 def replace_file(path: Path, content: bytes) -> None:
@@ -77,6 +80,37 @@ def save_file(path: Path, content: bytes) -> None:
         replace_file(path, content)
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{name}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
+
+
+def append_line(path: Path, line: str, head: str) -> None:
+    """Add a line to the end of a text file of the kit, at one stroke; two programs that do so at the same time lose nothing.
+
+    Parameters
+    ----------
+    path
+        The file; where none is there it is made.
+    line
+        The line, without its end.
+    head
+        The first line of the file, which shows that it is the kit's.
+
+    Raises
+    ------
+    OSError
+        It is no file of the kit, or cannot be written to; what was there is as it was.
+    """
+    if not os.path.lexists(path):
+        with suppress(FileExistsError):
+            create_file(path, f"{head}\n".encode())
+    if path.is_symlink() or not path.is_file():
+        raise OSError(errno.EINVAL, "it is no file")
+    with open(os.open(path, _TO_THE_END), "r+b", buffering=0) as file:
+        if head.encode() not in file.read(len(head) + 3):  # a spreadsheet may have put a mark of three bytes before it
+            raise OSError(errno.EINVAL, "it is not a file of the kit")
+        file.seek(-1, os.SEEK_END)
+        added = (b"" if file.read(1) == b"\n" else b"\n") + line.encode() + b"\n"
+        if file.write(added) != len(added):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def made_by_the_kit(path: Path) -> bool:

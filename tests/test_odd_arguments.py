@@ -62,7 +62,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "infer": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
     "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,
-    "pnml": lambda: (stages(GROWING), None), "predict": lambda: ("How many?", "21"),
+    "progress": lambda: (1,), "pnml": lambda: (stages(GROWING), None), "predict": lambda: ("How many?", "21"),
     "read": lambda: ("axiom: a", "abop", "x"), "read_map": lambda: ("map: A>A>",),
     "vote": lambda: ("01", False), "worksheet": lambda: ("01", "counts"),
     "stages": lambda: (GROWING,), "system": lambda: ("J1",), "systems": tuple, "timed": lambda: (AGEING,),

@@ -17,7 +17,7 @@ SOLVED = {
     "4.2": ("04_the_turtle", "90", "Not yet", "With 90° the fourth stroke leads home", '"72 degrees"'),
     "4.5": ("04_the_turtle", '"FFF+FFF+FFF+FFF"', "Not yet", "This square has no gaps", '"FfF+FfF+FfF+FfF"'),
 }
-"""For exercises of five kinds the notebook, a wrong answer, the word of its reply and part of what it says, and a right answer."""
+"""For exercises of five kinds the notebook, a wrong answer, the word and a part of its reply, and a right answer."""
 
 
 def run_imports(notebook: OpenNotebook) -> None:

@@ -14,6 +14,7 @@ from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
+from lsys_kit.classroom.exercises.record import keep_try
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.scores import keep_score
 from lsys_kit.classroom.exercises.verdict import Verdict
@@ -69,7 +70,7 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     asked = exercise_of(exercise)
     verdict = checked(asked, answer, hint, solution, f'check("{asked.id}", answer')
     keep_score(asked.id, verdict)
-    return verdict
+    return _with(verdict, keep_try(asked.id, answer, verdict))
 
 
 def checked(asked: Exercise, answer: object, hint: object, solution: object, call: str) -> Verdict:

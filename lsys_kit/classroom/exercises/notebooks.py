@@ -17,6 +17,8 @@ from lsys_kit.classroom.exercises.check import check
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import listing
+from lsys_kit.classroom.exercises.progress import Progress, progress_of
+from lsys_kit.classroom.exercises.record import Record
 from lsys_kit.classroom.exercises.registry import exercises
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
@@ -29,8 +31,6 @@ answer is a cell for hints, which come after a try: remove its first `#` and run
 `check("{id}", answer, solution=True)` shows the solution.
 
 The answers come with the kit, where anybody can find them. This is a self-check, not an examination."""
-
-
 _MARKS = """\
 ## For a class
 
@@ -43,7 +43,7 @@ def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
 
     >>> from lsys_kit.classroom.exercises.registry import lessons
     >>> json.loads(exercise_notebook(lessons()[0]))["cells"][1]["source"]
-    ['from lsys_kit import check']
+    ['from lsys_kit import check, progress']
     """
     notebook = {
         "cells": list(_with_execution_counts(_cells(lesson, folder))),
@@ -75,11 +75,12 @@ def write_notebooks(folder: str | Path, questions: str | Path = QUESTIONS) -> li
 
 def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     yield _markdown("head", _introduction(lesson))
-    added = f", exercises\nexercises({json.dumps(folder)});" if folder else ""
-    yield _code("import", f"from lsys_kit import check{added}")
+    words, added = ("check, exercises, progress", f"\nexercises({json.dumps(folder)});") if folder else ("check, progress", "")
+    yield _code("import", f"from lsys_kit import {words}{added}")
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
     yield _markdown("summary", f"## Summary\n\n{lesson.summary}\n\n[Back to the lesson](../notebooks/{lesson.name}.ipynb)")
+    yield _code("progress", f'progress("{lesson.name}")   # progress() shows all lessons', progress_of(Record(), lesson.name))
     yield _markdown("marks", _MARKS)
     yield from map(_score_cell, lesson.exercises)
 
@@ -121,7 +122,7 @@ def _markdown(name: str, text: str) -> NotebookCell:
     return {"cell_type": "markdown", "id": name, "metadata": {}, "source": _source_lines(text)}
 
 
-def _code(name: str, text: str, shown: Verdict | None = None) -> NotebookCell:
+def _code(name: str, text: str, shown: Verdict | Progress | None = None) -> NotebookCell:
     outputs = [] if shown is None else [{
         "data": {"text/html": _source_lines(shown._repr_html_()), "text/plain": _source_lines(repr(shown))},
         "execution_count": None, "metadata": {}, "output_type": "execute_result"}]

@@ -25,6 +25,11 @@ def lessons() -> tuple[Lesson, ...]:
     return kit_questions().lessons
 
 
+def all_lessons() -> tuple[Lesson, ...]:
+    """The lessons of the kit and of the folders that were added."""
+    return tuple(lesson for questions in _all_questions() for lesson in questions.lessons)
+
+
 class ExerciseList(tuple[Exercise, ...]):
     """Exercises, which print as a list of their ids and titles."""
 

@@ -129,7 +129,7 @@ def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
 
 def _checks(source: str) -> bool:
     """Whether code asks for an answer, or gets ready for that."""
-    return "check" in source or not source.strip()
+    return "check" in source or "progress(" in source or not source.strip()
 
 
 def _note(entry: Entry) -> str:
