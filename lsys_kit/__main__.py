@@ -110,7 +110,7 @@ def _argument_parser() -> argparse.ArgumentParser:
                        "Example: lsys-kit collect handed_in -o marks.csv"),
                command("wall", classes.write_wall, "Write a page with everybody's plants, from files with links or models.",
                        "Example: lsys-kit wall plants -o wall.html"))
-    _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks."))
+    _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks or pages."))
     return parser
 
 
@@ -136,6 +136,12 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
     write.add_argument("folder", metavar="FOLDER", help="a folder of .toml files")
     write.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the notebooks")
     write.set_defaults(action=course.write_exercises)
+    text = "Write exercises as a package for a learning platform (SCORM 1.2), with pages that need no Python."
+    example = "Example: lsys-kit exercises scorm 1 -o lesson_1.zip"
+    package = parts.add_parser("scorm", help=text, description=text, epilog=example, allow_abbrev=False)
+    package.add_argument("what_exercises", metavar="LESSON", help="a lesson of the kit, such as 1, or a folder of .toml files")
+    package.add_argument("-o", "--output", required=True, metavar="FILE", help="a .zip file")
+    package.set_defaults(action=course.write_package)
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:

@@ -31,6 +31,14 @@ def write_exercises(options: argparse.Namespace) -> None:
         print(path)
 
 
+def write_package(options: argparse.Namespace) -> None:
+    """Write exercises as a package for a learning platform."""
+    from lsys_kit.classroom.scorm import package
+
+    for line in package.report(*package.write_package(options.what_exercises, options.output)):
+        print(line)
+
+
 def write_site(options: argparse.Namespace) -> None:
     """Write the course as static pages."""
     from lsys_kit.classroom.site.build import build_site

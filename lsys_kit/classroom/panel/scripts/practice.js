@@ -1,0 +1,81 @@
+// A page of exercises that needs no kernel: answers are checked on it, and a learning platform is told how many are solved.
+
+import { made } from "./views/controls.js";
+import { connected, platformOf, scoreOf } from "./practice/platform.js";
+import { replyTo } from "./practice/sealed.js";
+import { read } from "./practice/typed.js";
+
+const LOOKS = { Correct: "lsys-right", Almost: "lsys-almost", "Not yet": "lsys-wrong" };
+const SIGNS = { Correct: "✓", Almost: "≈", "Not yet": "✗", "Not readable yet": "?", "Not answered yet": "○" };
+
+export function openPracticePage() {
+  const { exercises } = JSON.parse(document.getElementById("lsys-data").textContent);
+  const platform = connected(platformOf(window)), solved = new Set(platform.solved());
+  const ids = exercises.map(({ id }) => id);
+  const report = () => show(platform, ids.filter((id) => solved.has(id)), ids.length);
+  document.querySelectorAll("[data-exercise]").forEach((place, number) => {
+    const data = exercises[number];
+    openExercise(place, data, solved.has(data.id), () => {
+      solved.add(data.id);
+      report();
+    });
+  });
+  window.addEventListener("pagehide", platform.finish);
+  window.addEventListener("pageshow", (event) => event.persisted && window.location.reload());
+  report();
+}
+
+// Say how many exercises are solved, here and to the platform.
+function show(platform, solved, total) {
+  const told = platform.tell(solved, total), score = `score ${scoreOf(solved.length, total)} of 100`;
+  const done = solved.length === total ? "completed" : "incomplete";
+  const whom = told ? `The learning platform knows: ${score}, ${done}.`
+    : platform.there ? "The learning platform did not take the score." : "No learning platform is there: nobody is told.";
+  document.getElementById("told").replaceChildren(made("b", {}, `${solved.length} of ${total} solved.`), ` ${whom}`);
+}
+
+function openExercise(place, data, before, solved) {
+  const status = place.querySelector("[role=status]"), more = hints(place.querySelector("[data-hints]"), data.hints);
+  const answer = (text) => {
+    const verdict = verdictOn(data, text);
+    say(status, verdict);
+    if (verdict.said === "Correct") solved();
+    if (["Not yet", "Almost"].includes(verdict.said)) more();
+  };
+  if (before) say(status, { said: "Correct", message: "You solved this before." });
+  for (const button of place.querySelectorAll("[data-key]")) {
+    button.addEventListener("click", () => {
+      for (const each of place.querySelectorAll("[data-key]")) each.setAttribute("aria-pressed", String(each === button));
+      answer(button.dataset.key);
+    });
+  }
+  place.querySelector("form")?.addEventListener("submit", (event) => {
+    event.preventDefault();
+    answer(place.querySelector("input").value);
+  });
+}
+
+function verdictOn(data, text) {
+  if (!text.trim() || /\.\.\.|…/.test(text)) return { said: "Not answered yet", message: "" };
+  const { key, unreadable } = read(data, text);
+  if (unreadable) return { said: "Not readable yet", message: unreadable };
+  return replyTo(data, key) ?? { said: "Not yet", message: data.otherwise };
+}
+
+function say(status, { said, message }) {
+  status.className = `lsys-said ${LOOKS[said] ?? ""}`;
+  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${SIGNS[said]} `), made("b", {}, `${said}. `));
+  message.split("\n").forEach((line) => status.append(line.startsWith("  ") ? made("pre", {}, line) : made("span", {}, `${line} `)));
+}
+
+// A button that shows one hint more, from the first try on.
+function hints(place, texts) {
+  let shown = 0;
+  const list = made("ol", {}), button = made("button", { type: "button", onclick: another }, `Hint 1 of ${texts.length}`);
+  function another() {
+    list.append(made("li", {}, texts[shown++]));
+    button.textContent = `Hint ${shown + 1} of ${texts.length}`;
+    if (shown === texts.length) button.remove();
+  }
+  return () => texts.length && !place.childElementCount && place.append(list, button);
+}
