@@ -62,3 +62,22 @@ def test_an_exercise_is_solved_at_the_second_try(open_notebook, exercise):
             expect_reply(reply, *told)
             notebook.shot(f"exercise-{exercise}-{told[0].replace(' ', '-')}-{width}")
     assert notebook.console == []
+
+
+def test_progress_is_shown_at_the_end_and_kept_in_the_course(open_notebook, lab):
+    notebook = open_notebook("exercises/17_languages.ipynb")
+    notebook.hide_file_browser()
+    run_imports(notebook)
+    answered(notebook, "17.2", "1")
+    [number] = notebook.cells_showing('progress("17_languages")')
+    notebook.cell(number).locator(".cm-content").click()
+    notebook.page.keyboard.press("Control+Enter")
+    notebook.idle()
+    shown = notebook.output(number).get_by_role("region", name="progress")
+    expect(shown).to_contain_text("Languages: 0 of 5 solved, 1 more tried.")
+    expect(shown).to_contain_text("Next: 17.1")
+    for width in (400, 1440):
+        notebook.page.set_viewport_size({"width": width, "height": 900})
+        notebook.shot(f"progress-{width}")
+    assert ",17.2,tried\n" in (lab.folder / "progress.csv").read_text()
+    assert notebook.console == []

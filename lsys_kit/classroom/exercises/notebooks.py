@@ -30,6 +30,8 @@ Replace the `...` of an answer and run its cell: the reply says whether the answ
 answer is a cell for hints, which come after a try: remove its first `#` and run it. After a try,
 `check("{id}", answer, solution=True)` shows the solution.
 
+What you have tried and solved is shown at the end. In a copy of the course it is kept in `progress.csv`, without your answers.
+
 The answers come with the kit, where anybody can find them. This is a self-check, not an examination."""
 _MARKS = """\
 ## For a class

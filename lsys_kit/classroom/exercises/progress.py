@@ -17,7 +17,7 @@ from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUI
 
 _SIGNS = {"solved": ("✓", GREEN), "tried": ("◐", ORANGE), "not tried": ("○", QUIET)}
 """For each state of an exercise its sign and its colour; the meaning never depends on the colour alone."""
-_BOX = f"border-left:6px solid {BLUE};background:{PAPER};color:{INK};padding:6px 12px;overflow-wrap:anywhere"
+_BOX = f"border-left:6px solid {BLUE};background:{PAPER};color:{INK};padding:6px 12px;overflow-wrap:break-word"
 _COLUMNS = "display:grid;grid-template-columns:repeat(auto-fill,minmax(min(270px,100%),1fr));gap:6px 24px;margin:6px 0"
 _FOR_YOU = "This is for your own practice: the answers are in the kit, and a check is not an examination."
 

@@ -88,6 +88,6 @@ def _in_the_notebook(lesson: Lesson, others: Sequence[Exercise]) -> str:
         return ""
     listed = "".join(f"<li>{escaped(each.id)} {escaped(each.title)}</li>\n" for each in others)
     notebook = f"<code>{escaped(lesson.name)}.ipynb</code>"
-    return ("<h2>In the notebook</h2>\n<p>Systems, drawings, formulas and diagrams can be right in many ways, and are checked by "
-            f"the kit itself, in the notebook {notebook}, which <code>lsys-kit lab</code> opens. They do not count here:</p>\n"
+    return ("<h2>In the notebook</h2>\n<p>Systems, drawings, formulas and diagrams can be right in many ways. The kit itself "
+            f"checks them, in the notebook {notebook}, which <code>lsys-kit lab</code> opens. They do not count here:</p>\n"
             f"<ul>\n{listed}</ul>\n")
