@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, progress
+from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, files, progress
 from lsys_kit.classroom.course import copy_course
 from lsys_kit.classroom.exercises import record
 from lsys_kit.classroom.exercises.progress import progress_of
@@ -106,6 +107,18 @@ def test_two_notebooks_at_the_same_time_lose_nothing(tmp_path):
         list(threads.map(lambda line: append_line(tmp_path / FILE, line, HEAD), lines))
     head, *written = (tmp_path / FILE).read_text().splitlines()
     assert (head, sorted(written)) == (HEAD, sorted(lines))
+
+
+def test_a_line_that_another_notebook_adds_in_between_is_not_overwritten(tmp_path, monkeypatch):
+    class Slow(io.FileIO):
+        def write(self, content: bytes) -> int:
+            with (tmp_path / FILE).open("ab") as other:
+                other.write(b"other\n")
+            return super().write(content)
+
+    monkeypatch.setattr(files, "open", lambda opened, mode, buffering: Slow(opened, mode), raising=False)
+    append_line(tmp_path / FILE, "own", HEAD)
+    assert (tmp_path / FILE).read_text() == f"{HEAD}\nother\nown\n"
 
 
 # Where it is kept

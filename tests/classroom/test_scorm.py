@@ -24,7 +24,7 @@ from lsys_kit import ModelFileError, ModelNameError, ModelValueError, check
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.registry import lessons
-from lsys_kit.classroom.scorm.answers import page_data
+from lsys_kit.classroom.scorm.answers import page_data, rounded_key
 from lsys_kit.classroom.scorm.package import ADL, CONTENT, MANIFEST, lessons_of, manifest, package, page_names, write_package
 from lsys_kit.classroom.scorm.page import exercise_page
 from tests.classroom.answers import EXERCISES, WRONG, as_typed, right_answers
@@ -245,6 +245,16 @@ def test_a_number_that_need_not_be_exact_is_right_within_its_tolerance_and_not_f
         replies = said([[checked_in_pages()[exercise.id], f"{number:.12f}"] for number in near])
         right = [reply is not None and reply["said"] == "Correct" for reply in replies]
         assert right == [True] * 4 + [False] * 2, exercise.id
+
+
+def test_numbers_are_rounded_in_a_page_as_in_the_kit(browser: Browser):
+    tab, part = browser.new_page(), Fraction(3, 50)
+    numbers = [Fraction(above, below) for above in range(-30, 31, 3) for below in (7, 25, 50, 100)]
+    given = [[str(number.numerator * sign), str(number.denominator * sign)] for number in numbers for sign in (1, -1)]
+    found = tab.evaluate(f"""given => {{ {joined('typed')}
+return given.map(([above, below]) => rounded({{ above: BigInt(above), below: BigInt(below) }}, [3n, 50n])); }}""", given)
+    assert found == [rounded_key(number, part) for number in numbers for _ in (1, -1)]
+    tab.close()
 
 
 # What a platform is told

@@ -144,7 +144,7 @@ def links_of(page: str, pages: Container[str]) -> Links:
 
 def missing(package: str) -> LSystemError:
     """The error that a package is not there which the site needs."""
-    return LSystemError(f"The site cannot be built without {package}", hint="Install it with: pip install 'lsys-kit[site]'")
+    return LSystemError(f"Pages cannot be written without {package}", hint="Install it with: pip install 'lsys-kit[site]'")
 
 
 def _mistune() -> Any:
