@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.variants import variants
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth.growth import growth
-    from lsys_kit.derivation.inference.infer import infer
     from lsys_kit.derivation.petri.pnml import pnml
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.derivation.timed.continuity import continuity
@@ -51,6 +50,7 @@ if TYPE_CHECKING:
     from lsys_kit.experiments.plot import plot
     from lsys_kit.experiments.runs import ensemble, sweep
     from lsys_kit.experiments.table import Table
+    from lsys_kit.geometry.inference.infer import infer
     from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
     from lsys_kit.notation.dialects.map.dialect import read_map
     from lsys_kit.notation.read import read
@@ -71,7 +71,7 @@ _HOMES = {
     "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
     "exercises": "classroom.exercises.registry",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
-    "growth": "derivation.growth.growth", "infer": "derivation.inference.infer", "limits": "budget",
+    "growth": "derivation.growth.growth", "infer": "geometry.inference.infer", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict",

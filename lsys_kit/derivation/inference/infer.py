@@ -141,10 +141,13 @@ def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions)
 
 
 def _what_is_certain(found: Sequence[Table]) -> str:
-    """What all systems found have in common."""
+    """What all systems found have in common, and what is left open."""
     same = {letter: word for letter, word in found[0].items() if all(other[letter] == word for other in found)}
     rules = [str(production) for production in productions_of(same)][:MOST_COUNTED]
-    return f"Give more steps. All that were found have {', '.join(rules)}." if rules else "Give more steps."
+    left = [str(letter) for letter in found[0] if letter not in same]
+    certain = f" All that were found have {', '.join(rules)}." if rules else ""
+    more = f" and {len(left) - MOST_COUNTED} more" if len(left) > MOST_COUNTED else ""
+    return f"Give more steps.{certain} They differ in what becomes of {', '.join(left[:MOST_COUNTED])}{more}."
 
 
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:

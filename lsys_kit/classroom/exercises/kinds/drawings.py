@@ -8,9 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from lsys_kit.budget import check_budget
 from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
@@ -18,6 +16,7 @@ from lsys_kit.classroom.exercises.kinds.words import read_modules
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
@@ -26,8 +25,6 @@ from lsys_kit.worlds.derive import derive
 _SYSTEM = re.compile(r"->|=|:|→|#")
 MOST_STROKES = 5_000
 """The most strokes of a drawing that is compared."""
-TOLERANCE = 1e-6
-"""How far two ends may be apart that are the same, where a drawing has the size 1."""
 
 
 @dataclass(frozen=True)
@@ -87,64 +84,6 @@ def _merged(spans: list[tuple[float, float]]) -> Iterator[tuple[float, float]]:
 def _ends(key: tuple[float, ...], low: float, high: float) -> list[float]:
     across, up, beside = key
     return [low * across + beside * up, low * up - beside * across, high * across + beside * up, high * up - beside * across]
-
-
-def normalised(ends: Floats) -> Floats:
-    """Strokes moved to their centre and scaled to size 1."""
-    if not len(ends):
-        return ends
-    dimension = ends.shape[1] // 2
-    points = ends.reshape(-1, dimension)
-    points = points - points.mean(axis=0)
-    size = float(np.sqrt((points**2).sum(axis=1).mean()))
-    return np.asarray(points / (size or 1), dtype=float).reshape(-1, 2 * dimension)
-
-
-def same_strokes(mine: Floats, wanted: Floats) -> bool:
-    """Whether normalised strokes are the same after a turn.
-
-    >>> square = normalised(np.array([[0.0, 0, 1, 0], [1, 0, 1, 1], [1, 1, 0, 1], [0, 1, 0, 0]]))
-    >>> same_strokes(square @ np.kron(np.eye(2), np.array([[0, 1], [-1, 0]])), square)
-    True
-    """
-    if mine.shape != wanted.shape:
-        return False
-    if not len(mine):
-        return True
-    if mine.shape[1] == 6:
-        return _same_in_space(mine, wanted)
-    return any(_covers(mine @ np.kron(np.eye(2), turn), wanted) for turn in _turns(mine, wanted))
-
-
-def _turns(mine: Floats, wanted: Floats) -> Iterator[Floats]:
-    """The turns that bring the outermost point of one drawing to a point of the other."""
-    own, other = mine.reshape(-1, 2), wanted.reshape(-1, 2)
-    radii = np.hypot(*own.T)
-    outermost = own[int(radii.argmax())]
-    angle = np.arctan2(outermost[1], outermost[0])
-    seen: set[float] = set()
-    for x, y in other[np.abs(np.hypot(*other.T) - radii.max()) < 10 * TOLERANCE]:
-        turn = round(float(np.arctan2(y, x) - angle) % (2 * np.pi), 5)
-        if turn not in seen:
-            check_budget()
-            seen.add(turn)
-            by = np.arctan2(y, x) - angle
-            yield np.array([[np.cos(by), np.sin(by)], [-np.sin(by), np.cos(by)]])
-
-
-def _covers(mine: Floats, wanted: Floats) -> bool:
-    """Whether each stroke of one drawing lies on one of the other, in either direction."""
-    both_ways = np.concatenate([wanted, wanted[:, [2, 3, 0, 1]]])
-    distances, nearest = cKDTree(both_ways).query(mine)
-    return bool((distances < 100 * TOLERANCE).all()) and len(set((nearest % len(wanted)).tolist())) == len(wanted)
-
-
-def _same_in_space(mine: Floats, wanted: Floats) -> bool:
-    """Whether strokes in space, in their order, are the same after a rotation (Kabsch 1976)."""
-    own, other = mine.reshape(-1, 3), wanted.reshape(-1, 3)
-    left, _, right = np.linalg.svd(own.T @ other)
-    mirror = np.diag([1, 1, np.sign(np.linalg.det(left @ right))])
-    return bool(np.allclose(own @ (left @ mirror @ right), other, atol=100 * TOLERANCE))
 
 
 def _read(exercise: Exercise, answer: object) -> Drawn:

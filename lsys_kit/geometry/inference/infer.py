@@ -1,0 +1,186 @@
+"""`infer`: all systems that fit a sequence of words, or that draw a sequence of pictures.
+
+Words need no turtle: their rules are found in `derivation`, where more is said. What draws needs one, so that the public
+function stands here, as `derive` stands above geometry for systems that look around.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import overload
+
+from lsys_kit.budget import Task, counted
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.inference import infer as words_alone
+from lsys_kit.derivation.inference.fits import Fits
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
+from lsys_kit.geometry.inference.fits import SAME_TO, DrawingFits, drawn
+from lsys_kit.geometry.inference.node_rewriting import node_rules
+from lsys_kit.geometry.inference.strokes import LEAST_ANGLE, Strokes, Turning, angle_between, is_drawing, read_drawings
+from lsys_kit.geometry.sameness import normalised, same_strokes
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read
+
+MOST_FITS = 1_000
+"""So many systems are listed; more are refused."""
+
+
+@overload
+def infer(words: Iterable[str], constants: Iterable[str] = ..., erasing: bool = ...,
+          context: tuple[int, int] = ...) -> Fits: ...
+@overload
+def infer(words: Iterable[object], constants: Iterable[str] = ..., erasing: bool = ..., context: tuple[int, int] = ..., *,
+          angle: object = ...) -> Fits | DrawingFits: ...
+def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False,
+          context: tuple[int, int] = (0, 0), *, angle: object = None) -> Fits | DrawingFits:
+    """All systems that fit a sequence of words, or that draw a sequence of pictures.
+
+    Parameters
+    ----------
+    words
+        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words. A word is a text of one-letter symbols, a
+        `Word`, or a row of modules or names. Texts with blanks between letters, or numbers in parentheses behind them, are read
+        as `derive` prints words.
+        Or the pictures of these steps, in the plane: what `draw` gives, or the strokes of each as rows of four numbers, x and y
+        of one end and of the other. Strokes may be in any order, and begin at either end; a picture may be moved, turned and
+        enlarged, but not mirrored.
+    constants
+        The symbols that stay as they are; contexts pass over them. The brackets [ and ] always do.
+    erasing
+        Whether a letter may become nothing.
+    context
+        How many neighbours to the left and to the right a production may look at.
+    angle
+        The turning angle of the pictures in degrees; by default that of which all angles between strokes are multiples.
+
+    Returns
+    -------
+    Fits
+        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
+        step and letter that contradict those before, single letters that may be wrong, contexts with which some system fits.
+        Letters that only the last word has are left as they are, since nothing is known of them. Where modules have parameters,
+        the systems are those with the fewest productions: conditions compare parameters with numbers, and values are affine
+        functions of parameters.
+    DrawingFits
+        For pictures the systems that draw them, in the same form: each was drawn and compared. All strokes must be equally
+        long. If the first picture has strokes, F is the only letter, and its successor is a word of F, + and - with brackets;
+        systems without brackets are preferred. If the first picture is empty, an apex X becomes a word of X, F, + and -,
+        and F becomes a row of F: so plants such as the last three of ABOP, figure 1.24, are found. Other systems, with two
+        letters that draw, with f, chance or parameters, are not looked for.
+
+    Raises
+    ------
+    ModelLimitError
+        More than 1,000 systems fit, or the search takes too long; `partial` has those that were found.
+    ModelValueError
+        The words, the pictures or another argument cannot be used.
+
+    Examples
+    --------
+    >>> infer(["a", "ab", "aba"])
+    One system fits these 3 words:
+      a -> a b
+      b -> a
+    >>> print(infer(["FGG", "F-G+F+G-FGGGG"]))
+    2 systems fit these 2 words; they part at step 2:
+     1.
+      F -> F-G+F+G-F G G
+     2.
+      F -> F-G+F+G-F
+      G -> G G
+    >>> print(infer(["a", "ab", "abb", "abba"]))
+    No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is \
+a. A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits.
+
+    A plant from its pictures:
+
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.worlds.derive import derive
+    >>> plant = derive(read("angle: 30\\naxiom: F\\nF -> F[+F]F"), 3)
+    >>> infer([scene_of(plant[step]) for step in range(4)])
+    One system draws these 4 pictures:
+      angle: 30
+      axiom: F
+      F -> F[+F]F
+    """
+    given = [*counted(words, 1)] if isinstance(words, list | tuple) else words
+    if isinstance(given, list) and any(map(is_drawing, given)):
+        with Task("The search for systems was not finished"):
+            return _of_drawings(read_drawings(given), angle)
+    if angle is not None:
+        raise ModelValueError("An angle is for pictures, and these are words", hint="Leave it out.")
+    return words_alone.infer(given, constants, erasing, context)
+
+
+def _of_drawings(drawings: tuple[Strokes, ...], angle: object) -> DrawingFits:
+    if len(drawings) < 2:
+        raise ModelValueError("Rules are found from two pictures at least; there is one",
+                              hint="Give the pictures of steps 0, 1, 2, ... in a list.")
+    refusal = _refusal(drawings)
+    if refusal:
+        return DrawingFits(drawings, (), refusal)
+    turning = Turning(_angle(angle, drawings))
+    found: dict[str, LSystem] = {}
+    try:
+        for text in _candidates(drawings, turning):
+            if text not in found and draws(system := read(text), drawings):
+                found[text] = system
+            if len(found) > MOST_FITS:
+                raise ModelLimitError(f"More than {MOST_FITS:,} systems draw these {len(drawings)} pictures", limit=MOST_FITS,
+                                      hint="Give more steps.")
+    except ModelLimitError as error:
+        error.partial = _sorted(drawings, found)
+        raise
+    return _sorted(drawings, found)
+
+
+def _sorted(drawings: tuple[Strokes, ...], found: dict[str, LSystem]) -> DrawingFits:
+    systems = tuple(found[text] for text in sorted(found, key=lambda text: (len(text), text)))
+    why = "" if systems else "Their strokes do not stand where a rule for F, or for an apex X with F, would put them."
+    return DrawingFits(drawings, systems, why)
+
+
+def _angle(given: object, drawings: tuple[Strokes, ...]) -> float:
+    if given is None:
+        return angle_between(drawings[:3])
+    degrees = real_from(given, "angle")
+    if not LEAST_ANGLE <= degrees <= 180:
+        raise ModelValueError(f"The angle is from {LEAST_ANGLE:g} to 180 degrees, not {degrees:g}")
+    return degrees
+
+
+def _refusal(drawings: tuple[Strokes, ...]) -> str:
+    """Why no system that is looked for can draw some pictures; empty where one could."""
+    if not len(drawings[0]):
+        if len(drawings) < 3 or not len(drawings[1]):
+            return "Where the first picture is empty, the next two are needed, with strokes."
+    elif factor_of(drawings) is None:
+        counts = ", ".join(f"{len(each):,}" for each in drawings)
+        return f"They have {counts} strokes: a rule that replaces each stroke by so many others multiplies them at each step."
+    apart = next((step for step, each in enumerate(drawings[:2]) if len(each) and not each.is_connected), None)
+    return "" if apart is None else f"The strokes of step {apart} do not hang together."
+
+
+def _candidates(drawings: tuple[Strokes, ...], turning: Turning) -> Iterator[str]:
+    """Texts of systems that may draw the pictures."""
+    head = f"angle: {turning.degrees:.10g}\naxiom: "
+    factor = factor_of(drawings)
+    if factor is not None:
+        yield from (f"{head}{axiom}\nF -> {word}" for axiom, word in edge_rules(drawings, turning, factor))
+        return
+    for word, longer in node_rules(drawings, turning):
+        yield f"{head}X\nX -> {word}" + (f"\nF -> {'F' * longer}" if longer > 1 else "")
+
+
+def draws(system: LSystem, drawings: tuple[Strokes, ...]) -> bool:
+    """Whether a system draws some pictures, up to position, turn and size.
+
+    >>> draws(read("axiom: F\\nF -> F+F"), read_drawings([[(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 1, 1, 1)]]))
+    True
+    """
+    for step, wanted in enumerate(drawings):
+        mine = drawn(system, step)
+        if mine is None or not same_strokes(mine, normalised(wanted.coordinates), SAME_TO):
+            return False
+    return True
