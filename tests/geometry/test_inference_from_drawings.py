@@ -145,7 +145,8 @@ def test_a_refusal_says_why(pictures: Sequence[Any], why: str) -> None:
     ([ONE, "F+F"], {}, "The drawing of step 1 must be a picture in the plane"),
     ([ONE, [(0, 0, 0, float("nan"))]], {}, "The drawing of step 1 must be a picture in the plane"),
     ([ONE, TWO], {"angle": 0}, "The angle is from 1 to 180 degrees, not 0"),
-    ([ONE, TWO], {"angle": "1/0"}, '"1/0" has no value'), (["a", "ab"], {"angle": 90}, "An angle is for pictures, and these are words"),
+    ([ONE, TWO], {"angle": "1/0"}, '"1/0" has no value'), (["a", "ab"], {"angle": 90}, "An angle is for pictures, and these "
+                                                                                       "are words"),
 ])
 def test_what_cannot_be_used_is_said(pictures: Sequence[Any], choices: dict[str, Any], message: str) -> None:
     with pytest.raises(ModelValueError) as refused:

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import islice
 from typing import Any, TypeAlias
 
@@ -96,8 +96,13 @@ def asked_system(exercise: Exercise) -> LSystem:
     >>> asked_system(Exercise("1", "", "word", "", "", "", (), system="J1")).axiom[0].symbol
     'ar'
     """
-    found = read(exercise.system) if ":" in exercise.system else catalogued(exercise.system)
-    return with_constants(found, exercise.constants)
+    return with_constants(system_of(exercise.system), exercise.constants)
+
+
+@lru_cache(maxsize=128)
+def system_of(text: str) -> LSystem:
+    """The system that a text writes or names; it is read once, however many misconceptions ask for it."""
+    return read(text) if ":" in text else catalogued(text)
 
 
 def with_constants(system: LSystem, values: Mapping[str, Any]) -> LSystem:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -88,28 +88,52 @@ def right_by_mistake(exercise: Exercise) -> tuple[str, ...]:
     return tuple(dict.fromkeys(misconception.name for misconception, _, right in _yielded(exercise) if right))
 
 
+def is_right_by_mistake(exercise: Exercise) -> bool:
+    """Whether some misconception yields the right answer; no others are looked at then."""
+    return any(right for _, _, right in _yielded(exercise))
+
+
+Yielded: TypeAlias = tuple[Misconception, Any, bool]
+"""A misconception, an answer that it yields, and whether that is right."""
+
+
+class _Yields:
+    """What misconceptions yield, one after another; each is computed when it is first asked for, and kept."""
+
+    def __init__(self, exercise: Exercise) -> None:
+        self._found, self._rest = list[Yielded](), _each_yielded(exercise)
+
+    def __iter__(self) -> Iterator[Yielded]:
+        yield from self._found
+        for each in self._rest:
+            self._found.append(each)
+            yield each
+
+
 @lru_cache(maxsize=512)
-def _yielded(exercise: Exercise) -> tuple[tuple[Misconception, Any, bool], ...]:
+def _yielded(exercise: Exercise) -> _Yields:
     """The answers that misconceptions yield, and whether they are right."""
-    return tuple(_each_yielded(exercise))
+    return _Yields(exercise)
 
 
-def _each_yielded(exercise: Exercise) -> Iterator[tuple[Misconception, Any, bool]]:
-    kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
-    started = time.process_time()
+def _each_yielded(exercise: Exercise) -> Iterator[Yielded]:
+    solution, started = solution_of(exercise), time.process_time()
     for misconception in MISCONCEPTIONS.values():
-        if not _is_looked_for(exercise, misconception) or time.process_time() - started > MOST_SECONDS:
-            continue
-        found: list[Any] = []
-        with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):
-            for answer in misconception.answers(exercise):
-                if answer is None or any(_alike(exercise, answer, other) for other in found):
-                    continue
-                found.append(answer)
+        if _is_looked_for(exercise, misconception) and time.process_time() - started <= MOST_SECONDS:
+            yield from _yielded_by(exercise, misconception, solution)
+
+
+def _yielded_by(exercise: Exercise, misconception: Misconception, solution: Any) -> list[Yielded]:
+    kind = ANSWER_KINDS[exercise.kind]
+    found: list[Yielded] = []
+    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):
+        for answer in misconception.answers(exercise):
+            if answer is not None and not any(_alike(exercise, answer, other) for _, other, _ in found):
                 right = kind.same(exercise, answer, solution) or _alike(exercise, answer, solution)
-                yield misconception, answer, right
+                found.append((misconception, answer, right))
                 if len(found) >= MOST_ANSWERS:
                     break
+    return found
 
 
 def _is_looked_for(exercise: Exercise, misconception: Misconception) -> bool:

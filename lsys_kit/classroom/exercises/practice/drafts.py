@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from random import Random
+from string import ascii_uppercase
 from typing import TypeAlias
 
-from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.notation.read import read
+from lsys_kit.classroom.exercises.asked import system_of
+from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
 from lsys_kit.worlds.derive import derive
 
 Rules: TypeAlias = Mapping[str, Sequence[str]]
@@ -71,7 +73,7 @@ def quoted_lines(text: str) -> str:
 
 def words_of(system: str, steps: int) -> list[str]:
     """The words of a system, as texts."""
-    return [str(word) for word in derive(read(system), steps)]
+    return [str(word) for word in derive(system_of(system), steps)]
 
 
 def size_of(word: str) -> int:
@@ -86,3 +88,31 @@ def size_of(word: str) -> int:
 def derivation_text(words: Sequence[str]) -> str:
     """Words with their steps, for an explanation."""
     return "Step by step:\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
+
+
+def number_exercise(question: str, right: Fraction | int, wrong: Sequence[tuple[Fraction | int, str]], explanation: str,
+                    hints: tuple[str, ...], unit: str = "") -> Exercise | None:
+    """A question for a number, with wrong answers and what is said of each; None where two of all these are the same.
+
+    >>> number_exercise("How many?", 3, [(3, "You guessed.")], "", ()) is None
+    True
+    """
+    if len({right, *(each for each, _ in wrong)}) <= len(wrong) or right <= 0:
+        return None
+    slips = tuple(Slip(str(each), says) for each, says in wrong)
+    return Exercise("", "", "number", question, str(right), explanation, hints, slips=slips, unit=unit)
+
+
+def choice_exercise(chance: Random, question: str, right: str, wrong: Sequence[tuple[str, str]], explanation: str,
+                    hints: tuple[str, ...]) -> Exercise | None:
+    """A question with options in no order, of which each wrong one has its reply; None where two of them are the same.
+
+    >>> choice_exercise(Random(1), "Which?", "a", [("a", "No.")], "", ()) is None
+    True
+    """
+    if len({right, *(each for each, _ in wrong)}) <= len(wrong):
+        return None
+    options = [Option(right), *(Option(each, says) for each, says in wrong)]
+    chance.shuffle(options)
+    letter = ascii_uppercase[[option.text for option in options].index(right)]
+    return Exercise("", "", "choice", question, letter, explanation, hints, options=tuple(options))

@@ -7,6 +7,7 @@ from fractions import Fraction
 from itertools import pairwise, product
 from random import Random
 
+from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Slip
 from lsys_kit.classroom.exercises.practice.drafts import (
     OF_BRANCHES,
@@ -21,7 +22,6 @@ from lsys_kit.classroom.exercises.practice.drafts import (
     system_text,
 )
 from lsys_kit.derivation.growth.growth import growth
-from lsys_kit.notation.read import read
 
 _NOT_COUNTED = (*OF_OVERLAPS, *OF_ORDER, *OF_PICTURES, *OF_SILENT_LETTERS, *OF_BRANCHES, "one production a step")
 _COUNTING = ("Write the first words, and count.",
@@ -30,7 +30,7 @@ _COUNTING = ("Write the first words, and count.",
 
 
 def _counts_text(system: str, steps: int) -> str:
-    return "Modules at each step: " + ", ".join(map(str, growth(read(system)).lengths(steps)))
+    return "Modules at each step: " + ", ".join(map(str, growth(system_of(system)).lengths(steps)))
 
 
 # How many
@@ -39,7 +39,7 @@ def _counts_text(system: str, steps: int) -> str:
 def _counts(chance: Random, level: int) -> Exercise | None:
     letters = "abc"[: 2 + (level > 1)]
     system, steps = system_text("a", random_rules(chance, letters, 2 + (level > 1))), 3 + level
-    found = [growth(read(system)).counts_of(letter, steps)[steps] for letter in letters if f"\n{letter} ->" in system]
+    found = [growth(system_of(system)).counts_of(letter, steps)[steps] for letter in letters if f"\n{letter} ->" in system]
     if not 6 < sum(found) < 200 or 0 in found or len(set(found)) < len(found):
         return None
     return Exercise(
@@ -52,7 +52,7 @@ def _counts(chance: Random, level: int) -> Exercise | None:
 def _matrix(chance: Random, level: int) -> Exercise | None:
     letters = "abc"[: 2 + (level > 1)]
     system = system_text("a", random_rules(chance, letters, 2 + level))
-    model = read(system)
+    model = system_of(system)
     entries = list(map(int, growth(model).matrix))
     size = len(letters)
     if len(entries) != size * size or len(set(entries)) < 2:
@@ -70,8 +70,8 @@ def _matrix(chance: Random, level: int) -> Exercise | None:
 def _length(chance: Random, level: int) -> Exercise | None:
     system = system_text("a", random_rules(chance, "abc"[: 2 + (level > 1)], 2))
     steps = 6 + 2 * level + chance.randint(0, 3)
-    found = growth(read(system)).lengths(steps)
-    if found[3] < 3 or not 12 < found[-1] < 3_000:
+    found = growth(system_of(system)).lengths(steps)
+    if found[3] < 3 or not 12 < found[-1] < 100 * 3**level:
         return None
     return Exercise(
         "", "", "number", f"How many letters has the word of step {steps}?{quoted_lines(system)}"
@@ -83,7 +83,7 @@ def _length(chance: Random, level: int) -> Exercise | None:
 def _first_past(chance: Random, level: int) -> Exercise | None:
     system = system_text("a", random_rules(chance, "abc"[: 2 + (level > 1)], 3))
     bound = 10 ** (1 + level)
-    lengths = growth(read(system)).lengths(40)
+    lengths = growth(system_of(system)).lengths(40)
     first = next((step for step, length in enumerate(lengths) if length > bound), 0)
     if first < 4 or first > 30:
         return None
@@ -104,7 +104,7 @@ def _life_spans(chance: Random, level: int) -> Exercise | None:
     daughters_b = chance.choice([("A", "B"), ("B", "A"), ("A",)])
     system = "\n".join(["axiom: A(1)", *_ageing("A", life_a, daughters_a), *_ageing("B", life_b, daughters_b)])
     steps = life_a + life_b + 4 + level + chance.randint(0, 3)
-    found = growth(read(system)).lengths(steps)
+    found = growth(system_of(system)).lengths(steps)
     if not 4 < found[-1] < 500:
         return None
     return Exercise(

@@ -108,6 +108,8 @@ def _context(chance: Random, level: int) -> Exercise | None:
         one, right = chance.sample(letters, 2)
         lines.insert(1, f"{one} > {right} -> {chance.choice(letters)}")
     axiom = " ".join(chance.choice(letters) for _ in range(4 + level))
+    if f"{left} {old}" not in axiom or new == [old]:  # nothing would happen in the first step
+        return None
     return _word_exercise(
         "\n".join([f"axiom: {axiom}", *lines]), 2 + (level > 1), "The productions look at neighbours:",
         ("What stands before < is the neighbour on the left, what stands behind > that on the right.",

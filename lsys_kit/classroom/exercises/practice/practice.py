@@ -10,17 +10,22 @@ from random import Random
 from lsys_kit.budget import Task, check_budget
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.judging import right_by_mistake, wrong_answers
+from lsys_kit.classroom.exercises.judging import is_right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.practice.drafts import Topic
 from lsys_kit.classroom.exercises.practice.of_drawings import OF_DRAWINGS
+from lsys_kit.classroom.exercises.practice.of_languages import OF_LANGUAGES
 from lsys_kit.classroom.exercises.practice.of_numbers import OF_NUMBERS
+from lsys_kit.classroom.exercises.practice.of_plants import OF_PLANTS
+from lsys_kit.classroom.exercises.practice.of_space import OF_SPACE
+from lsys_kit.classroom.exercises.practice.of_time import OF_TIME
 from lsys_kit.classroom.exercises.practice.of_words import OF_WORDS
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, require, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
 
-TOPICS: Mapping[str, Topic] = {**OF_WORDS, **OF_NUMBERS, **OF_DRAWINGS}
+TOPICS: Mapping[str, Topic] = {
+    **OF_WORDS, **OF_NUMBERS, **OF_DRAWINGS, **OF_PLANTS, **OF_TIME, **OF_SPACE, **OF_LANGUAGES}
 """What can be practised."""
 LEVELS = 3
 """How many levels there are."""
@@ -69,8 +74,10 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
     Parameters
     ----------
     topic
-        What is practised: "derive", "misprint" (lesson 1), "counts", "matrix", "length", "first" (lesson 2), "brackets" (3),
-        "turtle" (4), "stages" (5), "conditions" (6), "life spans" (7), "chance" (8) or "context" (9).
+        What is practised: "strokes" (lesson 0), "derive", "misprint" (1), "counts", "matrix", "length", "first" (2), "brackets"
+        (3), "turtle" (4), "stages" (5), "conditions" (6), "life spans" (7), "chance" (8), "context" (9), "flowering" (10),
+        "slices" (11), "lengths" (12), "space" (13), "looking" (14), "hedge" (15), "walls" (16), "language", "growth type" (17)
+        or "rules" (18).
     level
         1, 2 or 3, from easy to hard.
     seed
@@ -127,13 +134,14 @@ def _made(topic: str, level: int, seed: int) -> Exercise:
         while True:
             check_budget()
             draft = TOPICS[topic].draft(chance, level)
-            if draft is not None and is_sound(draft):
-                return replace(draft, id=f"{topic}, level {level}, seed {seed}", title=TOPICS[topic].title)
+            named = draft and replace(draft, id=f"{topic}, level {level}, seed {seed}", title=TOPICS[topic].title)
+            if named is not None and is_sound(named):
+                return named
 
 
 def is_sound(exercise: Exercise) -> bool:
     """Whether the misconceptions that an exercise is to uncover yield wrong answers, and none the right one."""
-    if right_by_mistake(exercise):
+    if is_right_by_mistake(exercise):
         return False
     reached = {wrong.misconception.name for wrong in wrong_answers(exercise) if wrong.misconception}
     return set(exercise.expects) <= reached
