@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.asked import beginning_with
@@ -40,10 +40,20 @@ def words_by(step: WrongStep, system: LSystem, steps: int) -> Iterator[list[Modu
 
 def sequential(states: States, word: list[int]) -> list[int]:
     """Each production is applied everywhere, one after another, the second to what the first has made."""
+    return _each_by(lambda state: _one_after_another(states, state), word)
+
+
+def _each_by(successor: Callable[[int], Sequence[int]], word: list[int]) -> list[int]:
+    """A word with each module replaced, by what is found once for all that are alike."""
+    made = {state: successor(state) for state in dict.fromkeys(word)}
+    return [after for state in word for after in made[state]]
+
+
+def _one_after_another(states: States, state: int) -> list[int]:
+    """What one production after another makes of a module."""
+    word = [state]
     for number in range(len(states.system.productions)):
-        word = [
-            after for state in word for after in (states.successor(state) if states.production(state) == number else (state,))
-        ]
+        word = [after for each in word for after in (states.successor(each) if states.production(each) == number else (each,))]
         if len(word) > MOST_MODULES:
             break
     return word
@@ -51,12 +61,8 @@ def sequential(states: States, word: list[int]) -> list[int]:
 
 def one_production(states: States, word: list[int]) -> list[int]:
     """Each step applies the first production that applies anywhere, and no other."""
-    first = min((n for n in map(states.production, word) if n is not None), default=None)
-    return [
-        after
-        for state in word
-        for after in (states.successor(state) if states.production(state) == first is not None else (state,))
-    ]
+    first = min((n for n in map(states.production, dict.fromkeys(word)) if n is not None), default=None)
+    return _each_by(lambda state: states.successor(state) if states.production(state) == first is not None else (state,), word)
 
 
 def leftmost_only(states: States, word: list[int]) -> list[int]:
@@ -85,13 +91,11 @@ def branches_kept(states: States, word: list[int]) -> list[int]:
 
 def vanishing(states: States, word: list[int]) -> list[int]:
     """A letter without a production vanishes."""
-    return [
-        after
-        for state in word
-        for after in (
-            () if states.production(state) is None and states.modules[state].symbol[:1].isalpha() else states.successor(state)
-        )
-    ]
+    def successor(state: int) -> Sequence[int]:
+        vanishes = states.production(state) is None and states.modules[state].symbol[:1].isalpha()
+        return () if vanishes else states.successor(state)
+
+    return _each_by(successor, word)
 
 
 def all_that_match(states: States, word: list[int]) -> list[int]:
@@ -106,7 +110,7 @@ def all_that_match(states: States, word: list[int]) -> list[int]:
 
 def old_word_kept(states: States, word: list[int]) -> list[int]:
     """What has been made is written behind what was there."""
-    return [*word, *(after for state in word if states.production(state) is not None for after in states.successor(state))]
+    return [*word, *_each_by(lambda state: () if states.production(state) is None else states.successor(state), word)]
 
 
 def context_in_new_word(system: LSystem, steps: int) -> Iterator[list[Module]]:
@@ -121,10 +125,13 @@ def context_in_new_word(system: LSystem, steps: int) -> Iterator[list[Module]]:
     yield word
     for _ in range(steps):
         made: list[Module] = []
+        read: list[Module] = []
         for at in range(len(word) if len(word) < MOST_WITH_NEIGHBOURS else 0):
-            after = derive(beginning_with(system, [*made, *word[at:]]), 1)
-            origins = after.origins(1)
-            made = [*made, *(module for module, parent in zip(after[1], origins.parents, strict=True) if parent == len(made))]
+            if read != [*made, *word[at:]]:  # the last module has changed
+                read = [*made, *word[at:]]
+                after = derive(beginning_with(system, read), 1)
+                becoming = [*zip(after[1], after.origins(1).parents, strict=True)]
+            made = [*made, *(module for module, parent in becoming if parent == len(made))]
         if not made:
             return
         word = made
