@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator
 from html import unescape
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 
 import axe_playwright_python
 import pytest
 from playwright.sync_api import Browser, Page, Route, expect
 
+from lsys_kit import read
 from lsys_kit.classroom.course import course_files
+from lsys_kit.classroom.lessons.declared import declared
+from lsys_kit.classroom.lessons.settings import asked_settings
+from lsys_kit.classroom.panel.books.book import book
+from lsys_kit.classroom.panel.controls import slider_ranges
 from lsys_kit.classroom.site.build import build_site
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.system import LSystem
 from tests.browser.test_lessons import move_every_slider
 
 pytestmark = pytest.mark.slow
@@ -70,6 +79,47 @@ def shot(page: Page, name: str, config: pytest.Config) -> None:
     if folder:
         Path(folder).mkdir(parents=True, exist_ok=True)
         page.screenshot(path=Path(folder) / f"site-{name.replace('/', '-')}.png", full_page=True)
+
+
+def panels_of(page: Path) -> Iterator[dict[str, Any]]:
+    """What a page knows of each of its panels."""
+    data = json.loads(re.search(r'id="lsys-data">(.*?)</script>', page.read_text("utf-8"))[1])
+    for part in data["parts"]:
+        sides = {"panel": [part["data"]], "comparison": [*part["data"].values()]}.get(part["kind"], [])
+        yield from (panel for panel in sides if panel["mode"] not in ("map", "tissue"))
+
+
+def held_by(model: dict[str, Any], fixed: dict[str, str], asked: dict[str, str]) -> bool:
+    """Whether a panel has the book of some values of its sliders, all others being at their first."""
+    texts = {name: [text] for name, text in fixed.items()} | {each["name"]: each["texts"] for each in model["constants"]}
+    texts["seed"] = model["seeds"] or [str(model["seed"])]
+    first = fixed | {each["name"]: each["texts"][each["index"]] for each in model["constants"]} | {"seed": str(model["seed"])}
+    away = [name for name, value in asked.items() if value != first[name]]
+    return all(value in texts[name] for name, value in asked.items()) and (
+        len(away) < 2 or {*away} <= {name or "seed" for name in model["together"]})
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_every_slider_moves_and_reaches_what_the_tables_of_the_lesson_ask_for(site: Path, name: str) -> None:
+    tables = declared(Path(name).stem).tables
+    for panel in panels_of(site / name):
+        model, fixed, said = panel["model"], panel["fixed"], panel["model"]["fixed"]
+        whole = read(panel["system"]["text"], panel["system"]["notation"])
+        sliders, moving = slider_ranges(whole, fixed).keys(), {each["name"] for each in model["constants"]}
+        assert all(len(each["texts"]) > 1 for each in model["constants"])
+        assert all(f"{constant} = " in said for constant in sliders - moving)
+        chance = is_by_chance(whole)
+        assert model["chance"] or not chance or "seed = " in said
+        for row in asked_settings(tables, {*sliders, *(["seed"] if chance else [])}):
+            assert held_by(model, fixed, {each: number_text(value) for each, value in row.items()}), (row, said)
+
+
+def is_by_chance(of: LSystem) -> bool:
+    return bool(book(of, {}, 0)["chance"])
+
+
+def test_no_page_of_a_lesson_is_larger_than_a_photograph(site: Path) -> None:
+    assert {name: size for name in LESSONS if (size := (site / name).stat().st_size) > 1_500_000} == {}
 
 
 @pytest.mark.parametrize("name", LESSONS)

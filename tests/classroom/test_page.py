@@ -7,6 +7,7 @@ import hashlib
 import json
 import re
 import zlib
+from fractions import Fraction
 from html.parser import HTMLParser
 from itertools import product
 from pathlib import Path
@@ -33,7 +34,7 @@ from lsys_kit import (
     systems,
 )
 from lsys_kit.classroom.panel.books.book import book
-from lsys_kit.classroom.panel.page import deflated, live_constants, page, page_data, save_page, shared
+from lsys_kit.classroom.panel.page import deflated, page, page_data, save_page, shared
 from lsys_kit.notation.fragments import unpacked
 from tests.classroom.front_end import joined
 from tests.classroom.test_link import forged
@@ -132,35 +133,64 @@ def test_books_that_share_their_parts_are_the_same_books(books: list[dict[str, A
     assert books_of({"books": deflated(shared(books))}) == books
 
 
-def test_constants_are_live_while_there_is_room() -> None:
-    sizes = {"a": range(16), "b": range(5), "c": range(20), "d": range(5)}
-    assert [live_constants(sizes, most) for most in (1_600, 1_599, 400, 80, 79, 1)] == [
-        ["a", "b", "c"], ["a", "b", "d"], ["a", "b", "d"], ["a", "b"], ["a"], []]
-
-
 @pytest.mark.parametrize("setting", ["MOST_BOOKS", "MOST_CHARACTERS", "seconds"])
 def test_a_page_has_room_for_few_books_and_time_for_one_task(monkeypatch, setting: str) -> None:
-    found = read("n = 1 in 1 .. 4\nm = 1 in 1 .. 2\naxiom: A(n)\nA(t) -> A(t+m)")
-    unit = len(json.dumps(book(found, {"n": 1, "m": 1}, 0, least=5))) if setting == "MOST_CHARACTERS" else 1
-    for room, live in ((8, ["n", "m"]), (7.9, ["n"])):
-        monkeypatch.setattr(panel_page, "time", SimpleNamespace(thread_time=iter((0.0, 1.0)).__next__))  # a second a book
+    found = read("n = 3 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)")
+    monkeypatch.setattr(panel_page, "time", SimpleNamespace(thread_time=iter(range(10_000)).__next__))  # a second a book
+    few = [{}, {"n": 1}, {"n": 9}, {"m": 9}]
+    unit = len(deflated(shared([book(found, {"n": 3, "m": 1, **each}, 0, least=5) for each in few]))) / len(few)
+    for room, least in ((81.5, 81), (30, 17), (12, 8), (4, 4)):
         if setting != "seconds":
-            monkeypatch.setattr(panel_page, setting, room * unit)
+            monkeypatch.setattr(panel_page, setting, room * (unit if setting == "MOST_CHARACTERS" else 1))
         with limits(seconds=room if setting == "seconds" else 3_600):
-            assert [each["name"] for each in page_data(found)["model"]["constants"]] == live
+            data = page_data(found)
+        assert least <= len(books_of(data)) <= room
+        assert [each["name"] for each in data["model"]["constants"]] == ["n", "m"]
+
+
+def test_a_slider_stays_where_it_is_if_its_fewest_values_have_no_room(monkeypatch) -> None:
+    monkeypatch.setattr(panel_page, "MOST_BOOKS", 2)
+    data = page_data(read("n = 3 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)"))
+    assert [(each["name"], each["texts"]) for each in data["model"]["constants"]] == [("m", ["1", "9"])]
+    assert data["model"]["fixed"] == "Fixed on this page: n = 3. It holds 2 of the 9 values of m."
+    assert data["fixed"] == {"n": "3"}
+
+
+def test_what_is_asked_for_is_on_the_page_before_all_else(monkeypatch) -> None:
+    monkeypatch.setattr(panel_page, "MOST_BOOKS", 8)
+    found = read("n = 3 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)")
+    for asked, texts in (([{"n": 7}, {"n": 99}, {"x": 2, "m": 4}], [["1", "3", "7", "9"], ["1", "4", "9"]]),
+                         ([{"n": 7, "m": 4}], [["1", "3", "7", "9"], ["1", "4", "9"]])):
+        data = page_data(found, asked=asked)
+        assert [each["texts"] for each in data["model"]["constants"]] == texts
+        assert data["model"]["together"] == (("n", "m") if len(asked) == 1 else ())
+
+
+def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
+    found = read("p = 0.5 in 0 .. 1 by 1/2\naxiom: A\nA -> A B : p\nA -> A : 1-p")
+    data = page_data(found, seed=12)
+    books, constants = books_of(data), [Fraction(0), Fraction(1, 2), 1]
+    assert data["model"]["seeds"] == [*map(str, range(9, 45))]
+    for made, (p, seed) in zip(books, product(constants, range(9, 45)), strict=True):
+        assert made == json.loads(json.dumps(book(found, {"p": p}, seed, least=5)))
+    monkeypatch.setattr(panel_page, "MOST_BOOKS", 11)
+    few = page_data(found, seed=12, asked=[{"seed": 10}])["model"]
+    assert few["seeds"] == [*map(str, range(9, 18))]
+    assert few["fixed"].startswith("This page holds the seeds 9 to 17. p and seed move one at a time: ")
+    monkeypatch.setattr(panel_page, "MOST_BOOKS", 3)
+    assert page_data(found, seed=12)["model"]["fixed"] == "Fixed on this page: seed = 12."
 
 
 def test_what_is_fixed_is_said() -> None:
-    data = page_data(read("n = 3 in 1 .. 1000000\nk = 2\naxiom: A(n)\nA(t) -> A(t+n) B(k) : 0.5"), {"k": "5/2"}, 7)
-    assert data["model"]["constants"] == []
-    assert data["model"]["fixed"] == "Fixed on this page: k = 2.5, n = 3, seed = 7."
-    assert data["fixed"] == {"k": "2.5", "n": "3"}
+    data = page_data(read("n = 3 in 1 .. 1000000\nk = 2\naxiom: A(n)\nA(t) -> A(t+n) B(k)"), {"k": "5/2"}, 7)
+    assert data["model"]["fixed"].startswith("Fixed on this page: k = 2.5. It holds ")
+    assert data["fixed"] == {"k": "2.5"}
 
 
 def test_settings_that_cannot_be_are_mistakes_in_the_page() -> None:
     found = books_of(page_data(read("n = 1 in 0 .. 2\naxiom: A(1/n)\nA(t) -> A(t+1)")))
-    assert ["mistake" in each for each in found] == [True, False, False]
-    assert "zero" in found[0]["mistake"]["message"]
+    assert ["mistake" in each for each in found] == [False, True, False]  # the first value comes first
+    assert "zero" in found[1]["mistake"]["message"]
 
 
 @pytest.mark.parametrize("choices", [{"changes": {"lifetimeA": 3}}, {"changes": {"lifeTimeA": 99}}, {"angle": "x"}])
@@ -244,6 +274,39 @@ def test_steps_and_constants_are_moved_without_a_kernel(opened, j4: str) -> None
         press(shown, moved, "ArrowRight")
         word = str(derive(system("J4"), 10, lifeTimeA=a, lifeTimeB=b)[-1])
         expect(shown.locator(".lsys-word")).to_have_text(word.replace(" ", ""))
+
+
+def test_a_slider_without_its_book_takes_the_others_back_to_their_first_values(monkeypatch, opened) -> None:
+    monkeypatch.setattr(panel_page, "MOST_BOOKS", 30)
+    found = read("n = 1 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)")
+    shown = opened(page("A", page_data(found, step=1), ""))
+    word, text = shown.locator(".lsys-word"), shown.locator(".lsys-message")
+    press(shown, "n", "ArrowRight")
+    expect(word).to_have_text("A(3)")
+    expect(text).to_be_hidden()
+    press(shown, "m", "ArrowRight")
+    expect(word).to_have_text("A(3)")
+    expect(shown.get_by_role("slider", name="n, slider")).to_have_attribute("aria-valuetext", "1")
+    expect(text).to_contain_text("Back at n = 1. This page does not hold all settings together")
+    press(shown, "m", "ArrowRight")
+    expect(word).to_have_text("A(4)")
+    expect(text).to_be_hidden()
+    expect(shown.locator(".lsys-hint").last).to_have_text("n and m move one at a time: the other sliders then go back to their first values.")
+
+
+def test_seeds_are_sown_without_a_kernel_and_stand_in_the_address(opened) -> None:
+    shown = opened(page("K8", page_data(system("K8"), title="K8", step=9), ""))
+    press(shown, "seed", "ArrowRight")
+    status(shown).to_contain_text(f"step 9: {len(derive(system('K8'), 9, seed=1)[-1])} modules")
+    shown.get_by_role("button", name="nine seeds").click()
+    shown.get_by_role("button", name="seed 2: ").click()
+    status(shown).to_contain_text(f"step 9: {len(derive(system('K8'), 9, seed=2)[-1])} modules")
+    shown.wait_for_url(lambda url: "#lsys=" in url and linked(url).settings.get("seed") == 2)
+    shown.reload()
+    expect(shown.get_by_role("slider", name="seed, slider")).to_have_attribute("aria-valuetext", "2")
+    for _ in range(5):
+        shown.get_by_role("button", name="another seed").click()
+        expect(shown.locator(".lsys-message")).to_be_hidden()
 
 
 @pytest.mark.parametrize("id", ["J4", "K5", "K19", "K7", "P5", "K28"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import anywidget
@@ -92,10 +92,9 @@ class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
         """What both panels show, in words."""
         return f"{self.left.text}\n{self.right.text}"
 
-    @property
-    def page_data(self) -> dict[str, Any]:
-        """What a page without a kernel has to know of both panels."""
-        return {"left": self.left.page_data, "right": self.right.page_data}
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+        """What a page without a kernel has to know of both panels, and of the settings that are asked for."""
+        return {"left": self.left.page_data(asked), "right": self.right.page_data(asked)}
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live panels, and for a page without a kernel their words and the picture of the left one."""

@@ -5,9 +5,10 @@ What a slider moves through is a list of exact values; the browser knows only th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import count
 from typing import Any
 
 from lsys_kit.derivation.core.rules import constants_of, real_from
@@ -92,7 +93,7 @@ def slider(name: str, values: Sequence[Value], first: Value, what: str = "the co
 
 
 MOST_VALUES = 2_000
-"""A slider has no more values; of a finer range it offers every second, third, ..."""
+"""A slider has no more values, but for the ends; of a finer range it offers every second, fifth, tenth, ..."""
 
 
 def slider_values(span: SliderRange) -> tuple[Value, ...]:
@@ -103,9 +104,14 @@ def slider_values(span: SliderRange) -> tuple[Value, ...]:
     """
     low, high, step = (Fraction(part) for part in (span.low, span.high, span.step))
     many = (high - low) // step if step > 0 else 0
-    coarser = -(-many // MOST_VALUES) or 1
-    grid = {normalised(low + number * coarser * step) for number in range(many // coarser + 1)}
-    return tuple(sorted({*grid, span.value}))
+    coarser = next(stride for stride in _strides() if many <= MOST_VALUES * stride)
+    grid = {normalised(low + number * step) for number in range(0, many + 1, coarser)}
+    return tuple(sorted({*grid, normalised(low + many * step), span.value}))
+
+
+def _strides() -> Iterator[int]:
+    """1, 2, 5, 10, 20, 50, and so on: of round numbers, every so many are round again."""
+    yield from (digit * 10**zeros for zeros in count() for digit in (1, 2, 5))
 
 
 def nearest(values: Sequence[Value], name: str, wanted: object) -> Value:

@@ -8,7 +8,7 @@ sliders have come to rest, so that other widgets can be linked to the panel.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -169,8 +169,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def save(self, path: str | Path) -> None:
         """Write the panel as it stands to an .html file, a page that works without a kernel and without a network.
 
-        Its sliders move constants as far as the books of all their values have room in the page; under other forces
-        the cells of a map come to rest in the browser.
+        Its sliders of constants and of the seed move as far as the page has room for the books of their values, and it says how far;
+        under other forces the cells of a map come to rest in the browser.
 
         Raises
         ------
@@ -179,14 +179,13 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """
         save_page(path, self._page())
 
-    @property
-    def page_data(self) -> dict[str, Any]:
-        """What a page without a kernel has to know of the panel as it stands."""
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+        """What a page without a kernel has to know of the panel as it stands, and of the settings that are asked for."""
         with self._limited():  # each book is a task of its own
-            return self._opened.page_data(self._chosen)
+            return self._opened.page_data(self._chosen, asked)
 
     def _page(self) -> str:
-        return page(self._opened.title or self._opened.kind, self.page_data, self.text)
+        return page(self._opened.title or self._opened.kind, self.page_data(), self.text)
 
     @traitlets.validate("step")
     def _possible_step(self, proposal: Any) -> int:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Mapping, Sequence
-from itertools import product
-from math import prod
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
+from lsys_kit.classroom.panel.held import SEED, Held, constant_choice, fewest, held_text, planned, seed_choice, settings
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import save_file
@@ -23,9 +23,11 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import write
 from lsys_kit.pictures.style.labels import escaped
 
-MOST_BOOKS, MOST_CHARACTERS = 2_000, 4_000_000
-"""A page holds no more books, and no more than about so many characters of them before they are deflated; nor more than can be
-made in the time of one task."""
+MOST_BOOKS, MOST_CHARACTERS = 2_000, 400_000
+"""A page holds no more books, and no more than about so many characters of them, deflated; nor more than can be made in the time
+of one task."""
+MOST_FOR_FEWEST = 1_100_000
+"""It may have so many characters if the sliders could not move otherwise."""
 STYLE = """
 .lsys-page {
   margin: 0 auto; padding: 8px 12px 24px; max-width: 1500px; background: #fff; color: #22303c;
@@ -85,8 +87,9 @@ def not_needed(*modes: str) -> frozenset[str]:
 
 
 def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed: int = 0, *, title: str = "",
-              step: int | None = None, angle: object = None, around: int = 0, above: int = 0) -> dict[str, Any]:
-    """What a page says of a system: its sliders, and the books of all their settings.
+              step: int | None = None, angle: object = None, around: int = 0, above: int = 0,
+              asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    """What a page says of a system: its sliders, and the books of their settings.
 
     Parameters
     ----------
@@ -95,12 +98,15 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     changes
         First values of declared constants.
     seed
-        The seed of the random numbers.
+        The first seed of the random numbers.
     title
         The id of the system, if it is one of the catalogue.
     step, angle, around, above
         What is shown first: the step, by default the system's own; the degrees by which the turtle turns; the side from which a
         plant in space is seen.
+    asked
+        Settings that the page shall hold before all others, each the values of one slider or of several together; the seed is
+        called `seed`. What is no value of a slider is passed over.
 
     Raises
     ------
@@ -109,22 +115,23 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     """
     given = {name: number_from(value, name) for name, value in (changes or {}).items()}
     ranges = slider_ranges(system, given)
-    values = {name: slider_values(span) for name, span in ranges.items()}
-    start = {**{name: value for name, value in given.items() if name not in ranges},
-             **{name: span.value for name, span in ranges.items()}}
+    start: dict[str, Value] = {**{name: value for name, value in given.items() if name not in ranges},
+                               **{name: span.value for name, span in ranges.items()}, SEED: seed}
     wanted = first_step(system) if step is None else step
-    began = time.thread_time()
-    first = book(system, start, seed, title=title, least=wanted)
-    live = live_constants(values, _room(len(json.dumps(first)), time.thread_time() - began))
-    fixed = {name: number_text(value) for name, value in start.items() if name not in live}
-    books = [_book(system, {**start, **dict(zip(live, chosen, strict=True))}, seed, title, wanted)
-             for chosen in product(*(values[name] for name in live))]
+    shelf = _Shelf(system, start, title, wanted)
+    first = shelf.first()
+    values = {name: slider_values(span) for name, span in ranges.items()}
+    held = _held(shelf, values, seed if first["chance"] else None, asked)
+    fixed = {name: value for name, value in start.items() if name not in held.values and (name != SEED or first["chance"])}
     turn = real_from(angle, "angle") if angle is not None else float(system.angle)
-    model = {"constants": [slider(name, values[name], ranges[name].value) for name in live],
-             "chance": False, "fixed": kept_text(fixed, seed if first["chance"] else None), "step": min(wanted, first["steps"]),
+    model = {"constants": [slider(name, held.values[name], start[name]) for name in values if name in held.values],
+             "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))], "together": held.together,
+             "fixed": held_text(fixed, held, values), "step": min(wanted, first["steps"]),
              "angle": round(turn, 1), "around": around, "above": above, "seed": seed}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
-    return {"model": model, "mode": first["mode"], "system": own, "fixed": fixed, "books": deflated(shared(books))}
+    kept = {name: number_text(value) for name, value in fixed.items() if name != SEED}
+    return {"model": model, "mode": first["mode"], "system": own, "fixed": kept,
+            "books": deflated(shared([shelf.book(each) for each in settings(held)]))}
 
 
 def save_page(path: str | Path, text: str) -> None:
@@ -140,22 +147,69 @@ def save_page(path: str | Path, text: str) -> None:
     save_file(Path(path), text.encode())
 
 
-def live_constants(values: Mapping[str, Sequence[Value]], most: int) -> list[str]:
-    """The constants that can be moved on a page with room for so many books: in their order, while there is room.
+def _held(shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None, asked: Sequence[Mapping[str, object]]) -> Held:
+    """The settings for which a page has room: what a book takes is seen from those with the fewest values of each slider."""
+    rows = [*_asked_settings(values, seed, asked)]
+    choices = {name: constant_choice(each, shelf.start[name], {row[name] for row in rows if name in row})
+               for name, each in values.items()}
+    if seed is not None:
+        choices[SEED] = seed_choice(seed, {int(row[SEED]) for row in rows if SEED in row})
+    few = fewest(choices, shelf.room([{}], MOST_FOR_FEWEST))
+    most = shelf.room([*settings(few)], MOST_CHARACTERS)
+    away = [[name for name in row if name in few.values and row[name] != choices[name].first] for row in rows]
+    together = [*dict.fromkeys(name for names in away if len(names) > 1 for name in names)]
+    return planned({name: choices[name] for name in few.values}, together, most)
 
-    >>> live_constants({"a": range(6), "b": range(1000), "c": range(6)}, 800)
-    ['a', 'c']
-    """
-    live: list[str] = []
-    for name in values:
-        if prod(len(values[each]) for each in (*live, name)) <= most:
-            live.append(name)
-    return live
+
+def _asked_settings(values: Mapping[str, Sequence[Value]], seed: int | None,
+                    asked: Sequence[Mapping[str, object]]) -> Iterator[dict[str, Value]]:
+    """What is asked for of the sliders of a system: whatever lies between their ends, and whole seeds."""
+    for row in asked:
+        given = {name: number_from(value, name) for name, value in row.items()}
+        found = {name: value for name, value in given.items() if name in values and values[name][0] <= value <= values[name][-1]}
+        if seed is not None and "seed" not in values and isinstance(given.get("seed"), int):
+            found[SEED] = given["seed"]
+        if found:
+            yield found
 
 
-def _room(size: int, seconds: float) -> int:
-    """How many books of about so many characters, each made in about so many seconds, a page has room for."""
-    return int(min(MOST_BOOKS, MOST_CHARACTERS / size, current().seconds / max(seconds, 1e-3)))
+class _Shelf:
+    """The books of a system, each made once, and how many of them a page has room for."""
+
+    def __init__(self, system: LSystem, start: Mapping[str, Value], title: str, least: int) -> None:
+        self.start, self._made, self._seconds = start, dict[tuple[Value, ...], dict[str, Any]](), 0.0
+        self._book = partial(book, system, title=title, least=least)
+
+    def first(self) -> dict[str, Any]:
+        """The book of the first settings.
+
+        Raises
+        ------
+        LSystemError
+            It cannot be made.
+        """
+        return self._kept(self.start)
+
+    def book(self, chosen: Mapping[str, Value]) -> dict[str, Any]:
+        """The book of some settings, or why there is none."""
+        try:
+            return self._kept({**self.start, **chosen})
+        except LSystemError as error:
+            return {"mistake": {"message": error.message, "hint": error.hint or ""}}
+
+    def room(self, sample: Sequence[Mapping[str, Value]], characters: int) -> float:
+        """How many books a page has room for that are like those of some settings."""
+        size, many = len(deflated(shared([self.book(each) for each in sample]))), len(sample)
+        seconds = self._seconds / max(1, len(self._made))
+        return min(MOST_BOOKS, many * characters / size, current().seconds / max(seconds, 1e-3))
+
+    def _kept(self, chosen: Mapping[str, Value]) -> dict[str, Any]:
+        key = tuple(chosen.values())
+        if key not in self._made:
+            began = time.thread_time()
+            self._made[key] = self._book({name: value for name, value in chosen.items() if name != SEED}, chosen[SEED])
+            self._seconds += time.thread_time() - began
+        return self._made[key]
 
 
 def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
@@ -174,17 +228,3 @@ def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 def deflated(content: object) -> str:
     """Anything as JSON, deflated (RFC 1950), in base 64."""
     return deflated_text(json.dumps(content, separators=(",", ":")))
-
-
-def _book(system: LSystem, settings: Mapping[str, object], seed: int, title: str, least: int) -> dict[str, Any]:
-    """The book of some settings, or why there is none."""
-    try:
-        return book(system, settings, seed, title=title, least=least)
-    except LSystemError as error:
-        return {"mistake": {"message": error.message, "hint": error.hint or ""}}
-
-
-def kept_text(fixed: Mapping[str, str], seed: int | None) -> str:
-    """What a page says of what cannot be moved on it."""
-    kept = [*(f"{name} = {text}" for name, text in fixed.items()), *([] if seed is None else [f"seed = {seed}"])]
-    return f"Fixed on this page: {', '.join(kept)}." if kept else ""

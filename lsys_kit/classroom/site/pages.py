@@ -168,4 +168,17 @@ def _program(parts: Parts) -> Program | None:
     modes = [data["mode"] for part in parts for data in (part["data"], *part["data"].values())
              if isinstance(data, dict) and "mode" in data]
     script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else frozenset())}\nopenCoursePage();\n'
-    return Program(script, style() + style("lessons"), {"parts": parts})
+    return Program(script, style() + style("lessons"), _with_books_once(parts))
+
+
+def _with_books_once(parts: Parts) -> dict[str, Any]:
+    """The data of a page: panels of the same books have them in common, each names theirs by a number."""
+    books: dict[str, int] = {}
+
+    def numbered(data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        return {name: books.setdefault(value, len(books)) if name == "books" else numbered(value) for name, value in data.items()}
+
+    found = [numbered(part) for part in parts]
+    return {"parts": found, "books": [*books]}

@@ -15,8 +15,8 @@ from lsys_kit.errors import LSystemError
 
 SECONDS = 300
 """How long a cell may take."""
-_FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages()"
-"""The cell that is run before those of a lesson."""
+_FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages({{!r}})"
+"""The cell that is run before those of a lesson, with its name."""
 
 
 def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
@@ -47,7 +47,7 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
     nbclient, nbformat = _libraries()
     notebook = nbformat.read(path, as_version=4)
-    notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST))
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
 
     def unless_stopped(**_: Any) -> None:
         if stopped is not None and stopped.is_set():

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
+from lsys_kit.classroom.lessons.declared import declared, names
 from lsys_kit.classroom.lessons.displayed import html
+from lsys_kit.classroom.lessons.lesson import Table
 from lsys_kit.classroom.lessons.predict import Prediction
+from lsys_kit.classroom.lessons.settings import asked_settings
 from lsys_kit.classroom.lessons.vote import VoteBox
 from lsys_kit.classroom.lessons.worksheet import Worksheet
 from lsys_kit.classroom.panel.comparison import Comparison
@@ -19,23 +23,33 @@ KINDS: Mapping[type, str] = {Explorer: "panel", Comparison: "comparison", VoteBo
 """What the script of a page calls the widgets of the kit."""
 
 
-def show_for_pages() -> None:
-    """Let this kernel show the widgets of the kit as data for a page."""
+def show_for_pages(lesson: str = "") -> None:
+    """Let this kernel show the widgets of the kit as data for a page; if it is that of a lesson, its panels hold what the tables of
+    the lesson ask for."""
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter
+    tables = declared(lesson).tables if lesson in names() else ()
     for kind in KINDS:
-        formatter.mimebundle_formatter.for_type(kind, part)
+        formatter.mimebundle_formatter.for_type(kind, partial(part, tables=tables))
 
 
-def part(widget: Any, include: object = None, exclude: object = None) -> dict[str, Any]:
+def part(widget: Any, include: object = None, exclude: object = None, tables: Sequence[Table] = ()) -> dict[str, Any]:
     """What a page has to know of a widget, by media types.
 
     >>> from lsys_kit import worksheet
     >>> part(worksheet("01", "counts"))[PART]["kind"]
     'worksheet'
     """
-    found = {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": widget.page_data}
+    found = {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, tables)}
     if isinstance(widget, Prediction):
         found["answer"] = dict(widget.answer)
     return {PART: found, "text/html": html({"text/plain": repr(widget)}), "text/plain": repr(widget)}
+
+
+def _data(widget: Any, tables: Sequence[Table]) -> Any:
+    """The data of a widget; a panel's hold the settings that the tables ask for."""
+    if not isinstance(widget, Explorer | Comparison):
+        return widget.page_data
+    panels = [widget] if isinstance(widget, Explorer) else [widget.left, widget.right]
+    return widget.page_data([*asked_settings(tables, {"seed", *(name for each in panels for name in each.settings)})])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lsys_kit.classroom.panel.books.maps import MapsAtRest, map_book, maps_at_rest, steps_of
@@ -53,7 +53,7 @@ class OpenedMap(OpenedCells[MapsAtRest]):
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
 
-    def page_data(self, chosen: Viewing) -> dict[str, Any]:
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         """A page holds the book of one setting of the forces: under others cells come to rest in the browser."""
         made = self.book(chosen.values, 0, chosen.step)
         sliders = [slider(name, self.values[name], value, self.hint) for name, value in chosen.values.items()]

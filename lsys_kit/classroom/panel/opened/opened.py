@@ -104,8 +104,9 @@ class Opened(Protocol):
         """A picture of it for a page without a kernel, by the type of the data: in base 64, or SVG text."""
         ...
 
-    def page_data(self, chosen: Viewing) -> dict[str, Any]:
-        """What a page that shows it without a kernel has to know."""
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+        """What a page that shows it without a kernel has to know. Settings that are asked for are there before others, where a
+        page cannot hold all of them."""
         ...
 
     def link(self, chosen: Viewing) -> str:

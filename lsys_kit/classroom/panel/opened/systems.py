@@ -72,9 +72,9 @@ class OpenedSystem:
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
 
-    def page_data(self, chosen: Viewing) -> dict[str, Any]:
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         return page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
-                         angle=chosen.angle, around=chosen.around, above=chosen.above)
+                         angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked)
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}

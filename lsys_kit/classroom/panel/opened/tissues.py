@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
 from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest, TissueSystem, steps_of, tissue_at_rest
 from lsys_kit.classroom.panel.books.tissues import size_text, tissue_book
+from lsys_kit.classroom.panel.held import Held, held_text
 from lsys_kit.classroom.panel.opened.cells import VALUES, CellSight, Kind, OpenedCells
 from lsys_kit.classroom.panel.opened.opened import Viewing
-from lsys_kit.classroom.panel.page import deflated, kept_text, shared
+from lsys_kit.classroom.panel.page import deflated, shared
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
@@ -64,12 +65,12 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
 
-    def page_data(self, chosen: Viewing) -> dict[str, Any]:
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         """On a page the forces stay as they are: cells come to rest in the kernel."""
         made = self.book(chosen.values, 0, chosen.step)
-        fixed = made["settings"]
-        model = {"constants": [], "chance": False, "fixed": kept_text(fixed, None), "step": min(chosen.step, made["steps"]),
-                 "angle": 0, "around": chosen.around, "above": chosen.above, "seed": 0}
+        fixed, said = made["settings"], held_text(chosen.values, Held(), {})
+        model = {"constants": [], "chance": False, "fixed": said, "step": min(chosen.step, made["steps"]), "angle": 0,
+                  "around": chosen.around, "above": chosen.above, "seed": 0}
         return {"model": model, "mode": "tissue", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}
 
 

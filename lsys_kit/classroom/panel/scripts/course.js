@@ -11,7 +11,7 @@ import { checked } from "./lessons/checking.js";
 const KINDS = { panel, comparison, vote, prediction, worksheet };
 
 export function openCoursePage() {
-  const { parts } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, ballots: new Map() };
+  const { parts, books } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, books, ballots: new Map() };
   for (const place of document.querySelectorAll("[data-part]")) if (!place.parentElement.closest("[data-part]")) open(place, page);
 }
 
@@ -26,14 +26,17 @@ async function open(place, page) {
   }
 }
 
-async function panel(place, data) {
-  const host = await hostWith(data, false);
+// Panels of the same books have them in common.
+const hostOf = (data, { books }) => hostWith({ ...data, books: books[data.books] }, false);
+
+async function panel(place, data, page) {
+  const host = await hostOf(data, page);
   place.replaceChildren();
   openPanel(place, host);
 }
 
-async function comparison(place, { left, right }) {
-  const hosts = await Promise.all([left, right].map((data) => hostWith(data, false)));
+async function comparison(place, { left, right }, page) {
+  const hosts = await Promise.all([left, right].map((data) => hostOf(data, page)));
   place.replaceChildren();
   openComparison(place, hosts);
 }

@@ -1,5 +1,6 @@
 // The host of a panel on a page without a kernel: the books of all settings are in the page.
 
+import { heldSettings } from "./books/held.js";
 import { bytesOf, inflated, packedLink, unpackedLink } from "./books/link.js";
 import { relaxedBook } from "./drawing/relaxation.js";
 import { openPanel } from "./panels/panel.js";
@@ -27,19 +28,37 @@ export async function hostWith(data, alone) {
 }
 
 export function pageHost(data, books, linked, alone = true) {
-  const { constants } = data.model, answer = data.mode === "map" ? (settings) => relaxedTo(answerAt(books, [], []).book, settings)
-    : (settings) => answerAt(books, constants.map((each) => each.texts.indexOf(settings[each.name])), constants);
+  const held = heldSettings(data.model), relaxes = data.mode === "map";
+  const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => bookAt(books, held.rowAt(held.placesOf(asked)));
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
   const settings = { ...first, ...linked.settings }, { step, angle, around, above, seed } = data.model, handlers = new Map();
-  const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings, model: { ...data.model, book: answer(settings).book } };
-  if (!values.model.book) Object.assign(values, { settings: first, model: { ...data.model, book: answer(first).book } });
+  const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings };
+  if (!answer(asked()).book) Object.assign(values, { settings: first, seed });
+  values.model = { ...data.model, book: answer(asked()).book };
+  let notice = null;
+
+  function asked() {
+    return { constants: values.settings, seed: values.seed };
+  }
+
+  const tell = (name) => { for (const handler of handlers.get(name) ?? []) handler(values[name]); };
+
+  // Whatever the page does not hold together with what was moved goes back to its first value.
+  function settle(before) {
+    const wanted = held.placesOf(asked()), there = held.settled(wanted, before), { constants, seed: sown } = held.settingsAt(there);
+    notice = held.told(wanted, there);
+    if (notice) Object.assign(values, { settings: constants, seed: sown });
+    return notice ? ["settings", "seed"] : [];
+  }
 
   const address = async () => location.href.split("#")[0] + await packedLink(contentOf(data, values));
   return {
     get: (name) => values[name],
     set(name, value) {
+      const before = held.placesOf(asked());
       values[name] = value;
-      for (const handler of handlers.get(name) ?? []) handler(value);
+      const others = !relaxes && ["settings", "seed"].includes(name) ? settle(before) : [];
+      for (const each of new Set([name, ...others])) tell(each);
     },
     on(name, handler) {
       handlers.set(name, [...(handlers.get(name) ?? []), handler]);
@@ -47,12 +66,13 @@ export function pageHost(data, books, linked, alone = true) {
     },
     // The address says what is seen, so that it can be sent, and the page opened again as it was.
     save: () => alone && address().then((there) => history.replaceState(null, "", there)).catch(() => {}),
-    book: (asked) => Promise.resolve(answer(asked.constants)),
+    book: (wanted) => Promise.resolve(answer(wanted)),
+    notice: () => notice,
     rules: () => Promise.resolve(null),
     variants: () => Promise.resolve({ variants: [] }),
     keep: async () => ({ text: await address() }),
     keeps: ["link"],
-    editable: false, ahead: data.mode !== "map",
+    editable: false, ahead: !relaxes,
   };
 }
 
@@ -63,11 +83,10 @@ function relaxedTo(book, settings) {
   return relaxedBook(book, settings, forces, LONGEST);
 }
 
-// The book of some values of the constants, or the mistake that there is none; books share what they have in common.
-function answerAt({ names, parts, rows }, places, constants) {
-  if (places.some((place) => place < 0)) return { mistake: { message: "This page does not hold the book of these settings", hint: "" } };
-  const row = rows[places.reduce((at, place, i) => at * constants[i].texts.length + place, 0)];
-  const found = Object.fromEntries(names.flatMap((name, i) => (row[i] < 0 ? [] : [[name, parts[i][row[i]]]])));
+// The book of a row, or the mistake that there is none; books share what they have in common.
+function bookAt({ names, parts, rows }, at) {
+  if (at < 0) return { mistake: { message: "This page does not hold the book of these settings", hint: "Press reset, and move one slider alone." } };
+  const found = Object.fromEntries(names.flatMap((name, i) => (rows[at][i] < 0 ? [] : [[name, parts[i][rows[at][i]]]])));
   return found.mistake ? found : { book: found };
 }
 
@@ -75,7 +94,8 @@ function answerAt({ names, parts, rows }, places, constants) {
 async function linkedSettings({ model, system }) {
   const content = await unpackedLink(location.href), others = {}, settings = {};
   if (content?.notation !== system.notation || content.text !== system.text) return { others, settings };
-  const { step, angle } = content.settings;
+  const { step, angle, seed = "0" } = content.settings;
+  if (model.chance && model.seeds.includes(seed)) others.seed = Number(seed);
   if (/^\d{1,9}$/.test(step)) others.step = Number(step);
   if (numberOf(angle) >= 0 && numberOf(angle) <= 180) others.angle = Math.round(numberOf(angle) * 10) / 10;
   for (const each of model.constants) if (each.texts.includes(content.settings[each.name])) settings[each.name] = content.settings[each.name];
@@ -87,7 +107,7 @@ function numberOf(text = "") {
   return above === "" ? NaN : Number(above) / Number(below);
 }
 
-function contentOf({ system, model, fixed }, { step, angle, settings }) {
-  const turn = angle === system.angle ? {} : { angle }, seed = model.seed ? { seed: model.seed } : {};
-  return { ...system, settings: { step, ...turn, ...seed, ...fixed, ...settings } };
+function contentOf({ system, fixed }, { step, angle, seed, settings }) {
+  const turn = angle === system.angle ? {} : { angle }, sown = seed ? { seed } : {};
+  return { ...system, settings: { step, ...turn, ...sown, ...fixed, ...settings } };
 }

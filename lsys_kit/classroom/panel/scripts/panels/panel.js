@@ -23,6 +23,7 @@ import { folding } from "../views/views.js";
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
 const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
 const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
+const SEEDS = DEGREES(0, 999);
 
 // Of two panels beside each other `compared` has { bar, shown(book, step) }: where the sliders of both are, or null in the second.
 export function openPanel(element, host, compared = null) {
@@ -42,8 +43,8 @@ export function openPanel(element, host, compared = null) {
   const above = slider("above", "the height from which it is seen: 0 is the side, 90 the top", DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }));
   const mark = list("mark", "the stage that is marked in all views", [["", "no stage"]], "", (name) => change({ mark: name }));
   const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
-  const seed = slider("seed", "the seed of the random numbers", DEGREES(0, 999), host.get("seed"), (at) => host.set("seed", at));
-  const die = button("die", "another seed, at random", () => sow(Math.floor(Math.random() * 1000)));
+  const seed = slider("seed", "the seed of the random numbers", SEEDS, host.get("seed"), (at) => host.set("seed", Number(seedTexts()[at])));
+  const die = button("die", "another seed, at random", () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
   const play = player(() => ({ now: host.get("step"), most: book.steps }), goTo, () => show());
   const reset = button("reset", "back to the first settings", goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
@@ -94,6 +95,7 @@ export function openPanel(element, host, compared = null) {
     if (number !== asking) return;
     if (answer.mistake) return say(answer.mistake);
     turnTo(answer.book);
+    say(host.notice?.() ?? null); // a page may not hold all settings
     clearTimeout(idle);
     if (host.ahead) idle = setTimeout(() => books.fetchAhead(neighbours()), REST);
   }
@@ -127,6 +129,7 @@ export function openPanel(element, host, compared = null) {
     const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
     bottom.replaceChildren(...constants.map((each) => each.control.element), ...(model.book.turtle?.["uses angle"] ? [angle.element] : []),
       ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
+    seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(host.get("seed")))));
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     variants.forget();
@@ -209,9 +212,11 @@ export function openPanel(element, host, compared = null) {
 
   const sides = () => ({ step: host.get("step"), angle: host.get("angle"), around: host.get("around"), above: host.get("above") });
 
+  const seedTexts = () => model.seeds?.length ? model.seeds : (SEEDS.includes(String(model.seed)) ? SEEDS : [String(model.seed), ...SEEDS]), showSeed = () => seed.show(seedTexts().indexOf(String(host.get("seed"))));
+
   function sow(number) {
-    seed.show(number);
     host.set("seed", number);
+    showSeed();
   }
 
   function look() {
@@ -295,7 +300,7 @@ export function openPanel(element, host, compared = null) {
     for (const each of constants) each.control.show(Math.max(0, each.texts.indexOf(host.get("settings")[each.name])));
     ask();
   }));
-  offs.push(host.on("seed", () => { seed.show(host.get("seed")); ask(); }));
+  offs.push(host.on("seed", () => { showSeed(); ask(); }));
   offs.push(host.on("model", openModel), host.on("gone", (text) => say({ message: text })));
   const recoloured = () => {
     if (book && JSON.stringify(themeOf(root)) !== shownTheme) turnTo(book);

@@ -1,0 +1,56 @@
+"""Which settings of a panel the tables of a lesson ask for: a column that is named after a slider lists its values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+
+from lsys_kit.classroom.lessons.answers import number_of
+from lsys_kit.classroom.lessons.lesson import Table
+from lsys_kit.classroom.lessons.widget import prose_text
+from lsys_kit.notation.model.arithmetic import Value, normalised
+
+_SET = re.compile(r"(\w+) = ([\d./]+\d|\d)")
+
+
+def asked_settings(tables: Sequence[Table], sliders: Collection[str]) -> Iterator[dict[str, Value]]:
+    """What some tables say of the sliders of a panel, row by row.
+
+    Parameters
+    ----------
+    tables
+        The tables of a lesson.
+    sliders
+        The names of the sliders.
+
+    Yields
+    ------
+    dict
+        Values of sliders: those that stand in the row, each in a column whose title has the name of the slider in it, and those
+        that the title of the table sets, as in "With dt = 0.8".
+
+    Examples
+    --------
+    >>> from lsys_kit.classroom.lessons.declared import table
+    >>> [*map(str, asked_settings([table("11", "ages")], ("dt", "t_l")))][0]
+    "{'dt': Fraction(4, 5), 't_l': Fraction(1, 10)}"
+    >>> [row["w"] for row in asked_settings([table("09", "turning")], ("w",))]
+    [2, 3, 5, 8]
+    """
+    for table in tables:
+        for row in table.rows:
+            titled = ((_named(column, sliders), cell) for column, cell in zip(table.columns, row, strict=True))
+            found = _values([*_SET.findall(prose_text(table.title)), *titled], sliders)
+            if found:
+                yield found
+
+
+def _named(title: str, sliders: Collection[str]) -> str:
+    """The first slider that is named in the title of a column; "" where none is."""
+    return next((word for word in re.findall(r"\w+", prose_text(title)) if word in sliders), "")
+
+
+def _values(cells: Sequence[tuple[str, object]], sliders: Collection[str]) -> dict[str, Value]:
+    """The numbers among the cells of sliders."""
+    numbers = ((name, number_of(cell)) for name, cell in cells if name in sliders and isinstance(cell, str))
+    return {name: normalised(number) for name, number in numbers if number is not None}
