@@ -179,13 +179,15 @@ def blank(browser: Browser) -> Iterator[Page]:
     tab.close()
 
 
+@pytest.mark.slow
 @hypothesis_settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(ALL, st.integers(1, 60), st.booleans())
 def test_the_page_finds_the_book_of_each_setting_and_stays_at_what_it_holds(
         blank: Page, choices: dict[str, Choice], most: int, joint: bool) -> None:
     held = planned(choices, [*choices][:2] if joint and len(choices) > 1 else (), most)
-    asked = [{"constants": {name: number_text(value) for name, value in each.items() if name != SEED}, "seed": each.get(SEED, 0)}
-             for each in settings(held)]
+    texts = [{name: number_text(value) for name, value in each.items()} for each in settings(held)]
+    asked = [{"constants": {name: text for name, text in each.items() if name != SEED}, "seed": int(each.get(SEED, 0))}
+             for each in texts]
     rows, stays = blank.evaluate(ROWS.format(scripts=joined("held")), [model(held), asked])
     assert rows == [*range(len(asked))]
     assert stays

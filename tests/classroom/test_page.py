@@ -171,8 +171,8 @@ def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
     data = page_data(found, seed=12)
     books, constants = books_of(data), [Fraction(0), Fraction(1, 2), 1]
     assert data["model"]["seeds"] == [*map(str, range(9, 45))]
-    for made, (p, seed) in zip(books, product(constants, range(9, 45)), strict=True):
-        assert made == json.loads(json.dumps(book(found, {"p": p}, seed, least=5)))
+    for each, (p, seed) in zip(books, product(constants, range(9, 45)), strict=True):
+        assert each == json.loads(json.dumps(book(found, {"p": p}, seed, least=5)))
     monkeypatch.setattr(panel_page, "MOST_BOOKS", 11)
     few = page_data(found, seed=12, asked=[{"seed": 10}])["model"]
     assert few["seeds"] == [*map(str, range(9, 18))]
@@ -291,7 +291,7 @@ def test_a_slider_without_its_book_takes_the_others_back_to_their_first_values(m
     press(shown, "m", "ArrowRight")
     expect(word).to_have_text("A(4)")
     expect(text).to_be_hidden()
-    expect(shown.locator(".lsys-hint").last).to_have_text("n and m move one at a time: the other sliders then go back to their first values.")
+    expect(shown.get_by_text("n and m move one at a time: the other sliders then go back to their first values.")).to_be_visible()
 
 
 def test_seeds_are_sown_without_a_kernel_and_stand_in_the_address(opened) -> None:

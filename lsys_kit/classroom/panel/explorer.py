@@ -169,8 +169,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def save(self, path: str | Path) -> None:
         """Write the panel as it stands to an .html file, a page that works without a kernel and without a network.
 
-        Its sliders of constants and of the seed move as far as the page has room for the books of their values, and it says how far;
-        under other forces the cells of a map come to rest in the browser.
+        Its sliders of constants and of the seed move as far as the page has room for the books of their values, and it says how
+        far; under other forces the cells of a map come to rest in the browser.
 
         Raises
         ------

@@ -1,8 +1,8 @@
 """Which settings of its sliders a page holds: each setting has a book, and there is room for so many.
 
-First come the settings in which one slider alone has left its first value. Where there are too many of them, a slider keeps fewer
-of its values, evenly spread, with both ends and whatever is asked for. Then come all settings of several sliders together, as
-far as there is room: of those that are asked for together, and then of those with the fewest values.
+First come the settings in which one slider alone has left its first value. Where there are too many of them, a slider keeps
+fewer of its values, evenly spread, with both ends and whatever is asked for. Then come all settings of several sliders
+together, as far as there is room: of those that are asked for together, and then of those with the fewest values.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def constant_choice(values: Sequence[Value], first: Value, asked: Collection[Val
 
 
 def _every(stride: int, values: Sequence[Value]) -> Iterator[Value]:
-    """Every so many of evenly spaced values, the roundest: multiples of so many times their distance, if they are of that itself."""
+    """Every so many of evenly spaced values: the roundest, where the values are multiples of their distance."""
     numbers = [Fraction(value) for value in values]
     apart = max((after - before for before, after in pairwise(numbers)), default=Fraction(1))
     origin = 0 if numbers[0] % apart == 0 else numbers[0]
@@ -149,7 +149,8 @@ def _thinned(choices: Mapping[str, Choice], together: Sequence[str], most: float
 
 def _many(values: Mapping[str, Sequence[Value]], together: Collection[str] = ()) -> int:
     """How many settings there are: those of some sliders together, and of the others one at a time."""
-    return prod(len(values[name]) for name in together) + sum(len(each) - 1 for name, each in values.items() if name not in together)
+    alone = (len(each) - 1 for name, each in values.items() if name not in together)
+    return prod(len(values[name]) for name in together) + sum(alone)
 
 
 def held_text(fixed: Mapping[str, Value], held: Held, all_values: Mapping[str, Sequence[Value]]) -> str:
@@ -184,8 +185,9 @@ def _seeds_text(seeds: Sequence[Value]) -> Iterator[str]:
 
 
 def _fixed_text(fixed: Mapping[str, Value]) -> Iterator[str]:
-    if fixed:
-        yield f"Fixed on this page: {', '.join(f'{slider_name(name)} = {number_text(value)}' for name, value in fixed.items())}."
+    values = [f"{slider_name(name)} = {number_text(value)}" for name, value in fixed.items()]
+    if values:
+        yield f"Fixed on this page: {', '.join(values)}."
 
 
 def _alone_text(held: Held) -> Iterator[str]:

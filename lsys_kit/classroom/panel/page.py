@@ -24,8 +24,8 @@ from lsys_kit.notation.write import write
 from lsys_kit.pictures.style.labels import escaped
 
 MOST_BOOKS, MOST_CHARACTERS = 2_000, 400_000
-"""A page holds no more books, and no more than about so many characters of them, deflated; nor more than can be made in the time
-of one task."""
+"""A page holds no more books, and no more than about so many characters of them, deflated; nor more than can be made in the
+time of one task."""
 MOST_FOR_FEWEST = 1_100_000
 """It may have so many characters if the sliders could not move otherwise."""
 STYLE = """
@@ -147,7 +147,8 @@ def save_page(path: str | Path, text: str) -> None:
     save_file(Path(path), text.encode())
 
 
-def _held(shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None, asked: Sequence[Mapping[str, object]]) -> Held:
+def _held(shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None,
+          asked: Sequence[Mapping[str, object]]) -> Held:
     """The settings for which a page has room: what a book takes is seen from those with the fewest values of each slider."""
     rows = [*_asked_settings(values, seed, asked)]
     choices = {name: constant_choice(each, shelf.start[name], {row[name] for row in rows if name in row})
@@ -166,7 +167,8 @@ def _asked_settings(values: Mapping[str, Sequence[Value]], seed: int | None,
     """What is asked for of the sliders of a system: whatever lies between their ends, and whole seeds."""
     for row in asked:
         given = {name: number_from(value, name) for name, value in row.items()}
-        found = {name: value for name, value in given.items() if name in values and values[name][0] <= value <= values[name][-1]}
+        found = {name: value for name, value in given.items()
+                 if name in values and values[name][0] <= value <= values[name][-1]}
         if seed is not None and "seed" not in values and isinstance(given.get("seed"), int):
             found[SEED] = given["seed"]
         if found:
@@ -207,7 +209,7 @@ class _Shelf:
         key = tuple(chosen.values())
         if key not in self._made:
             began = time.thread_time()
-            self._made[key] = self._book({name: value for name, value in chosen.items() if name != SEED}, chosen[SEED])
+            self._made[key] = self._book({name: value for name, value in chosen.items() if name != SEED}, int(chosen[SEED]))
             self._seconds += time.thread_time() - began
         return self._made[key]
 

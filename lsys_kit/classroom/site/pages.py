@@ -178,7 +178,8 @@ def _with_books_once(parts: Parts) -> dict[str, Any]:
     def numbered(data: Any) -> Any:
         if not isinstance(data, dict):
             return data
-        return {name: books.setdefault(value, len(books)) if name == "books" else numbered(value) for name, value in data.items()}
+        return {name: books.setdefault(value, len(books)) if name == "books" else numbered(value)
+                for name, value in data.items()}
 
     found = [numbered(part) for part in parts]
     return {"parts": found, "books": [*books]}

@@ -24,8 +24,7 @@ KINDS: Mapping[type, str] = {Explorer: "panel", Comparison: "comparison", VoteBo
 
 
 def show_for_pages(lesson: str = "") -> None:
-    """Let this kernel show the widgets of the kit as data for a page; if it is that of a lesson, its panels hold what the tables of
-    the lesson ask for."""
+    """Let this kernel show the widgets of the kit as data for a page; the panels of a lesson hold what its tables ask for."""
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter

@@ -36,7 +36,7 @@ export function heldSettings({ constants, chance, seeds, seed, together = [] }) 
   // What is said of sliders that went back; null where none did.
   function told(places, back) {
     const gone = sliders.flatMap(({ name, texts }, i) => (places[i] === back[i] ? [] : [`${name || "seed"} = ${texts[back[i]]}`]));
-    return gone.length ? { message: `Back at ${gone.join(", ")}`, hint: "This page does not hold all settings together; what it holds stands below the panel." } : null;
+    return gone.length ? { message: `Back at ${gone.join(", ")}`, hint: "This page does not hold all settings together; the line below the sliders says which." } : null;
   }
 
   return { rowAt, placesOf, settled, settingsAt, told };
