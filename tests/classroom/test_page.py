@@ -291,7 +291,8 @@ def test_a_slider_without_its_book_takes_the_others_back_to_their_first_values(m
     press(shown, "m", "ArrowRight")
     expect(word).to_have_text("A(4)")
     expect(text).to_be_hidden()
-    expect(shown.get_by_text("n and m move one at a time: the other sliders then go back to their first values.")).to_be_visible()
+    said = "n and m move one at a time: the other sliders then go back to their first values."
+    expect(shown.get_by_text(said)).to_be_visible()
 
 
 def test_seeds_are_sown_without_a_kernel_and_stand_in_the_address(opened) -> None:
