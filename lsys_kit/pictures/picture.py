@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, current, supervised
-from lsys_kit.derivation.petri.pnml import pnml
+from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
@@ -170,7 +170,7 @@ class NetPicture(SVGPicture):
             The extension is unknown, or the file cannot be written.
         """
         save_as(Path(path), {".svg": lambda: marked_xml(self.svg),
-                             ".pnml": lambda: marked_xml(pnml(self.net, self.tokens, positions_in(self.net)))})
+                             ".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))})
 
     def __repr__(self) -> str:
         return unescape(self.svg.split('aria-label="')[1].split('"')[0])

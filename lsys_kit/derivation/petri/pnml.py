@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from lsys_kit.derivation.petri.net import Arc, Stages, Transition, likelihood
@@ -21,8 +20,7 @@ GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
 TOOL = {"tool": "lsys-kit", "version": "1"}
 
 
-def pnml(net: Stages, tokens: Sequence[int] | None = None,
-         positions: Mapping[str, tuple[float, float]] = MappingProxyType({})) -> str:
+def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
     """A stage diagram as PNML.
 
     Parameters
@@ -31,9 +29,6 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None,
         The stages of a system.
     tokens
         How many tokens lie in each place at first; by default those of the axiom.
-    positions
-        Where the middle of each place ("p0", "p1", ...) and transition ("t0", ...) stands in a picture, in pixels from the left
-        and from the top; tools that show the net put it there.
 
     Returns
     -------
@@ -80,6 +75,12 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None,
       </net>
     </pnml>
     """
+    return placed_pnml(net, tokens, {})
+
+
+def placed_pnml(net: Stages, tokens: Sequence[int] | None, positions: Mapping[str, tuple[float, float]]) -> str:
+    """A stage diagram as PNML that says where the middle of a place ("p0") or transition ("t0") stands in a picture, in pixels
+    from the left and from the top."""
     require(net, Stages, "A stage diagram")
     given = net.start if tokens is None else net.in_places(tokens)
     marking = [whole_number(each, "A number of tokens") for each in given]
