@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from lsys_kit.budget import limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.kind import Difference
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS, Misconception
 from lsys_kit.classroom.exercises.verdict import Verdict
@@ -21,6 +22,8 @@ NEAR, NEAR_UNKNOWN, RECOGNISED, MOST_UNKNOWN, READABLE = 0.6, 0.5, 0.4, 0.3, 0.0
 """Scores: nearly right and recognised; right but for one thing; recognised; otherwise by how much is right; and not at all."""
 MOST_ASKED = 3
 """So many misconceptions at most are asked about."""
+MOST_RIGHT = 0.6
+"""An answer of which so much is right may be a slip of the pen."""
 MOST_SECONDS = 8
 """So long misconceptions are looked for in an exercise, once: enough for all but worlds slow to derive."""
 MOST_ANSWERS = 60
@@ -171,13 +174,16 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     found = kind.difference(exercise, own, solution)
     if fitting:
         near = found.near or all(wrong.near for wrong in fitting)
-        return Verdict("Almost" if near else "Not yet", _explained(fitting), NEAR if near else RECOGNISED), True
+        return Verdict("Almost" if near else "Not yet", _explained(fitting, found), NEAR if near else RECOGNISED), True
     score = NEAR_UNKNOWN if found.near else READABLE + (MOST_UNKNOWN - READABLE) * min(max(found.likeness, 0), 1)
     return Verdict("Almost" if found.near else "Not yet", found.message, score), kind.honest(exercise, own, solution)
 
 
-def _explained(fitting: Sequence[WrongAnswer]) -> str:
-    """What is said of an answer that one or several misconceptions yield: one is named, several are asked about."""
+def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
+    """What is said of an answer that one or several misconceptions yield: one is named, several are asked about.
+
+    Where most of the answer is right, it may be a slip of the pen: then one is asked about too, and its place is shown.
+    """
     own = next((wrong for wrong in fitting if wrong.says), None)
     others = {wrong.misconception.name: wrong.misconception for wrong in fitting if wrong.misconception}
     if own is not None:
@@ -186,6 +192,8 @@ def _explained(fitting: Sequence[WrongAnswer]) -> str:
         return f"{own.says.strip()}{asked}"
     if len(others) == 1:
         only = next(iter(others.values()))
+        if found.likeness >= MOST_RIGHT and found.at_a_place and not only.near:
+            return f"Did you {only.do}? {found.message}"
         return f"That is what comes out if you {only.do}. {only.but}"
     return f"Did you {_any_of(list(others.values()))}?"
 

@@ -15,6 +15,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.keys import Problem, Source
 from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.registry import kit_questions
@@ -147,6 +148,9 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
         yield problem(
             "id", "It does not say which objective it tests", "Write objective = 1, the number in the list at the top."
         )
+    if exercise.kind == "number":
+        for fault in _unread_formulas(exercise):
+            yield problem("otherwise", fault.message, "In braces stand formulas of answer.")
     if exercise.kind in _NEEDS_OTHERWISE and not exercise.system and not exercise.otherwise and exercise.kind != "choice":
         yield problem("kind", "Nothing is said of a wrong answer that nobody expects", 'Write otherwise = "...".')
     if not (exercise.expects or exercise.slips or exercise.options):
@@ -155,6 +159,15 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
         yield problem("kind", "An expression needs values", "Write values = { s = [1, 2, 3] }.")
     if exercise.kind in ("symbol", "line") and not exercise.text:
         yield problem("kind", "The word or program is missing", 'Write text = "...".')
+
+
+def _unread_formulas(exercise: Exercise) -> Iterator[LSystemError]:
+    """What is wrong with the formulas in a reply."""
+    for found in FORMULA.finditer(exercise.otherwise):
+        try:
+            formula_in_reply(found[1])
+        except LSystemError as fault:
+            yield fault
 
 
 def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:

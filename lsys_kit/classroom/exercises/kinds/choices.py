@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from string import ascii_uppercase
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed import quoted, text_answer
+from lsys_kit.classroom.exercises.typed.number_words import with_digits
+from lsys_kit.classroom.exercises.typed.text import keyboard_text, quoted, text_answer, unquoted
 from lsys_kit.errors import ModelNameError, ModelValueError, whole_number
 
 # One of some options
@@ -33,20 +35,56 @@ def listing(exercise: Exercise) -> str:
     return ""
 
 
+_LETTER = re.compile(
+    r"^(?:it\s+is\s+|the\s+)?(?:(?:right|correct|my)\s+)?(?:option|answer|choice|solution|letter)?\s*(?:is\b|[:=])?"
+    r"\s*\W*([a-z])\W*$",
+    re.IGNORECASE,
+)
+_LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
+_EXCLUDING = frozenset(["all", "both", "but", "except", "neither", "never", "no", "none", "nor", "not", "or", "without"])
+MOST_WORDS = 3
+"""So many words has an answer that names an option of one word."""
+_SHORTEST_PART = 3
+"""So many characters of an option's text at least stand for it, if they are a figure or no other option has them."""
+
+
 def _plain(text: str) -> str:
-    return " ".join(text.replace("`", "").split()).strip(".\"'").casefold()
+    """A text by its words and signs alone: without blanks beside signs, quotation marks, capital letters."""
+    text = re.sub(r"[`*\"']", "", keyboard_text(text))
+    text = with_digits(re.sub(r"(?<=[a-z]{2})-(?=[a-z]{2})", " ", " ".join(text.split())))
+    return re.sub(r"\s*([^\w\s])\s*", r"\1", text).strip(".,;:!? ").casefold()
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:
     text = text_answer(answer, "An option", '"A"').strip()
     known = letters(exercise)
-    by_text = {_plain(option.text): letter for option, letter in zip(exercise.options, known, strict=True)}
-    letter = re.sub(r"^(option|answer)\s+", "", text, flags=re.IGNORECASE).strip(" ().:\"'").upper()
-    if letter in known and len(letter) == 1:
-        return letter
-    if _plain(text) in by_text:
-        return by_text[_plain(text)]
-    raise ModelNameError(f'"{quoted(text)}" is none of the options', hint=f"Choose one of: {', '.join(known)}.")
+    texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
+    named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)
+    meant = [letter for letter, own in texts.items() if own == _plain(text)]
+    if named and named[1].upper() in known and not meant:
+        meant = [named[1].upper()]
+    if both and both[1].upper() in known and not meant:
+        meant = [letter for letter in _with_part(texts, _plain(both[2])) if letter == both[1].upper()]
+    meant = meant or _with_part(texts, _plain(text)) or _named_in(texts, text)
+    if len(meant) != 1:
+        raise ModelNameError(f'"{quoted(text)}" is none of the options', hint=f"Choose one of: {', '.join(known)}.")
+    return meant[0]
+
+
+def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
+    """The options whose text has a part, as whole words."""
+    before = r"(?<!\w)" if part[:1].isalnum() else ""
+    whole = rf"{before}{re.escape(part)}(?!\w)"
+    enough = len(part) >= _SHORTEST_PART or part.isdigit()
+    return [letter for letter, text in texts.items() if enough and re.search(whole, text)]
+
+
+def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
+    """The options that a short answer names: those of one word, or that begin with one and a colon."""
+    words = re.findall(r"\w+", _plain(text))
+    if len(words) > MOST_WORDS or _EXCLUDING & set(words):
+        return []
+    return [letter for letter, own in texts.items() if own.partition(":")[0] in words]
 
 
 def _choice_difference(exercise: Exercise, own: str, _: str) -> Difference:
@@ -111,17 +149,24 @@ SYMBOL = AnswerKind(
 # One line
 
 
+_LINE_NUMBER = re.compile(r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l)\b\W*|l)*(\d{1,8})(?:\W+line)?\W*$", re.IGNORECASE)
+
+
+def _unspaced(text: str) -> str:
+    return re.sub(r"\s+", "", keyboard_text(text)).replace("→", "->")
+
+
 def _read_line(exercise: Exercise, answer: object) -> int:
     lines = exercise.text.strip("\n").splitlines()
     if isinstance(answer, str):
-        text = answer.strip().strip("\"'`")
-        same = [number for number, line in enumerate(lines, 1) if line.split() == text.split()]
+        text = unquoted(answer)
+        same = [number for number, line in enumerate(lines, 1) if _unspaced(line) == _unspaced(text)]
         if len(same) == 1:
             return same[0]
-        number = re.sub(r"^line\s+|\.$", "", text, flags=re.IGNORECASE)
-        if not (number.isascii() and number.isdigit() and len(number) < 9):
+        number = _LINE_NUMBER.match(with_digits(keyboard_text(text)))
+        if not number:
             raise ModelValueError(f'"{quoted(text)}" is no line of the program', hint=f"Give a number from 1 to {len(lines)}.")
-        answer = int(number)
+        answer = int(number[1])
     found = whole_number(answer, "The number of a line")
     if not 1 <= found <= len(lines):
         raise ModelValueError(f"The program has the lines 1 to {len(lines)}")

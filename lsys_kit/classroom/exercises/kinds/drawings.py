@@ -12,7 +12,9 @@ import numpy as np
 from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.kinds.words import read_modules
+from lsys_kit.classroom.exercises.kinds.stroke_order import strokes_that_fit
+from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
+from lsys_kit.classroom.exercises.typed.systems import read_typed
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
@@ -25,6 +27,8 @@ from lsys_kit.worlds.derive import derive
 _SYSTEM = re.compile(r"->|=|:|→|#")
 MOST_STROKES = 5_000
 """The most strokes of a drawing that is compared."""
+MOST_FOLLOWED = 500
+"""The most strokes of a drawing that is followed stroke by stroke."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +40,15 @@ class Drawn:
     @cached_property
     def strokes(self) -> Floats:
         """The strokes, those on one line that touch joined, about their centre and of size 1: shape (n, 4) or (n, 6)."""
+        return normalised(joined_strokes(self.ends) if self.ends.shape[1] == 4 else self.ends)
+
+    @cached_property
+    def ends(self) -> Floats:
+        """The strokes as they are drawn, in order: shape (n, 4) or (n, 6)."""
         ends = scene_of(self.derivation).segments.ends
         if len(ends) > MOST_STROKES:
             raise ModelValueError(f"The drawing has {len(ends):,} strokes; up to {MOST_STROKES:,} are compared")
-        return normalised(joined_strokes(ends) if ends.shape[1] == 4 else ends)
+        return ends
 
 
 def drawn(exercise: Exercise, system: LSystem) -> Drawn:
@@ -91,8 +100,8 @@ def _read(exercise: Exercise, answer: object) -> Drawn:
         return Drawn(answer)
     if isinstance(answer, LSystem):
         return drawn(exercise, answer)
-    if isinstance(answer, str) and (not exercise.system or _SYSTEM.search(answer)):
-        return drawn(exercise, read(answer))
+    if isinstance(answer, str) and (not exercise.system or _SYSTEM.search(unnamed_word(answer))):
+        return read_typed(answer, lambda text: drawn(exercise, read(text)), exercise.solution)
     system = asked_system(exercise)
     return Drawn(written(system, read_modules(system, answer)))
 
@@ -105,18 +114,23 @@ def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
         return Difference("Nothing is drawn. Which symbols draw a stroke?")
-    if own != other:
-        more = "more" if own > other else "fewer"
-        return Difference(
-            f"It draws {more} straight strokes than it should. Draw it beside the picture and follow the turtle stroke by "
-            "stroke.",
-            min(own, other) / max(own, other) / 2,
-        )
-    return Difference(
-        "It has as many straight strokes as it should, but they stand otherwise. Draw it beside the picture: at which "
-        "stroke does the turtle turn otherwise?",
-        0.6,
-    )
+    likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
+    if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
+        return Difference(_stroke_by_stroke(mine, wanted), likeness)
+    return Difference("Draw it beside the picture: at which stroke does the turtle turn otherwise?", likeness)
+
+
+def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
+    """Where a drawing first leaves the right one, if both begin with the same stroke."""
+    fitting = strokes_that_fit(mine.ends, wanted.ends)
+    if fitting < len(mine.ends):
+        so_far = "" if fitting < 2 else f"Your first {fitting} strokes are right, if you begin at the same place. "
+        begun = "If your first stroke is right, stroke" if fitting < 2 else "Stroke"
+        return f"{so_far}{begun} {fitting + 1} is where none should be: look at the signs and brackets before it."
+    missing = strokes_that_fit(wanted.ends, mine.ends)
+    if missing < len(wanted.ends):
+        return "All strokes that you draw lie in the picture, but it has more of them. Which part is missing?"
+    return "Drawn from the same place it covers the picture, but with other strokes."
 
 
 DRAWING = AnswerKind(

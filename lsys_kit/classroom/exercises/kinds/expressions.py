@@ -10,7 +10,8 @@ from typing import Any
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.kinds.proofs import Valuations, differing_values, is_rational, proved_equal
-from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, text_answer
+from lsys_kit.classroom.exercises.typed.formulas import formula_text
+from lsys_kit.classroom.exercises.typed.text import assigned_name, text_answer
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
 from lsys_kit.notation.model.arithmetic import shortest_decimal
@@ -30,7 +31,7 @@ def _read(exercise: Exercise, answer: object) -> Expression:
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:
-        other = formula_text(text)
+        other = formula_text(text, exercise.values)
         if other != text and assigned_name(text) not in exercise.values:
             try:
                 return checked_expression(other, exercise.values, wanted)

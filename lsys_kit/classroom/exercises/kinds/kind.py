@@ -21,11 +21,14 @@ class Difference:
         How much of it is right, from 0 to 1.
     near
         Whether it is right but for one thing.
+    at_a_place
+        Whether the message names the place of a word at which it differs.
     """
 
     message: str
     likeness: float = 0
     near: bool = False
+    at_a_place: bool = False
 
 
 @dataclass(frozen=True)

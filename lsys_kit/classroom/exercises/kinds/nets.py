@@ -6,10 +6,11 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed import quoted, text_answer
+from lsys_kit.classroom.exercises.typed.text import quoted, text_answer
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
@@ -18,9 +19,12 @@ from lsys_kit.notation.model.system import LSystem
 MOST_TRANSITIONS = 60
 """The most transitions of a net that is compared."""
 _LINE = re.compile(
-    r"^\s*(?P<place>[^\s+]+)\s*(?:->|→|-->|=>)\s*(?P<made>.*?)\s*(?P<terms>(?:with probability|after|at once|if)\b.*)?$"
+    r"^\s*(?P<place>[^\s+]+)\s*(?:(?:-|=)+>|→)\s*(?P<made>.*?)\s*(?P<terms>(?:with probability|after|at once|if)\b.*)?$"
 )
-_PART = re.compile(r"^\s*(?P<copies>\d*)\s*\*?\s*(?P<place>[^\s+]+)\s*$")
+_PART = re.compile(r"\s*(?P<copies>\d*)\s*\*?\s*(?P<place>[^\s+*,\d][^\s+,]*)\s*")
+_JOINED = re.compile(r"\band\b|&", re.IGNORECASE)
+_ARROW = re.compile(r"(?:-|=)+>|→")
+_BETWEEN = re.compile(r"[\n;]|,(?=[^,;\n]*(?:->|=>|→))")
 _START = re.compile(r"^\s*(?:start|tokens|axiom)\s*:\s*(?P<places>.*)$", re.IGNORECASE)
 
 
@@ -61,7 +65,7 @@ def read_net(text: str) -> Net:
     """
     firings: list[Firing] = []
     start: Counter[str] | None = None
-    lines = [line for line in re.split(r"[\n;]", text) if line.strip() and not line.startswith("besides:")]
+    lines = [line for part in _BETWEEN.split(text) for line in _single(part) if not line.startswith("besides:")]
     if len(lines) > MOST_TRANSITIONS:
         raise ModelLimitError(f"The net has more than {MOST_TRANSITIONS} transitions", limit=MOST_TRANSITIONS)
     for line in lines:
@@ -78,15 +82,29 @@ def read_net(text: str) -> Net:
     return Net(tuple(firings), None if start is None else _sorted(start))
 
 
+def _single(line: str) -> Iterator[str]:
+    """The transitions of a line: of `A -> B -> C` two.
+
+    >>> list(_single("A -> B -> C + D"))
+    ['A -> B', 'B -> C + D']
+    """
+    parts = [part.strip() for part in _ARROW.split(line)]
+    if len(parts) > 2 and all(part and not re.search(r"[\s+,]", part) for part in parts[:-1]):
+        yield from (f"{one} -> {other}" for one, other in pairwise(parts))
+    elif line.strip():
+        yield line.strip().rstrip(".")
+
+
 def _counted(made: str, text: str) -> Counter[str]:
     """How many tokens are put into each place."""
     found: Counter[str] = Counter()
-    for part in made.split("+") if made.strip() not in ("", "ε", "*", "nothing") else ():
-        read = _PART.match(part)
-        if not read:
+    for part in re.split(r"[+,]", _JOINED.sub("+", made)) if made.strip() not in ("", "ε", "*", "nothing") else ():
+        read = list(_PART.finditer(part))
+        if "".join(each[0] for each in read) != part or not read or _ARROW.search(part):
             at = max(text.find(part), 0)
             raise ModelSyntaxError(f'"{quoted(part)}" is no place', text, at, at + len(part), "Write it as: A -> B + 2 C.")
-        found[read["place"]] += int(read["copies"][:6] or 1)
+        for each in read:
+            found[each["place"]] += int(each["copies"][:6] or 1)
     return found
 
 

@@ -3,55 +3,99 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
 from contextlib import suppress
 from typing import Any
 
 from lsys_kit.classroom.exercises.asked import asked_steps, right_history, what_is_asked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed import number_and_unit, parts
-from lsys_kit.errors import ModelNameError, quotable
+from lsys_kit.classroom.exercises.typed.numbers import parts, typed_number
+from lsys_kit.classroom.exercises.typed.text import quoted
+from lsys_kit.classroom.exercises.typed.units import UNITS, converted, means_the_same, names_of
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.expressions import Function, function_of
+from lsys_kit.notation.read import checked_expression
 
-_UNITS: Mapping[str, tuple[str, float]] = {
-    "°": ("angle", 1),
-    "degree": ("angle", 1),
-    "degrees": ("angle", 1),
-    "deg": ("angle", 1),
-    "rad": ("angle", 180 / math.pi),
-    "radian": ("angle", 180 / math.pi),
-    "radians": ("angle", 180 / math.pi),
-    "pi": ("angle of pi", 1),
-    "%": ("share", 1),
-    "percent": ("share", 1),
-    "": ("", 1),
-}
-"""For each unit that is converted what it measures, and how much of the first unit of that it is."""
-_COUNTED = frozenset(("cell", "letter", "module", "symbol", "character", "element", "piece"))
-"""Words for what a word is made of, one as good as the other."""
+FORMULA = re.compile(r"\{([^{}]+)\}")
+"""A formula in a reply, of which the value is shown."""
 MOST_APART = 10
 """How many times too large or too small a number may be that counts as a try."""
+_FILLING_WORDS = (
+    "a an about after again all also altogether answer approx approximately are around at be ca circa exactly follow for has "
+    "have i in is it its length long my number of on roughly so that the then there they this thus together total we you"
+)
+_FILLING = frozenset(_FILLING_WORDS.split())
+"""Words that may stand around any number."""
+_DOUBTFUL_WORDS = (
+    "above almost below between but either except fewer least less maybe more most never nor not or over than under "
+    "until without"
+)
+_DOUBTFUL = frozenset(_DOUBTFUL_WORDS.split())
+"""Words by which it is another number, or none."""
+
+
+def _words_of(exercise: Exercise) -> frozenset[str]:
+    """The words of a question, without the s of several."""
+    text = f"{exercise.question} {exercise.unit} {' '.join(exercise.symbols)}".lower()
+    return frozenset(word.removesuffix("s") for word in re.findall(r"[^\W\d_]+|[°%]", text))
+
+
+def _is_in_place(exercise: Exercise, word: str) -> bool:
+    """Whether a word beside a number says no more than the question does."""
+    noun = word.lower().removesuffix("s")
+    return (
+        word.lower() in _FILLING
+        or noun in _words_of(exercise) - _DOUBTFUL
+        or (bool(exercise.unit) and means_the_same(word, exercise.unit))
+        or (noun == "unit" and not exercise.unit)
+    )
 
 
 def _read_number(exercise: Exercise, answer: object) -> Value:
-    number, unit = number_and_unit(answer)
-    if not unit or unit.lower() == exercise.unit.lower():
+    found = typed_number(answer, _asks_for_decimals(exercise, answer))
+    odd = next((word for word in (*found.before, *found.after) if word.lower() in _DOUBTFUL), "")
+    if odd:
+        raise ModelValueError("One number is needed", hint='Write it alone, as in "21".')
+    unit = next((word for word in found.after[:1] if word.lower() in UNITS), "")
+    odd = next((word for word in (*found.before, *found.after) if word != unit and not _is_in_place(exercise, word)), "")
+    if odd:
+        raise _other_unit(exercise, odd)
+    if not unit and found.of_pi and exercise.unit.lower() in names_of("degrees"):
+        unit = "radians"
+    return _in_the_unit(exercise, found.value, unit) if unit else found.value
+
+
+def _in_the_unit(exercise: Exercise, number: Value, unit: str) -> Value:
+    """A number in the unit that the question asks for."""
+    in_the_text = exercise.kind == "table" and bool(names_of(unit) & {*_words_of(exercise), *exercise.question.lower().split()})
+    if exercise.unit.lower() in names_of(unit) or (in_the_text and not exercise.unit):
         return number
-    wanted, given = _UNITS.get(exercise.unit.lower()), _UNITS.get(unit.lower())
-    if given and wanted and given[0] == wanted[0]:
-        return number if given[1] == wanted[1] else float(number) * given[1] / wanted[1]
-    if given and given[0] == "share" and not exercise.unit:
-        return number / 100
-    noun = unit.lower().rstrip("s")
-    if given is None and (
-        noun in f"{exercise.question} {exercise.unit}".lower() or {noun, exercise.unit.rstrip("s")} <= _COUNTED
-    ):
-        return number
-    raise ModelNameError(
-        f'"{quotable(unit)}" is not the unit that the question asks for',
+    same = converted(number, unit, exercise.unit)
+    if same is None and unit in names_of("%") and not exercise.unit:
+        same = number / 100
+    if same is None:
+        raise _other_unit(exercise, unit)
+    return same
+
+
+def _other_unit(exercise: Exercise, word: str) -> ModelNameError:
+    return ModelNameError(
+        f'"{quotable(word)}" is not the unit that the question asks for',
         hint=f"Its unit is: {exercise.unit}." if exercise.unit else "Write the number alone.",
     )
+
+
+def _asks_for_decimals(exercise: Exercise, answer: object) -> bool:
+    """Whether the comma of an answer such as 1,272 is a decimal one: a number with decimals, below 1000, is asked for."""
+    whole, point, _ = exercise.solution.strip().lstrip("+-").partition(".")
+    decimals = bool(exercise.tolerance or point) and exercise.kind == "number"
+    if decimals and isinstance(answer, str) and whole.isdigit() and len(whole) > 3 and re.search(r"\d,\d{3}(?!\d)", answer):
+        raise ModelValueError(
+            f'The comma in "{quoted(answer)}" may stand before decimals or between thousands', hint="Write a point, or nothing."
+        )
+    return decimals
 
 
 def _distance(own: Value, wanted: Value) -> Any:
@@ -77,13 +121,45 @@ def same_number(exercise: Exercise, own: Value, wanted: Value) -> bool:
 
 
 def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Difference:
-    said = f"{number_text(number)} is not the number that is asked for."
-    if isinstance(solution, int) and number != int(number):
-        return Difference(f"{said} It must be a whole number.")
+    shown = f"{number:.10g}" if isinstance(number, float) else number_text(number)
+    measured = f" {exercise.unit}" if exercise.unit.lower() in UNITS else ""
+    said = f"{shown}{measured} is not the number that is asked for."
+    if "contrary" in exercise.expects and not 0 <= number <= 1:
+        return Difference(f"{said} A probability lies between 0 and 1.")
+    counted = (exercise.unit and exercise.unit.lower() not in UNITS) or what_is_asked(exercise)
+    if counted and isinstance(solution, int) and (number != int(number) or number < 0):
+        return Difference(f"{said} What is counted is a whole number{', and not less than 0' if number < 0 else ''}.")
     close = bool(exercise.tolerance) and _distance(number, solution) <= 3 * exercise.tolerance
     if close:
         return Difference(f"{said} It is close: was something rounded on the way?", 1, True)
-    return Difference(f"{said} {exercise.otherwise or _try_small(exercise)}".rstrip())
+    return Difference(f"{said} {with_values(exercise.otherwise, number) or _try_small(exercise)}".rstrip())
+
+
+def with_values(text: str, number: Value) -> str:
+    """A reply with the values of the formulas in braces, in which `answer` is the number; without those that have no value.
+
+    >>> with_values("Twice that is {2*answer}. Its root is {sqrt(answer)}. And now?", -3)
+    'Twice that is -6. And now?'
+    """
+    sentences = re.split(r"(?<=[.?!])\s+(?=[A-Z])", text)
+    return " ".join(filter(None, (_with_values(sentence, number) for sentence in sentences)))
+
+
+def _with_values(sentence: str, number: Value) -> str:
+    try:
+        return FORMULA.sub(lambda found: _rounded(formula_in_reply(found[1])((number,))), sentence)
+    except (ArithmeticError, ValueError, LSystemError):
+        return ""
+
+
+def formula_in_reply(text: str) -> Function:
+    """The function of `answer` that a reply computes."""
+    return function_of(checked_expression(text, ("answer",)), {"answer": 0})
+
+
+def _rounded(value: Value) -> str:
+    double = float(value)
+    return f"{double:.4g}" if abs(double) < 10_000 else f"{double:,.0f}"
 
 
 def _try_small(exercise: Exercise) -> str:
@@ -108,7 +184,16 @@ NUMBER = AnswerKind("number", _read_number, same_number, _number_difference, _ho
 
 
 def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
-    return tuple(_read_number(exercise, part) for part in parts(answer, "Numbers"))
+    found = [part for part in parts(answer, "Numbers") if not _is_a_word_in_place(exercise, part)]
+    return tuple(_read_number(exercise, part) for part in found)
+
+
+def _is_a_word_in_place(exercise: Exercise, part: object) -> bool:
+    if not isinstance(part, str) or not part.isalpha():
+        return False
+    return part.lower() not in _DOUBTFUL and (
+        _is_in_place(exercise, part) or bool(names_of(part) & {word for each in _words_of(exercise) for word in names_of(each)})
+    )
 
 
 def _same_table(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value, ...]) -> bool:
@@ -121,7 +206,8 @@ def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tupl
         min(len(own), len(solution)),
     )
     likeness = at / max(len(own), len(solution), 1)
-    count = "" if len(own) == len(solution) else f"You have {len(own)} numbers, and {len(solution)} are asked for. "
+    numbers = "1 number" if len(own) == 1 else f"{len(own)} numbers"
+    count = "" if len(own) == len(solution) else f"You have {numbers}, and {len(solution)} are asked for. "
     if at == min(len(own), len(solution)):
         return Difference(f"{count}As far as both go they agree.", likeness, one_apart(own, solution))
     so_far = f"The first {at} are right. " if at > 1 else ""

@@ -15,6 +15,8 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.outcomes import all_outcomes, outcomes_of
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.lint import warnings
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_word
@@ -166,12 +168,26 @@ def alike(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
     exercise = replace(exercise, probes=(), settings=())
     if (mine.own.angle, mine.own.heading) != (wanted.own.angle, wanted.own.heading) or unused(mine.own) != unused(wanted.own):
         return False
+    if len(_replaced(mine.own)) != len(_replaced(wanted.own)) or not _for_the_same(exercise, mine, wanted):
+        return False
     try:
         return all(
             parting(exercise, one, other) is None for one, other in ((mine.behind, wanted.behind), (mine.front, wanted.front))
         ) and _alone(exercise, mine, wanted)
     except ModelLimitError:
         return False
+
+
+def _replaced(system: LSystem) -> set[tuple[str, ...]]:
+    """The symbols for which a system has productions."""
+    return {tuple(module.symbol for module in rule.predecessors) for rule in system.productions}
+
+
+def _for_the_same(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
+    """Whether what was typed has productions for the same symbols, as far as these are those of the question."""
+    known = set(symbols(wanted.front)) if exercise.names != "any" else set()
+    own, other = ({symbol for each in _replaced(system) for symbol in each} for system in (mine.own, wanted.own))
+    return own & known == other & known or not own <= known
 
 
 def _alone(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
@@ -188,7 +204,20 @@ def _alone(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool
         for by in (-2, -1, 1, 2)
         if module.arguments
     ]
+    bounds = {number + by for number in _numbers_compared(mine.own, wanted.own) for by in (-1, 0, 1)}
+    at_bounds = [replace(module, arguments=(bound,)) for module in modules if len(module.arguments) == 1 for bound in bounds]
     return all(
         _fates(own, names.own(module), names) == _fates(other, module, None)
-        for module in list(dict.fromkeys([*modules, *nearby]))[:MOST_MODULES]
+        for module in list(dict.fromkeys([*at_bounds, *modules, *nearby]))[:MOST_MODULES]
     )
+
+
+def _numbers_compared(*systems: LSystem) -> set[Value]:
+    """The numbers in the conditions of systems, at which they may differ."""
+    found: set[Value] = set()
+    waiting = [rule.condition for system in systems for rule in system.productions if rule.condition is not None]
+    while waiting:
+        part = waiting.pop()
+        found |= {part.value} if isinstance(part, Number) else set()
+        waiting += part.operands if isinstance(part, Apply) else ()
+    return found

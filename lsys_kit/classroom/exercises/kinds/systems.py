@@ -11,6 +11,7 @@ import re
 from contextlib import suppress
 from dataclasses import replace
 
+from lsys_kit.classroom.exercises.asked import beginning_with
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.kinds.system_comparison import (
@@ -25,7 +26,8 @@ from lsys_kit.classroom.exercises.kinds.system_comparison import (
     unused,
     wrongly_replaced,
 )
-from lsys_kit.classroom.exercises.typed import text_answer
+from lsys_kit.classroom.exercises.typed.systems import read_typed
+from lsys_kit.classroom.exercises.typed.text import text_answer
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.model.modules import Module
@@ -35,6 +37,7 @@ from lsys_kit.worlds.derive import derive
 
 _AXIOM_LINE = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
 """An answer with an axiom of its own is the whole system."""
+_ARROW = re.compile(r"->|→")
 MOST_QUOTED = 200
 """How many characters of a production a reply quotes."""
 
@@ -43,11 +46,19 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if isinstance(answer, LSystem):
         return SystemAnswer(answer, answer, answer)
     text = text_answer(answer, "A system", '"axiom: a"')
+    known = f"{exercise.given}\n{exercise.solution}"
+    return read_typed(text, lambda typed: _read_text(exercise, typed), known)
+
+
+def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
     if not exercise.given or _AXIOM_LINE.search(text):
         return _whole(read(text))
-    with suppress(LSystemError):  # in another notation, with an axiom
-        return _whole(read(text))
     given = read(exercise.given)
+    with suppress(LSystemError):  # in another notation
+        whole = read(text)
+        if not all(_ARROW.search(line) for line in text.splitlines() if line.strip()):
+            return _whole(whole)
+        return completed(exercise, replace(given, productions=whole.productions, source=whole.source))
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
     if not own:
@@ -72,7 +83,7 @@ def _difference(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) ->
         return Difference(_hijacking(front, mine), likeness * 0.9, near)
     found = behind or front
     assert found is not None
-    return Difference(_in_words(found, mine, mine.behind if behind else mine.front), likeness, near)
+    return Difference(_in_words(found, mine, mine.behind if behind else mine.front, wanted.behind), likeness, near)
 
 
 def _difference_in_writing(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> Difference:
@@ -101,11 +112,11 @@ def _module_before(found: Parting, system: LSystem) -> str:
     return f"the {before[parents[found.position]] if found.position < len(parents) else before[len(before) - 1]}"
 
 
-def _in_words(found: Parting, mine: SystemAnswer, system: LSystem) -> str:
+def _in_words(found: Parting, mine: SystemAnswer, system: LSystem, wanted: LSystem) -> str:
     besides = f" (with {found.setting})" if found.setting else ""
     so_far = f"Up to step {found.step - 1} your words are right. " if found.step > 1 and not besides else ""
     if found.module is not None:
-        cause = _production_for(found.module, mine, system)
+        cause = _decomposition_for(found.module, mine, system, wanted) or _production_for(found.module, mine, system)
         return f"{so_far}Of {found.module} something else should become{besides}. {cause}".strip()
     if found.step == 0:
         return "Look at your axiom: it is not yet the word with which the development begins."
@@ -124,6 +135,20 @@ def _in_words(found: Parting, mine: SystemAnswer, system: LSystem) -> str:
     return f"{said}. It comes from {mother}, by this production:{_typed(system.productions[production], mine)}"
 
 
+def _decomposition_for(module: Module, mine: SystemAnswer, system: LSystem, wanted: LSystem) -> str:
+    """What is said where the production for a module is right, and the decomposition of what it makes is not."""
+    if not (wanted.decomposition or system.decomposition):
+        return ""
+    one, other = (derive(replace(beginning_with(each, [module]), decomposition=()), 1)[1] for each in (system, wanted))
+    if tuple(one) != tuple(other):
+        return ""
+    if not system.decomposition:
+        return "Its production is right. Is there a rule by which what it makes is decomposed?"
+    rules = "this rule" if len(system.decomposition) == 1 else "the rules"
+    shown = _typed(system.decomposition[0], mine) if len(system.decomposition) == 1 else ""
+    return f"Its production is right. Look at {rules} by which what it makes is decomposed{':' if shown else '.'}{shown}"
+
+
 def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
     states = States(system)
     state = states.number(module.symbol, module.arguments)
@@ -136,7 +161,7 @@ def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
 def _typed(rule: Production, mine: SystemAnswer) -> str:
     """A production as it was typed, as a quoted line; as the kit writes it, where it was not typed."""
     source = mine.own.source
-    own = next((found for found in mine.own.productions if found == rule and found.at), None)
+    own = next((found for found in mine.own.rules if found == rule and found.at), None)
     text = source[own.at[0] : own.at[1]] if own and own.at and source and own.at[1] <= len(source) else str(rule)
     line = " ".join(text.split())
     return f"\n  {line if len(line) <= MOST_QUOTED else f'{line[:MOST_QUOTED]}...'}"

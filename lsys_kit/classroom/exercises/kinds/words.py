@@ -9,7 +9,7 @@ from contextlib import suppress
 from lsys_kit.classroom.exercises.asked import Derived, asked_steps, asked_system, right_history
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed import text_answer
+from lsys_kit.classroom.exercises.typed.text import keyboard_text, text_answer, unlabelled, unquoted
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import LSystemError, ModelNameError
@@ -25,6 +25,12 @@ _MISTAKABLE = {"+": "-", "-": "+", "[": "(", "]": ")", "(": "[", ")": "]", "F": 
 """Symbols that are taken for one another: where one occurs the other is an answer, if a wrong one."""
 _BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
 """A word written as a list, whose brackets are no branches."""
+_TUPLE = re.compile(r"^\s*\(([^()]*,[^()]*)\)\s*$", re.DOTALL)
+_LABEL = re.compile(r"^\s*(?:(?:the|my)\s+)?(?:word|step|stage|answer|result|axiom)\b[\w\s()]*(?:is\b|[:=])\s*", re.IGNORECASE)
+_OUTER = re.compile(r"^\s*[\[{(]([^\[\]{}()]*)[\]})]\s*$", re.DOTALL)
+"""Words within one pair of brackets."""
+_COMMA_WITHIN = re.compile(r"\(\s*(\d+),(\d+)\s*\)")
+"""A number with a decimal comma, where the question has no module with two."""
 
 
 def system_of_words(exercise: Exercise) -> LSystem:
@@ -46,8 +52,9 @@ def read_modules(system: LSystem, answer: object) -> Modules:
         return tuple(answer)
     if isinstance(answer, list | tuple) and all(isinstance(part, str | Module) for part in answer):
         answer = " ".join(map(str, answer))
-    text = text_answer(answer, "A word", '"al br"')
+    text = _unlabelled(system, text_answer(answer, "A word", '"al br"'))
     bare = _BRACES.sub(lambda found: found[1], text)
+    bare = bare if system.notation == "plant-string" else _TUPLE.sub(r"\1", bare)
     plain = bare if system.notation == "plant-string" else _OUTER_COMMA.sub(" ", bare)
     try:
         return _of_the_system(system, plain, read_word(plain, system.notation, system))
@@ -56,6 +63,38 @@ def read_modules(system: LSystem, answer: object) -> Modules:
             with suppress(LSystemError):
                 return _of_the_system(system, plain, read_word(plain, notation, system))
         raise
+
+
+def unnamed_word(text: str) -> str:
+    """A word without what it is called in front of it.
+
+    >>> unnamed_word("step 4: bl ar"), unnamed_word("The word is F[+F]F"), unnamed_word("F(1) f")
+    ('bl ar', 'F[+F]F', 'F(1) f')
+    """
+    return _LABEL.sub("", text)
+
+
+def _unlabelled(system: LSystem, text: str) -> str:
+    """A word without what people write around it or between its symbols, and the system does not know.
+
+    >>> from lsys_kit.notation.read import read
+    >>> filament = read("axiom: ar\\nar -> al br")
+    >>> [_unlabelled(filament, text) for text in ("step 2: al br", "['al', 'br']", "al-br.", "a_l b_r")]
+    ['al br', '[al, br]', 'al br', 'al br']
+    """
+    known = symbols(system)
+    signs = "".join(known)
+    text = unnamed_word(unquoted(keyboard_text(text)))
+    for mark in "'\"`":
+        text = text if mark in signs else text.replace(mark, "")
+    if not {"+", "-"} & set(known):
+        text = re.sub(r"(?<=[A-Za-z])-(?=[A-Za-z])", " ", text)
+    text = text if "." in signs else re.sub(r"\.\s*$", "", text)
+    if system.notation != "plant-string" and all(len(m.arguments) < 2 for m in system.modules):
+        text = _COMMA_WITHIN.sub(r"(\1.\2)", text)
+    return re.sub(
+        r"[A-Za-z]\w*_\w+", lambda found: found[0].replace("_", "") if found[0].replace("_", "") in known else found[0], text
+    )
 
 
 def _of_the_system(system: LSystem, text: str, word: Modules) -> Modules:
@@ -80,7 +119,7 @@ def _word_difference(exercise: Exercise, word: Modules, solution: Modules) -> Di
         found = "your word ends" if at >= len(word) else f"you have {word[at]}"
         so_far = f"Up to position {at} your word is right; at" if at else "At"
         message = f"{so_far} position {at + 1} {found}. {_mother(exercise, at)}".rstrip()
-    return Difference(message, at / max(len(solution), len(word), 1), one_apart(word, solution))
+    return Difference(message, at / max(len(solution), len(word), 1), one_apart(word, solution), at_a_place=True)
 
 
 def _mother(exercise: Exercise, at: int) -> str:
@@ -111,18 +150,19 @@ WORD = AnswerKind(
 
 def _read_words(exercise: Exercise, answer: object) -> tuple[Modules, ...]:
     system = system_of_words(exercise)
-    return tuple(read_modules(system, part) for part in _separate(answer))
+    return tuple(read_modules(system, part) for part in _separate(system, answer))
 
 
-def _separate(answer: object) -> Iterator[object]:
+def _separate(system: LSystem, answer: object) -> Iterator[object]:
     if isinstance(answer, Derivation | list | tuple):
         yield from answer
         return
-    text = text_answer(answer, "Words", '"a, ab, aba"').strip()
-    separator = next((mark for mark in ("\n", ";", ",") if mark in text), "\n")
+    text = _OUTER.sub(r"\1", unquoted(re.sub(r"(?:-|=)+>|→", ",", text_answer(answer, "Words", '"a, ab, aba"'))))
+    by_blanks = all(len(symbol) == 1 and symbol.isalpha() for symbol in symbols(system))
+    separator = next((mark for mark in ("\n", ";", ",", " ") if mark in text and (mark != " " or by_blanks)), "\n")
     for part in text.split(separator):
-        if part.strip():
-            yield re.sub(r"^\s*\d+\s*[:.]?\s+", "", part).strip(" ,")
+        if part.strip(" ,"):
+            yield unlabelled(re.sub(r"^\s*\d+\s*[:.]?\s+", "", part)).strip(" ,")
 
 
 def _words_difference(exercise: Exercise, words: Sequence[Modules], solution: Sequence[Modules]) -> Difference:

@@ -39,6 +39,8 @@ from lsys_kit.worlds.derive import derive
 WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[Any]]
 MOST_STEPS_CONTINUED = 100_000
 """So far a sequence is followed until it passes a bound."""
+MOST_VALUES = 8
+"""So many first numbers a sequence is continued from."""
 _OF_GROWTH = ("length", "count", "strokes", "lengths", "counts", "first")
 
 
@@ -102,8 +104,19 @@ def shifted(offset: int) -> WrongAnswers:
     """The answers of somebody who counts the steps from another one."""
 
     def answers(exercise: Exercise) -> Iterator[Any]:
-        if what_is_asked(exercise):
+        asked = what_is_asked(exercise)
+        if asked not in ("", "first") and not (asked == "drawing" and exercise.steps < 2):
             yield from _by_history(exercise, replace(right_history(exercise), offset=offset))
+
+    return answers
+
+
+def beside_the_first(by: int) -> WrongAnswers:
+    """The answers of somebody who names the step before the first that is asked for, or the one after it."""
+
+    def answers(exercise: Exercise) -> Iterator[Any]:
+        if what_is_asked(exercise) == "first":
+            yield solution_of(exercise) + by
 
     return answers
 
@@ -116,13 +129,34 @@ def by_sequences(continued: Callable[[Sequence[int]], Iterator[Iterator[int]]]) 
         if what not in _OF_GROWTH or exercise.symbols:
             return
         last = last_step(exercise)
-        for values in continued(right_history(exercise).values(exercise, min(last, 8))):
+        for values in continued(right_history(exercise).values(exercise, min(last, MOST_VALUES))):
             if what == "first":
                 yield first_past(islice(values, MOST_STEPS_CONTINUED), bound_of(exercise))
                 continue
             found = list(islice(values, last + 1))
             if len(found) > last:
                 yield found[last] if exercise.kind == "number" else tuple(found[step] for step in asked_steps(exercise))
+
+    return answers
+
+
+def by_values(change: Callable[[Sequence[int]], Iterator[int]]) -> WrongAnswers:
+    """The answers of somebody who makes something else of the right numbers of all steps."""
+
+    def answers(exercise: Exercise) -> Iterator[Any]:
+        if exercise.kind == "number" and what_is_asked(exercise) in ("length", "count", "strokes") and exercise.steps > 1:
+            yield from change(right_history(exercise).values(exercise, exercise.steps))
+
+    return answers
+
+
+def by_turns(change_system: Callable[[LSystem], Iterator[LSystem]]) -> WrongAnswers:
+    """The answers of somebody who has another angle in mind, in questions that do not give it."""
+    of_systems = by_systems(change_system)
+
+    def answers(exercise: Exercise) -> Iterator[Any]:
+        if exercise.kind != "drawing" or not exercise.system:
+            yield from of_systems(exercise)
 
     return answers
 

@@ -52,8 +52,33 @@ def added_for_multiplied(formula: Expression) -> Iterator[Expression]:
 
 
 def multiplied_for_raised(formula: Expression) -> Iterator[Expression]:
-    """A product in place of a power: growth that is linear in place of exponential."""
-    yield from _with_operator(formula, "^", "*")
+    """A product in place of a power of which the exponent grows: growth that is linear in place of exponential."""
+    yield from _with_powers(formula, lambda power: replace(power, operator="*"), of_names=True)
+
+
+def multiplied_for_squared(formula: Expression) -> Iterator[Expression]:
+    """Two times a number in place of its square.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> print(*multiplied_for_squared(read_expression("x^2 > L^2")), *power_left_out(read_expression("x^2 > L^2")), sep="; ")
+    x * 2 > L * 2; x > L
+    """
+    yield from _with_powers(formula, lambda power: replace(power, operator="*"), of_names=False)
+
+
+def power_left_out(formula: Expression) -> Iterator[Expression]:
+    """A number in place of its power."""
+    yield from _with_powers(formula, lambda power: power.operands[0], of_names=False)
+
+
+def _with_powers(formula: Expression, change: Callable[[Apply], Expression], of_names: bool) -> Iterator[Expression]:
+    """A formula with its powers changed, those with names in the exponent or the others."""
+
+    def changed(found: Expression) -> Expression:
+        is_meant = isinstance(found, Apply) and found.operator == "^" and bool(names_in(found.operands[1])) == of_names
+        return change(found) if is_meant and isinstance(found, Apply) else found
+
+    yield from _if_changed(formula, changed)
 
 
 def ratio_inverted(formula: Expression) -> Iterator[Expression]:

@@ -10,6 +10,7 @@ from lsys_kit.classroom.exercises.misconceptions.answers import (
     by_solutions,
     by_steps,
     by_systems,
+    by_turns,
     never,
     shifted,
     together,
@@ -51,7 +52,7 @@ OF_REWRITING = (
     ),
     Misconception(
         "one step too few",
-        "`asks` of a `system`",
+        "`asks` of a `system`, but for first step past",
         "stop one step too early, or call the axiom step 1",
         "The axiom is step 0, and step 1 is what its modules become.",
         shifted(-1),
@@ -59,7 +60,7 @@ OF_REWRITING = (
     ),
     Misconception(
         "one step too many",
-        "`asks` of a `system`",
+        "`asks` of a `system`, but for first step past",
         "go one step too far",
         "The axiom is step 0, and step 1 is what its modules become.",
         shifted(1),
@@ -154,7 +155,7 @@ OF_REWRITING = (
     Misconception(
         "strictness confused",
         f"{_SYSTEM}; conditions; truths",
-        "take < for <=, or > for >=",
+        "take < for <=, or > for >=, or the other way round",
         "Try the bound itself: should the condition hold for it?",
         together(by_systems(systems.strictness_confused), by_solutions("expression", expressions.strictness_confused)),
         near=True,
@@ -163,7 +164,7 @@ OF_REWRITING = (
     Misconception(
         "comparison reversed",
         "kind expression, truths",
-        "take < for >, or == for !=",
+        "take < for >, or > for <, or == for !=",
         "Try a small value and a large one.",
         by_solutions("expression", expressions.comparison_reversed),
     ),
@@ -219,7 +220,7 @@ OF_REWRITING = (
     Misconception(
         "plus and minus swapped",
         _SYSTEM,
-        "take + for -",
+        "take + for -, or - for +",
         "+ turns to the left, - to the right.",
         by_systems(commands.signs_swapped),
         faint=True,
@@ -227,7 +228,7 @@ OF_REWRITING = (
     Misconception(
         "bracket sides swapped",
         f"{_SYSTEM} in plant-string",
-        "take [ for (",
+        "take [ for (, or ( for [",
         "[ and ( are branches to different sides.",
         by_systems(commands.bracket_sides_swapped),
         faint=True,
@@ -235,27 +236,32 @@ OF_REWRITING = (
     Misconception(
         "brackets dropped",
         _SYSTEM,
-        "go on where a branch ended",
+        "leave out the brackets, and so go on where a branch ended",
         "At ] the turtle returns to where it was at [, and to its heading there.",
         by_systems(commands.brackets_dropped),
         faint=True,
     ),
     Misconception(
-        "pen up", _SYSTEM, "take f for F", "F draws a stroke, f moves without drawing.", by_systems(commands.pen_up), faint=True
+        "pen up",
+        _SYSTEM,
+        "take f for F, or F for f",
+        "F draws a stroke, f moves without drawing.",
+        by_systems(commands.pen_up),
+        faint=True,
     ),
     Misconception(
         "angle between strokes",
-        "kind drawing; system with `drawn`; numbers in degrees",
+        "kind drawing with an angle in the answer; system with `drawn`; numbers in degrees",
         "take the angle between two strokes for that by which the turtle turns",
         "Where the turtle turns by an angle d, the two strokes meet at 180 - d degrees.",
-        together(by_systems(commands.angle_supplement), by_angles(expressions.supplement)),
+        together(by_turns(commands.angle_supplement), by_angles(expressions.supplement)),
     ),
     Misconception(
         "angle of the whole fork",
-        "kind drawing; system with `drawn`",
+        "kind drawing with an angle in the answer; system with `drawn`",
         "take twice the angle, or half of it",
         "The angle is that of one turn.",
-        by_systems(commands.angle_halved_or_doubled),
+        by_turns(commands.angle_halved_or_doubled),
         faint=True,
     ),
     Misconception(

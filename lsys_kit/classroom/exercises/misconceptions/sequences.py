@@ -55,6 +55,25 @@ def doubling(values: Sequence[int]) -> Iterator[Iterator[int]]:
         yield (values[0] * 2**step for step in range(4_000))
 
 
+def last_made(values: Sequence[int]) -> Iterator[int]:
+    """What the last step has added.
+
+    >>> list(last_made([1, 3, 7])), list(last_made([3, 1]))
+    ([4], [])
+    """
+    if values[-1] > values[-2] > 0:
+        yield values[-1] - values[-2]
+
+
+def added_up(values: Sequence[int]) -> Iterator[int]:
+    """The numbers of all steps together, with that of step 0 or without.
+
+    >>> list(added_up([1, 3, 7]))
+    [11, 10]
+    """
+    yield from (sum(values), sum(values[1:]))
+
+
 def _continued(given: Sequence[int], following: object) -> Iterator[int]:
     known = list(given)
     yield from known

@@ -91,7 +91,7 @@ def _first_past(chance: Random, level: int) -> Exercise | None:
         "", "", "number", f"Which is the first step whose word has more than {bound:,} letters?{quoted_lines(system)}",
         str(first),
         _counts_text(system, first), _COUNTING, system=system, asks=f"first step past {bound}", steps=40,
-        expects=("linear growth", "one step too few"), unlikely=_NOT_COUNTED,
+        expects=("linear growth", "axiom as step 1"), unlikely=_NOT_COUNTED,
         otherwise="Count the letters of the first steps, and go on from them.")
 
 

@@ -1,0 +1,137 @@
+"""Answers to all exercises as students type them: right ones in many forms, and wrong ones, by what the reply does.
+
+`data/wrong_answers.toml` and `data/right_answers.toml` were written by hand, without a look at what the exercises expect.
+"""
+
+import re
+import tomllib
+from collections import Counter
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+
+from lsys_kit import check, derive, exercises, read
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.judging import wrong_answers
+from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
+from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+
+DATA = Path(__file__).parent / "data"
+WRONG = tomllib.loads((DATA / "wrong_answers.toml").read_text(encoding="utf-8"))
+RIGHT = tomllib.loads((DATA / "right_answers.toml").read_text(encoding="utf-8"))
+KIT = {exercise.id: exercise for exercise in exercises() if exercise.id in WRONG}
+NUMBER_IS_WRONG = re.compile(r"is not the number that is asked for\. (What is counted|A probability lies)")
+
+
+def reply_class(exercise: Exercise, verdict) -> str:
+    """What a reply does."""
+    if verdict == 1:
+        return "accepted"
+    if verdict.said == "Not readable yet":
+        return "form"
+    said = [*(slip.says for slip in exercise.slips), *(option.says for option in exercise.options),
+            *(misconception.do for misconception in MISCONCEPTIONS.values())]
+    if any(sentence.strip() in verdict.message for sentence in said if sentence):
+        return "names"
+    if exercise.kind == "line":
+        return "verdict"
+    if exercise.kind == "number":
+        return "shows" if NUMBER_IS_WRONG.search(verdict.message) or FORMULA.search(exercise.otherwise) else "verdict"
+    return "verdict" if exercise.kind == "drawing" and "stroke" not in verdict.message else "shows"
+
+
+def test_there_are_answers_to_every_exercise():
+    kit = {exercise.id for exercise in exercises() if re.fullmatch(r"\d+\.\d+", exercise.id)}
+    assert set(WRONG) == set(RIGHT) == kit
+    assert min(map(len, RIGHT.values())) >= 2
+    assert min(sum(map(len, answers.values())) for answers in WRONG.values()) >= 2
+
+
+def test_at_most_one_wrong_answer_in_five_gets_only_a_verdict():
+    shares = Counter(does for answers in WRONG.values() for does, several in answers.items() for _ in several)
+    assert set(shares) == {"names", "shows", "verdict", "form"}
+    assert shares["verdict"] <= 0.2 * shares.total()
+    assert shares["names"] >= 0.4 * shares.total()
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_answer_is_not_accepted_and_its_reply_does_what_it_did(name):
+    exercise = KIT[name]
+    for does, answers in WRONG[name].items():
+        for answer in answers:
+            verdict = check(name, answer)
+            assert (answer, reply_class(exercise, verdict)) == (answer, does), str(verdict)
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_a_right_answer_is_accepted_in_other_forms(name):
+    refused = {str(answer): str(verdict) for answer in RIGHT[name] if (verdict := check(name, answer)) != 1}
+    assert refused == {}
+
+
+U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")
+
+
+@pytest.mark.parametrize(("name", "answer"), [
+    ("0.2", np.int64(64)), ("1.1", derive(read("axiom: bl\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al"), 4)[4]),
+    ("1.2", Decimal(21)), ("1.2", 21.0), ("1.2", sympy.Integer(21)), ("2.1", np.array([2, 3, 5, 8, 13, 21])),
+    ("2.1", (2, 3, 5, 8, 13, 21)), ("2.1", {0: 2, 1: 3, 2: 5, 3: 8, 4: 13, 5: 21}), ("2.2", sympy.Matrix([[1, 2], [1, 0]])),
+    ("2.2", np.array([[1, 2], [1, 0]])), ("4.1", ((2, 2), 0)), ("4.2", 72.0), ("4.2", Fraction(360, 5)), ("7.2", 1.272),
+    ("7.2", Decimal("1.272")), ("8.1", Fraction(27, 256)), ("8.1", sympy.Rational(27, 256)), ("8.1", 0.105),
+    ("8.6", Decimal("0.8")), ("10.5", U * N < V * M), ("10.5", V * M - U * N > 0),
+    ("12.2", 2.618034), ("15.5", (Y < 0) | (X**2 + Y**2 > L**2)),
+    ("17.1", ("b", "cba", "ccbaa", "cccbaaa")), ("17.1", derive(read("axiom: b\nb -> c b a\na -> a\nc -> c"), 3)),
+    ("18.3", Fraction(4, 5))])
+def test_an_object_is_a_right_answer_too(name, answer):
+    assert check(name, answer) == 1, str(check(name, answer))
+
+
+SHOWN_BY_QUOTING = "Not readable yet"
+"""A reply about the form of an answer may repeat what was typed in the right form."""
+
+
+@pytest.mark.parametrize("name", [name for name, exercise in KIT.items() if exercise.kind not in ("choice", "symbol", "line")])
+def test_no_reply_gives_the_solution_away(name):
+    solution = " ".join(KIT[name].solution.split())
+    buts = [wrong.misconception.but for wrong in wrong_answers(KIT[name]) if wrong.misconception]
+    for answer in [each for several in WRONG[name].values() for each in several]:
+        verdict = check(name, answer)
+        reply = " ".join(verdict.message.split())
+        for sentence in (*buts, " ".join(str(answer).split())):
+            reply = reply.replace(sentence, "")
+        if verdict.said != SHOWN_BY_QUOTING:
+            assert not re.search(rf"(?<![\w.]){re.escape(solution)}(?![\w.]|, )", reply), (answer, reply)
+
+
+# What is said of commas and units
+
+
+def test_a_comma_that_may_be_either_is_asked_about(tmp_path):
+    (tmp_path / "t.toml").write_text(
+        'title = "T"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\nid = "comma.1"\ntitle = "t"\n'
+        'kind = "number"\nquestion = "q"\nexplanation = "e"\nhints = ["1", "2", "3"]\nobjective = 1\nsolution = "1234.5"\n'
+        'tolerance = 1\notherwise = "o"\nexpects = ["sign reversed"]\n', encoding="utf-8")
+    exercises(tmp_path)
+    assert "may stand before decimals or between thousands" in check("comma.1", "1,234").message
+    assert check("comma.1", "1234,5") == check("comma.1", "1 234") == check("comma.1", "1234.5") == 1
+
+
+def test_a_comma_is_between_thousands_where_things_are_counted_and_before_decimals_where_they_are_not():
+    assert "1048575 is not" in check("2.4", "1,048,575").message
+    assert check("7.2", "1,272") == check("12.2", "2,618") == 1
+
+
+def test_the_unit_that_is_asked_for_is_named():
+    assert "Its unit is: cm." in check("8.5", "20 degrees").message
+    assert "2000 cm is not" in check("8.5", "20 m").message
+    assert check("8.5", "0.2 m") == check("4.2", "0.4π") == 1
+    assert check("3.2", "709 steps").said == "Not readable yet"
+
+
+@pytest.mark.parametrize("answer", ["not 21", "more than 21", "20 or 21", "at least 21", "21 or so", "almost 21"])
+def test_a_doubtful_number_is_none(answer):
+    assert check("1.2", answer).said == "Not readable yet"
