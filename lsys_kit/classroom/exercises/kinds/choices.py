@@ -56,7 +56,7 @@ def _plain(text: str) -> str:
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:
-    text = text_answer(answer, "An option", '"A"').strip()
+    text = " ".join(text_answer(answer, "An option", '"A"').split())
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
     named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)

@@ -49,7 +49,7 @@ def keyboard_text(text: str) -> str:
     ('2*x^2 <= (1/2)', '2^6-1', 'sqrt(169) + (1+1/2)', '709')
     """
     text = _RAISED_NUMBER.sub(_power, text.translate(_SIGNS))
-    text = re.sub(r"(\d+)\s*([¼-¾⅐-⅞])", lambda found: f"({found[1]}+{_fraction(found[2])})", text)
+    text = re.sub(r"(?<!\d)(\d+)\s*([¼-¾⅐-⅞])", lambda found: f"({found[1]}+{_fraction(found[2])})", text)
     text = re.sub(r"[¼-¾⅐-⅞]", lambda found: f"({_fraction(found[0])})", text)
     text = _ROOT_SIGN.sub(lambda found: f"sqrt({found[1]})" if found[1] else "sqrt", text)
     return "".join(unicodedata.normalize("NFKC", each) if each not in "…" else each for each in text)
