@@ -80,8 +80,9 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "derive": ("seed", "arithmetic", "c"), "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c"),
     "ensemble": ("arithmetic", "c"), "sweep": ("arithmetic", "seed"), "plot": ("seed", "arithmetic", "c"),
     "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"), "limits": ("modules", "bytes", "seconds"),
-    "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",), "draw in space": ("angle", "marked"),
-    "draw a cellwork": ("azimuth", "elevation", "cell", "generation", "pressure"),
+    "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",),
+    "draw in space": ("angle", "marked", "view"),
+    "draw a cellwork": ("view", "cell", "generation", "pressure"),
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""

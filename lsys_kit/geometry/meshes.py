@@ -160,7 +160,7 @@ def _tubes(segments: Segments, reach: float) -> Mesh:
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     there = lengths > 0
     widths = _widths(segments, lengths, reach)
-    radii = np.stack([_previous_widths(segments, widths, reach), widths], axis=1)[there] / 2
+    radii = np.stack([start_widths(segments, widths, reach), widths], axis=1)[there] / 2
     ways = (points[:, 1] - points[:, 0])[there] / lengths[there, None]
     ends, colours = points[there], np.broadcast_to(segments.colours, len(segments))[there]
     vertices, normals = np.empty((2, len(ways), 2, SIDES, 3), np.float32)
@@ -186,7 +186,7 @@ def _widths(segments: Segments, lengths: Floats, reach: float) -> Floats:
     return np.maximum(np.where(segments.widths == OWN, by_order, segments.widths), THINNEST * reach)
 
 
-def _previous_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
+def start_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
     """The width of each stroke at its start: that of the last stroke of its branch that ends there, else its own."""
     if len(segments) < 2 or (widths == widths[0]).all():
         return widths
@@ -217,7 +217,7 @@ def _rings(ways: Floats) -> Floats:
 def _faces(polygons: Polygons) -> Mesh:
     """Polygons as they are, flat."""
     points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
-    facing = _facing(points, polygons.starts)
+    facing = normals_of(points, polygons.starts)
     triangles = [np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
                  for (first, last), way in counted(zip(pairwise(polygons.starts.tolist()), facing, strict=True), 1)]
     return Mesh(points.astype(np.float32), np.repeat(facing, sizes, axis=0).astype(np.float32),
@@ -225,7 +225,7 @@ def _faces(polygons: Polygons) -> Mesh:
                 np.repeat(polygons.states, sizes), np.repeat(polygons.colours, sizes))
 
 
-def _facing(points: Floats, starts: Integers) -> Floats:
+def normals_of(points: Floats, starts: Integers) -> Floats:
     """The unit normal of each polygon, by Newell's method."""
     if len(starts) < 2:
         return np.empty((0, 3))

@@ -214,9 +214,6 @@ class Scene:
         The shapes.
     unknown
         The symbols that look like commands and are none, in the order of their first occurrence.
-    order
-        Of a scene in space as it is seen from one side: the numbers of its shapes from far to near, where polygons are counted
-        first, then strokes, then discs. None in the plane, where nothing is farther than anything else.
     """
 
     segments: Segments = field(default_factory=no_segments)
@@ -225,7 +222,6 @@ class Scene:
     polygons: Polygons = field(default_factory=no_polygons)
     discs: Discs = field(default_factory=no_discs)
     unknown: tuple[str, ...] = ()
-    order: Integers | None = None
 
     @property
     def dimension(self) -> int:

@@ -5,7 +5,6 @@ Walls of one colour have the same label. Where some cells are lit, those alone h
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -15,26 +14,24 @@ import numpy as np
 from lsys_kit.budget import current
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
-from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
 from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
 from lsys_kit.geometry.cellwork_layout import cellwork_scene, place_cellworks
-from lsys_kit.geometry.scene import Floats, Scene
+from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.pictures.maps import forces_of
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.style.palette import QUIET, SERIES, shaded, tinted
+from lsys_kit.pictures.style.palette import QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import FilamentRow, described
-from lsys_kit.pictures.view import axes, project
+from lsys_kit.pictures.view import View, project, view_from
 
 STEPS = 3
 """The default number of steps."""
-AZIMUTH, ELEVATION = 30, 25
+SIDE = 30, 25
 """From where cells are seen, in degrees: from the front and somewhat from the right, and from above."""
-LIGHT = (-0.4, 0.75, 0.5)
-"""The direction to the light, as the viewer sees it: from the left, from above, from behind the viewer."""
-SHADES, DARKEST = 24, 0.55
-"""How many shades a colour has, and how dark the darkest is."""
+
+EDGE = 0.012
+"""The width of edges, in units."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -61,9 +58,8 @@ class CellworkPicture(Picture):
         return described([f"step {self.rows[-1].step}", ", ".join(counts), shown, "walls of one colour have the same label"])
 
 
-def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, azimuth: object = AZIMUTH,
-                     elevation: object = ELEVATION, cell: int | None = None, generation: int | None = None,
-                     **forces: object) -> CellworkPicture:
+def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = SIDE,
+                     cell: int | None = None, generation: int | None = None, **forces: object) -> CellworkPicture:
     """The picture of a cellwork system after `n` steps, or of the last step of a development."""
     if isinstance(what, CellworkSystem):
         what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
@@ -71,17 +67,17 @@ def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None =
         raise ModelValueError("Steps are chosen when a cellwork system is derived, not when its development is drawn")
     lit, chosen = lit_cells(what, cell, generation), forces_of(forces, SPACE_FORCES, "cellwork")
     _check_size(what)
-    turn, tilt = real_from(azimuth, "azimuth"), real_from(elevation, "elevation")
+    side = view_from(view)
     *_, points = place_cellworks(what, chosen)
-    return picture_at(what[:], points, lit, turn, tilt)
+    return picture_at(what[:], points, lit, side)
 
 
-def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], azimuth: float,
-               elevation: float) -> CellworkPicture:
+def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View) -> CellworkPicture:
     """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
     solid = cellwork_scene(last, points, labels, lit, len(labels))
-    seen = project(_with_shades(solid, azimuth, elevation, len(labels) + 1), azimuth, elevation)
+    solid = replace(solid, segments=replace(solid.segments, widths=np.array([EDGE])))
+    [seen] = project([solid], view)
     return CellworkPicture((FilamentRow(len(cellworks) - 1, seen),), _colours(labels), solid=solid, counts=last.counts,
                            lit=len(lit))
 
@@ -119,25 +115,5 @@ def wall_labels(cellworks: Sequence[Cellwork]) -> Mapping[str, str]:
 
 
 def _colours(labels: Mapping[str, int]) -> Mapping[int, str]:
-    """The colours of the states: of the labels, of edges, then of each label in each of its shades."""
-    plain = [SERIES[number % len(SERIES)] for number in labels.values()]
-    shades = [shaded(colour, DARKEST + (1 - DARKEST) * level / (SHADES - 1)) for colour in plain for level in range(SHADES)]
-    return dict(enumerate((*plain, tinted(QUIET, 0.6), *shades)))
-
-
-def _with_shades(scene: Scene, azimuth: float, elevation: float, first: int) -> Scene:
-    """The scene with the shades that its polygons have from a side, as states from a first one on."""
-    polygons = scene.polygons
-    view = np.column_stack(axes(math.radians(azimuth), math.radians(elevation)))
-    towards = view @ (np.array(LIGHT) / math.sqrt(sum(part**2 for part in LIGHT)))
-    normals = np.array([_normal(corners) for corners in polygons]).reshape(-1, 3)
-    bright = np.clip((1 + normals @ towards) / 2, 0, 1)
-    levels = np.floor(bright * (SHADES - 1) + 0.5).astype(np.int64)
-    return replace(scene, polygons=replace(polygons, states=first + polygons.states * SHADES + levels))
-
-
-def _normal(corners: Floats) -> Floats:
-    """The unit normal of a polygon, towards whom its corners run counter-clockwise."""
-    vector = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
-    found: Floats = vector / (np.linalg.norm(vector) or 1.0)
-    return found
+    """The colours of the states: of the labels, then of edges."""
+    return dict(enumerate((*(SERIES[number % len(SERIES)] for number in labels.values()), tinted(QUIET, 0.6))))

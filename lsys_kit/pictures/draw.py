@@ -33,7 +33,7 @@ from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.spheres import sphere_picture
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
-from lsys_kit.pictures.view import project
+from lsys_kit.pictures.view import project, view_from
 from lsys_kit.worlds.derive import derive
 from lsys_kit.worlds.fields import Field
 
@@ -51,13 +51,13 @@ def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, obj
 @overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
-         **constants: object) -> Picture: ...
+         view: object = None, **constants: object) -> Picture: ...
 @overload
 def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (), labels: bool = True,
          **forces: object) -> MapPicture: ...
 @overload
-def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, azimuth: object = ..., elevation: object = ...,
-         cell: int | None = None, generation: int | None = None, **forces: object) -> CellworkPicture: ...
+def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = ..., cell: int | None = None,
+         generation: int | None = None, **forces: object) -> CellworkPicture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
@@ -73,14 +73,17 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         The turning angle in degrees; by default the system's.
     cells
         How the cells of a filament are drawn: as "rectangles" with round ends or as "ellipses"; by default as the system says.
+    view
+        From which side something in space is seen, in degrees: around, 0 from the front and 90 from the right; and above, 0
+        from the side and 90 from the top. By default plants are seen from (30, 15), and from the front if they are flat.
     **choices
         For a system `seed`, `arithmetic`, `field` and new values of constants, as for `derive`; `marked`, the states whose
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
         For a map system `iterations`, after which its last step is shown on the way to rest; `labels`, whether walls of a map
-        in the plane have theirs; and new values of the forces that shape it: `stiffness`, `rest`, `pressure`, `damping`; on a
-        sphere also `azimuth` and `elevation` of the viewer in degrees. A cellwork system has all of these but `labels`, too;
-        and `cell`, a number, or `generation`, the number of divisions behind cells, to light these alone.
+        in the plane have theirs; and new values of the forces that shape it: `stiffness`, `rest`, `pressure`, `damping`. A
+        cellwork system has all of these but `labels`, too; and `cell`, a number, or `generation`, the number of divisions
+        behind cells, to light these alone.
 
     Raises
     ------
@@ -112,7 +115,7 @@ def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | N
         _check_options(choices, ("intervals",))
         return lineage_picture(what, **choices)
     if isinstance(what, LSystem):
-        options = "angle", "seed", "arithmetic", "marked", "cells", "field"
+        options = "angle", "seed", "arithmetic", "marked", "cells", "field", "view"
         _check_options(choices, options, [each.name for each in what.constants])
     return _drawing(what, n, **choices)
 
@@ -133,7 +136,7 @@ def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = Fals
 
 def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int | None = None,
              arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
-             **constants: object) -> Picture:
+             view: object = None, **constants: object) -> Picture:
     if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
@@ -144,7 +147,8 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
         return _sequence(what, marked, cells)
     turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
     step, [scene] = what.steps if isinstance(what, Derivation) else 0, in_units([scene_of(what, turn)], what.states.system)
-    return Picture((FilamentRow(step, project(scene)),), state_colours(what), None, marked,
+    [seen] = project([scene], None if view is None else view_from(view))
+    return Picture((FilamentRow(step, seen),), state_colours(what), None, marked,
                    scene if scene.dimension == 3 else None)
 
 
@@ -188,7 +192,7 @@ def figure(what: Picture | Plot | LSystem | Derivation | Word, ax: Axes | None =
     what
         A picture, or what `draw` takes; or what `plot` returns.
     ax
-        The axes to draw into, in the plane: what is in space is seen from the front. By default those of a new figure.
+        The axes to draw into, in the plane. By default those of a new figure.
     **choices
         As for `draw`.
 

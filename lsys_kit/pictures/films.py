@@ -21,11 +21,11 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.display_list import MARGIN, frame_around
 from lsys_kit.pictures.draw import derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import film_bundle
 from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.frames import MARGIN, frame_around
 from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.view import project
@@ -151,9 +151,9 @@ def _turtle_film(derivation: Derivation, turn: float, pace: float) -> Film:
     for step in counted(range(derivation.steps + 1), 1):
         steps.append(scene_of(derivation.to(step), turn))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
-    scenes = [project(scene) for scene in in_units(steps, derivation.states.system)]
+    scenes = project(in_units(steps, derivation.states.system))
     frame, colour_of = frame_around(scenes), state_colours(derivation)
-    return Film(_caption(derivation, scenes[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
+    return Film(_caption(derivation, steps[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
 
 
 def _caption(derivation: Derivation, last: Scene) -> str:

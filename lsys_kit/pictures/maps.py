@@ -22,8 +22,8 @@ from lsys_kit.geometry.map_layout import equilibria, relaxation_steps, scenes
 from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.pictures.display_list import MARGIN, ViewFrame
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.frames import MARGIN, ViewFrame
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import background, described, document

@@ -20,13 +20,13 @@ from lsys_kit.geometry.meshes import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.display_list import WIDTH, frame_around
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
 from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.frames import WIDTH, frame_around
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
@@ -74,7 +74,7 @@ class Picture(SVGPicture):
     def text(self) -> str:
         """What the picture shows, in words."""
         steps = f"steps {self.rows[0].step} to {self.rows[-1].step}" if len(self.rows) > 1 else ""
-        return described([steps, ("the last: " if steps else "") + str(self.scene)])
+        return described([steps, ("the last: " if steps else "") + str(self.scene if self.solid is None else self.solid)])
 
     @property
     def size(self) -> int:

@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 
 from lsys_kit.budget import Task, counted, supervised
-from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
@@ -22,15 +21,15 @@ from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
 from lsys_kit.notation.model.maps import Edge, MapSystem
-from lsys_kit.pictures.display_list import MARGIN
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.spheres import SphereShapes, spheres_file
+from lsys_kit.pictures.frames import MARGIN
 from lsys_kit.pictures.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
 from lsys_kit.pictures.style.palette import INK, QUIET
 from lsys_kit.pictures.svg import background, described, document
-from lsys_kit.pictures.view import axes
+from lsys_kit.pictures.view import View, axes, view_from
 
-AZIMUTH, ELEVATION = 20, 25
+SIDE = 20, 25
 """From where spheres are seen, in degrees: somewhat from the right, and from above."""
 LARGEST = 120.0
 """The greatest radius of a sphere, in pixels."""
@@ -94,23 +93,23 @@ class SpherePicture(MapPicture):
             return spheres_file([*shapes], self.text, kind)
 
 
-def sphere_picture(what: MapSystem | Development, n: int | None = None, *, azimuth: object = AZIMUTH,
-                   elevation: object = ELEVATION, **forces: object) -> SpherePicture:
+def sphere_picture(what: MapSystem | Development, n: int | None = None, *, view: object = SIDE,
+                   **forces: object) -> SpherePicture:
     """The picture of a map system on a sphere after `n` steps, or of a development."""
     if isinstance(what, MapSystem):
         what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
     chosen = forces_of(forces, SPHERE_FORCES, "map on a sphere")
-    turn, tilt = real_from(azimuth, "azimuth"), real_from(elevation, "elevation")
-    return spheres_at(what, [*place_on_sphere(what, chosen)], range(max(0, len(what) - MOST_MAPS), len(what)), turn, tilt)
+    side = view_from(view)
+    return spheres_at(what, [*place_on_sphere(what, chosen)], range(max(0, len(what) - MOST_MAPS), len(what)), side)
 
 
-def spheres_at(maps: Sequence[Map], placed: Sequence[Placed], steps: Sequence[int], azimuth: float,
-               elevation: float) -> SpherePicture:
+def spheres_at(maps: Sequence[Map], placed: Sequence[Placed], steps: Sequence[int],
+               view: View) -> SpherePicture:
     """The picture of some steps, given the maps of all steps and where each lies on the sphere."""
-    view, kinds = np.column_stack(axes(math.radians(azimuth), math.radians(elevation))), kinds_of_cells(maps)
-    views = [SphereView([each @ view for each in wall_arcs(maps[step], *placed[step])], kinds[step]) for step in steps]
+    side, kinds = np.column_stack(axes(*map(math.radians, view))), kinds_of_cells(maps)
+    views = [SphereView([each @ side for each in wall_arcs(maps[step], *placed[step])], kinds[step]) for step in steps]
     return SpherePicture([maps[step] for step in steps], [placed[step][0] for step in steps], (), steps, views=views)
 
 

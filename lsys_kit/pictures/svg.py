@@ -12,9 +12,13 @@ from itertools import groupby
 
 import numpy as np
 
-from lsys_kit.geometry.scene import CIRCLE, Discs, Integers, Polygons, Scene, Segments
-from lsys_kit.pictures.display_list import Faces, Strokes, ViewFrame, display_list, shape_colours, stroke_scale
-from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER, tinted
+from lsys_kit.geometry.scene import Integers, Scene
+from lsys_kit.pictures.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines
+from lsys_kit.pictures.frames import ViewFrame
+from lsys_kit.pictures.looks import stroke_scale
+from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
+from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER
 
 
 def document(body: str, width: int, height: int, description: str) -> str:
@@ -27,49 +31,72 @@ def document(body: str, width: int, height: int, description: str) -> str:
 
 def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
     """A scene of a turtle as SVG, in the order in which it is painted."""
-    faces, rounds = _polygons(scene.polygons, frame, colour_of), _discs(scene.discs, frame, colour_of)
-    points, parts = frame.points(scene.segments.ends), []
-    for kind, runs in groupby(display_list(scene, frame.scale, colour_of), type):
-        if kind is Strokes:
-            parts.append(_strokes_svg(scene.segments, points, [run for run in runs if isinstance(run, Strokes)], frame, marked))
+    shapes = display_list(scene, frame.scale, colour_of)
+    areas, rounds, broad = _areas(shapes, frame), _rounds(shapes, frame), 90 * stroke_scale(scene.segments, frame.scale)
+    points, parts = frame.points(shapes.lines.ends), [_gradients(shapes)]
+    for kind, runs in groupby(shapes, type):
+        if kind is LineRun:
+            lines = [run for run in runs if isinstance(run, LineRun)]
+            parts.append(_lines_svg(shapes.lines, points, lines, max(50, broad), marked))
         else:
-            shapes, look = (faces, _FACES) if kind is Faces else (rounds, _ROUNDS)
-            body = "".join(shapes[number] for run in runs for number in run.numbers.tolist())
+            texts, look = (areas, _AREAS) if kind is AreaRun else (rounds, _ROUNDS)
+            body = "".join(texts[number] for run in runs for number in run.numbers.tolist())
             parts.append(f"<g {look}>{body}</g>" if body else "")
     return "".join(parts)
 
 
-_FACES, _ROUNDS = 'stroke-width="6" stroke-linejoin="round"', 'stroke-width="10"'
+_AREAS, _ROUNDS = 'stroke-width="6" stroke-linejoin="round"', 'stroke-width="10"'
 
 
-def _polygons(polygons: Polygons, frame: ViewFrame, colour_of: Mapping[int, str]) -> list[str]:
-    """Surfaces, filled, with an outline of the same colour."""
-    shapes = []
-    for corners, colour in zip(polygons, shape_colours(polygons, colour_of), strict=True):
-        points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
-        shapes.append(f'<polygon points="{points}" fill="{tinted(colour, 0.7)}" stroke="{colour}"/>')
-    return shapes
+def _areas(shapes: DisplayList, frame: ViewFrame) -> list[str]:
+    """Polygons, most with an edge."""
+    areas, texts = shapes.areas, []
+    points, starts = frame.points(areas.points).tolist(), areas.starts.tolist()
+    for first, last, fill, edge in zip(starts, starts[1:], areas.fills.tolist(), areas.edges.tolist(), strict=False):
+        corners = " ".join(f"{x},{y}" for x, y in points[first:last])
+        texts.append(f'<polygon points="{corners}" fill="{shapes.palette[fill]}"{_edge(shapes, edge)}/>')
+    return texts
 
 
-def _discs(discs: Discs, frame: ViewFrame, colour_of: Mapping[int, str]) -> list[str]:
-    """Circles, and discs and spheres, which are filled."""
-    shapes = []
-    for (x, y), radius, kind, colour in zip(frame.points(discs.centres).tolist(), discs.radii.tolist(), discs.kinds.tolist(),
-                                            shape_colours(discs, colour_of), strict=True):
-        fill = PAPER if kind == CIRCLE else tinted(colour, 0.7)
-        reach = max(8, round(radius * frame.scale * 10))
-        shapes.append(f'<circle cx="{x}" cy="{y}" r="{reach}" fill="{fill}" stroke="{colour}"/>')
-    return shapes
+def _edge(shapes: DisplayList, colour: int) -> str:
+    return "" if colour == NO_COLOUR else f' stroke="{shapes.palette[colour]}"'
 
 
-def _strokes_svg(segments: Segments, points: Integers, runs: Sequence[Strokes], frame: ViewFrame,
-                 marked: Collection[int]) -> str:
-    """Strokes that nothing lies between: a path for each colour and width; marked strokes lie on a broad band."""
+def _rounds(shapes: DisplayList, frame: ViewFrame) -> list[str]:
+    """Discs, and spheres with a gradient."""
+    rounds, texts = shapes.rounds, []
+    for (x, y), radius, fill, edge, sphere in zip(frame.points(rounds.centres).tolist(), rounds.radii.tolist(),
+                                                  rounds.fills.tolist(), rounds.edges.tolist(), rounds.spheres.tolist(),
+                                                  strict=True):
+        reach, colour = max(8, round(radius * frame.scale * 10)), "none" if fill == NO_COLOUR else shapes.palette[fill]
+        inside = f"url(#{_gradient_name(colour)})" if sphere else colour
+        texts.append(f'<circle cx="{x}" cy="{y}" r="{reach}" fill="{inside}"{_edge(shapes, edge)}/>')
+    return texts
+
+
+def _gradients(shapes: DisplayList) -> str:
+    """The gradients of spheres, one for each of their colours."""
+    colours = [shapes.palette[number] for number in np.unique(shapes.rounds.fills[shapes.rounds.spheres]).tolist()]
+    x, y = 0.5 + HIGHLIGHT[0] / 2, 0.5 - HIGHLIGHT[1] / 2
+    found = []
+    for colour in colours:
+        stops = "".join(f'<stop offset="{share}" stop-color="{tone}"/>' for share, tone in sphere_tones(colour))
+        found.append(f'<radialGradient id="{_gradient_name(colour)}" cx="{x:.2f}" cy="{y:.2f}" r="{REACH / 2:.2f}">{stops}'
+                     "</radialGradient>")
+    return f"<defs>{''.join(found)}</defs>" if found else ""
+
+
+def _gradient_name(colour: str) -> str:
+    """The name of the gradient of spheres of a colour; what has the same name in one page is the same."""
+    return f"lsys-sphere-{colour[1:]}"
+
+
+def _lines_svg(lines: Lines, points: Integers, runs: Sequence[LineRun], broad: float, marked: Collection[int]) -> str:
+    """Lines that nothing lies between: a path for each colour and width; marked ones lie on a broad band."""
     body = []
     if marked:
         numbers = np.concatenate([run.numbers for run in runs])
-        chosen = points[numbers[np.isin(segments.states[numbers], list(marked))]]
-        broad = max(50, 90 * stroke_scale(segments, frame.scale))
+        chosen = points[numbers[np.isin(lines.states[numbers], list(marked))]]
         body += [f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad:.0f}" '
                  'stroke-opacity="0.45"/>'] * bool(len(chosen))
     for run in runs:

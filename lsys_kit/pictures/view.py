@@ -1,28 +1,121 @@
-"""Orthographic projection of a scene in space onto the plane of the picture, and the order of its shapes from far to near."""
+"""Scenes in space as they are seen from one side: in perspective, with the order of their shapes from far to near.
+
+The eye looks at the middle of an upright cylinder around all that is seen, from so far that near things do not look distorted.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 
-from lsys_kit.geometry.scene import Floats, Integers, Scene
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.errors import ModelValueError, shown
+from lsys_kit.geometry.meshes import normals_of, start_widths
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
 
+View: TypeAlias = tuple[float, float]
+"""The side of the viewer, in degrees: around, 0 at the front and 90 at the right; and above, 0 level and 90 from the top."""
+FRONT, FROM_THE_RIGHT = (0, 0), (30, 15)
+"""The front; and the usual view of what is in space, where few branches hide one another."""
 LEVELS = 2**15
 """Depths are compared as so many levels over the extent of a scene, so that rounding errors bring nothing forward."""
+DISTANCE = 4.0
+"""The distance of the eye from the middle, in radii of the sphere around what is seen."""
+FLAT = 1e-9
+"""What is no deeper than this part of its extent lies in the plane."""
+MOST_CYLINDERS = 10_000
+"""Of more strokes one sees none by itself, and they are painted as plain lines."""
 
 
-def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene:
-    """The orthographic projection of a scene.
+@dataclass(frozen=True)
+class ProjectedScene(Scene):
+    """A scene in space as it is seen from one side: its shapes in the plane of the picture, and what depth does to them.
+
+    Attributes
+    ----------
+    depths
+        Shape (n,): how far polygons, strokes and discs, counted in this order, lie towards the viewer.
+    nearness
+        Shape (n,): the same as a number from 0, the farthest place in the cylinder around the scene, to 1, the nearest.
+    factors
+        Shape (s, 2): how much broader each stroke is at both ends: in perspective, and where it continues a broader one.
+    lengths
+        Shape (s,): the lengths of strokes in space.
+    normals
+        Shape (p, 3): the unit normal of each polygon: to the right, up and towards the viewer, where it never points away.
+    extent
+        The greatest extent of the scene along an axis.
+    """
+
+    depths: Floats = field(default_factory=lambda: np.empty(0))
+    nearness: Floats = field(default_factory=lambda: np.empty(0))
+    factors: Floats = field(default_factory=lambda: np.empty((0, 2)))
+    lengths: Floats = field(default_factory=lambda: np.empty(0))
+    normals: Floats = field(default_factory=lambda: np.empty((0, 3)))
+    extent: float = 0.0
+
+    @property
+    def order(self) -> Integers:
+        """The numbers of polygons, strokes and discs from far to near; what is as far away stays in this order."""
+        return far_to_near(self.depths, self.extent)
+
+
+def view_from(value: object) -> View:
+    """A view from what a person gives: two angles in degrees, around and above.
+
+    >>> view_from(("30", 15))
+    (30.0, 15.0)
+
+    Raises
+    ------
+    ModelValueError
+        It is no pair of angles.
+    """
+    if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != 2:
+        raise ModelValueError(f"A view is two angles, around and above, not {shown(value)}",
+                              hint="(30, 15) is from somewhat right of the front, and from above.")
+    around, above = (real_from(angle, "view") for angle in value)
+    return around, above
+
+
+def far_to_near(depths: Floats, extent: float) -> Integers:
+    """The numbers of shapes from far to near, given how far each lies towards the viewer.
+
+    >>> far_to_near(np.array([1.0, -1.0, 1.0 + 1e-9]), 2.0).tolist()
+    [1, 0, 2]
+    """
+    levels = np.rint(depths * (LEVELS / (extent or 1.0)))
+    return np.argsort((levels - levels.min(initial=np.inf)).astype(np.uint16), kind="stable")
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """The upright cylinder around what is seen: its middle, its radius and half its height. No turn leads out of it."""
+
+    middle: Floats
+    radius: float
+    half_height: float
+
+    @property
+    def distance(self) -> float:
+        """How far the eye is from the middle."""
+        return DISTANCE * math.hypot(self.radius, self.half_height) or 1.0
+
+
+def project(scenes: Sequence[Scene], view: View | None = None) -> list[Scene]:
+    """Scenes as they are seen from one place.
 
     Parameters
     ----------
-    scene
-        A scene in space; one in the plane is returned unchanged.
-    azimuth, elevation
-        The azimuth and the elevation of the viewer, in degrees: 0 from the front, 90 from the right; 0 from the side, 90 from
-        above.
+    scenes
+        Scenes in space; those in the plane are returned unchanged.
+    view
+        The side of the viewer. By default that is the front, if all lies in the plane of the picture, otherwise 30 degrees
+        around and 15 above.
 
     Examples
     --------
@@ -30,35 +123,107 @@ def project(scene: Scene, azimuth: float = 0.0, elevation: float = 0.0) -> Scene
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
     >>> from lsys_kit.notation.read import read
     >>> bush = trace_in_space(derive(read("axiom: F[&(90)F]"), 0)[0])
-    >>> print(bush, project(bush), project(bush, 90), sep="; ")
-    2 segments, width 0, height 1, depth 1; 2 segments, width 0, height 1; 2 segments, width 1, height 1
+    >>> front, right = project([bush], FRONT), project([bush], (90, 0))
+    >>> print(bush, *front, *right, sep="; ")
+    2 segments, width 0, height 1, depth 1; 2 segments, width 0, height 1.21; 2 segments, width 1, height 1
     """
-    if scene.dimension == 2:
-        return scene
-    right, up, towards = axes(math.radians(azimuth), math.radians(elevation))
-    plane = np.stack([right, up], axis=1)
-    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    ends = _mapped(segments.points, plane).reshape(-1, 4)
-    return Scene(replace(segments, ends=ends), polygons=replace(polygons, points=_mapped(polygons.points, plane)),
-                 discs=replace(discs, centres=_mapped(discs.centres, plane)), unknown=scene.unknown,
-                 order=_far_to_near(scene, towards))
+    if all(scene.dimension == 2 for scene in scenes):
+        return [*scenes]
+    if view is None and all(map(lies_flat, scenes)):
+        return [_flattened(scene) for scene in scenes]
+    cylinder = cylinder_around(scenes)
+    return [_projected(scene, cylinder, view or FROM_THE_RIGHT) for scene in scenes]
 
 
-def _far_to_near(scene: Scene, towards: Floats) -> Integers:
-    """The numbers of polygons, strokes and discs from far to near; what is as far away stays in this order.
+def lies_flat(scene: Scene) -> bool:
+    """Whether all of a scene lies in the plane of the picture, as it is seen from the front.
 
-    A shape is as near as its middle: the mean of its corners, the middle of a stroke, a centre.
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.turtle.space import trace_in_space
+    >>> from lsys_kit.notation.read import read
+    >>> [lies_flat(trace_in_space(derive(read(text), 0)[0])) for text in ("axiom: F+F", "axiom: F&F")]
+    [True, False]
     """
+    spans = _spans(scene)
+    return scene.dimension == 2 or bool(spans[1] <= FLAT * max(spans))
+
+
+def _spans(scene: Scene) -> Floats:
+    """The extents of the points of a scene along the axes."""
+    points = _points([scene])
+    return np.array([max(each[:, axis].max() for each in points) - min(each[:, axis].min() for each in points)
+                     for axis in range(scene.dimension)])
+
+
+def _points(scenes: Sequence[Scene]) -> list[Floats]:
+    """The points of scenes in space: ends of strokes, corners of polygons, centres."""
+    some = [each for scene in scenes for each in (scene.segments.points, scene.polygons.points, scene.discs.centres)]
+    return [each for each in some if len(each)] or [np.zeros((1, 3))]
+
+
+def _flattened(scene: Scene) -> Scene:
+    """A scene in space seen from the front, as one in the plane."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    places = [each for each in (polygons.points, segments.points, discs.centres) if len(each)]
-    if not places:
-        return np.empty(0, np.int64)
-    extent = max(max(each[:, axis].max() for each in places) - min(each[:, axis].min() for each in places) for axis in range(3))
-    depths = np.concatenate([_means(_depths(polygons.points, towards), polygons.starts),
-                             (_depths(segments.ends[:, :3], towards) + _depths(segments.ends[:, 3:], towards)) / 2,
-                             _depths(discs.centres, towards)])
-    levels = np.rint(depths * (LEVELS / (extent or 1.0)))
-    return np.argsort((levels - levels.min()).astype(np.uint16), kind="stable")
+    return Scene(replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
+                 polygons=replace(polygons, points=polygons.points[:, ::2]),
+                 discs=replace(discs, centres=discs.centres[:, ::2]), unknown=scene.unknown)
+
+
+def cylinder_around(scenes: Sequence[Scene]) -> Cylinder:
+    """The upright cylinder around some scenes in space."""
+    points = _points(scenes)
+    least = np.array([min(each[:, axis].min() for each in points) for axis in range(3)])
+    greatest = np.array([max(each[:, axis].max() for each in points) for axis in range(3)])
+    middle = (least + greatest) / 2
+    radius = max(float(np.hypot(each[:, 0] - middle[0], each[:, 1] - middle[1]).max()) for each in points)
+    bulge = max(float(max(scene.discs.radii.max(initial=0), scene.segments.widths.max(initial=0) / 2)) for scene in scenes)
+    return Cylinder(middle, radius + bulge, float(greatest[2] - least[2]) / 2 + bulge)
+
+
+def _projected(scene: Scene, cylinder: Cylinder, view: View) -> ProjectedScene:
+    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
+    side = axes(*map(math.radians, view))
+    ends, end_factors = _seen(segments.points, side, cylinder)
+    corners, _ = _seen(polygons.points, side, cylinder)
+    centres, factors = _seen(discs.centres, side, cylinder)
+    depths = _shape_depths(scene, side[2])
+    reach = cylinder.radius * math.cos(math.radians(view[1])) + cylinder.half_height * abs(math.sin(math.radians(view[1])))
+    middle = float(_mapped(cylinder.middle[None], side[2][:, None])[0, 0])
+    return ProjectedScene(
+        replace(segments, ends=ends.reshape(-1, 4)), polygons=replace(polygons, points=corners),
+        discs=replace(discs, centres=centres, radii=discs.radii * factors), unknown=scene.unknown, depths=depths,
+        nearness=np.clip((depths - middle) / (2 * reach or 1.0) + 0.5, 0, 1), extent=float(_spans(scene).max()),
+        factors=_stroke_factors(segments, end_factors.reshape(-1, 2)),
+        lengths=np.linalg.norm(segments.ends[:, 3:] - segments.ends[:, :3], axis=1), normals=_normals(polygons, side))
+
+
+def _seen(points: Floats, side: tuple[Floats, Floats, Floats], cylinder: Cylinder) -> tuple[Floats, Floats]:
+    """Points in the plane of the picture, and by how much they are magnified there."""
+    placed = _mapped(points - cylinder.middle, np.stack(side, axis=1))
+    factors = cylinder.distance / (cylinder.distance - placed[:, 2])
+    return placed[:, :2] * factors[:, None], factors
+
+
+def _stroke_factors(segments: Segments, factors: Floats) -> Floats:
+    """How much broader than by itself a stroke is at both ends: near ones are, and so are those that continue a broader one."""
+    if len(segments) > MOST_CYLINDERS or (segments.widths == OWN).any() or not (segments.widths > 0).all():
+        return factors
+    before = start_widths(segments, np.broadcast_to(segments.widths, len(segments)), 1.0)
+    return np.stack([factors[:, 0] * before / segments.widths, factors[:, 1]], axis=1)
+
+
+def _shape_depths(scene: Scene, towards: Floats) -> Floats:
+    """How near each shape is: the mean of its corners, the middle of a stroke, a centre."""
+    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
+    return np.concatenate([_means(_depths(polygons.points, towards), polygons.starts),
+                           (_depths(segments.ends[:, :3], towards) + _depths(segments.ends[:, 3:], towards)) / 2,
+                           _depths(discs.centres, towards)])
+
+
+def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:
+    """The unit normals of polygons as they are seen, by Newell's method, towards the viewer."""
+    normals = _mapped(normals_of(polygons.points, polygons.starts), np.stack(side, axis=1))
+    return np.where(normals[:, 2:] < 0, -normals, normals)
 
 
 def _depths(points: Floats, towards: Floats) -> Floats:
@@ -72,13 +237,13 @@ def _means(numbers: Floats, starts: Integers) -> Floats:
     return np.add.reduceat(numbers, starts[:-1]) / np.diff(starts) if len(starts) > 1 else np.empty(0)
 
 
-def axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
-    """The directions that appear as right and up, and the one towards the viewer."""
-    right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
-    level = np.array([math.sin(azimuth), -math.cos(azimuth), 0.0])
+def axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
+    """The directions that appear as right and up, and the one towards the viewer, whose side is given in radians."""
+    right = np.array([math.cos(around), math.sin(around), 0.0])
+    level = np.array([math.sin(around), -math.cos(around), 0.0])
     vertical = np.array([0.0, 0.0, 1.0])
-    return (right, math.cos(elevation) * vertical - math.sin(elevation) * level,
-            math.cos(elevation) * level + math.sin(elevation) * vertical)
+    return (right, math.cos(above) * vertical - math.sin(above) * level,
+            math.cos(above) * level + math.sin(above) * vertical)
 
 
 def _mapped(points: Floats, matrix: Floats) -> Floats:

@@ -12,8 +12,8 @@ import pytest
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.space import trace_in_space
-from lsys_kit.pictures.display_list import frame_of
 from lsys_kit.pictures.formats.raster import turtle_png
+from lsys_kit.pictures.frames import frame_of
 from lsys_kit.pictures.svg import turtle_svg
 from lsys_kit.pictures.view import project
 
@@ -69,7 +69,7 @@ def test_a_million_strokes_as_a_picture(benchmark):
 def test_a_plant_in_space_from_far_to_near_as_a_picture(benchmark):
     derivation = derive(IN_SPACE, 8)
     scene, colours = scene_of(derivation), draw(derivation.to(3)).colour_of
-    png = benchmark(lambda: turtle_png(project(scene), colours))
+    png = benchmark(lambda: turtle_png(*project([scene]), colours))
     assert png.startswith(b"\x89PNG")
     told(benchmark, len(scene.segments), 1e6)
 

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
-from lsys_kit.pictures.display_list import Faces, Strokes, display_list
+from lsys_kit.pictures.display_list import AreaRun, LineRun
 from lsys_kit.pictures.draw import state_colours
+from lsys_kit.pictures.painters_order import display_list
 from lsys_kit.pictures.view import project
 from tests.classroom.front_end import PAINTER, answers, book_of
 from tests.classroom.test_front_end_turtle import MOST_MODULES, scene_by_kit, words
@@ -66,12 +67,15 @@ def expect_painted(page, found):
     for word, case, shown in zip(found, given, answers(page, ORDERS, given, *PAINTER), strict=True):
         scene = scene_by_kit(word, case["book"]["turtle"]["angle"])
         for side, seen in zip(case["sides"], shown, strict=True):
-            flat = project(scene, *side)
+            [flat] = project([scene], side)
             expect_in_place(seen, flat.segments.points)
+            if scene.dimension == 3:
+                assert seen["order"] == flat.order.tolist()
+                continue
             runs = list(display_list(flat, seen["scale"], state_colours(word)))
             assert seen["order"] == [number + first(run, scene) for run in runs for number in run.numbers.tolist()]
-            for run in runs if scene.dimension == 2 else ():
-                if isinstance(run, Strokes):
+            for run in runs:
+                if isinstance(run, LineRun):
                     assert {tuple(seen["looks"][number]) for number in run.numbers.tolist()} == {(run.colour, run.width)}
 
 
@@ -85,7 +89,7 @@ def expect_in_place(seen, points):
 def first(run, scene):
     """The number of the first shape of a kind: faces are counted first, then strokes, then rounds."""
     faces, strokes = len(scene.polygons), len(scene.segments)
-    return 0 if isinstance(run, Faces) else faces if isinstance(run, Strokes) else faces + strokes
+    return 0 if isinstance(run, AreaRun) else faces if isinstance(run, LineRun) else faces + strokes
 
 
 @pytest.mark.parametrize("id", TURTLES)
@@ -163,7 +167,7 @@ def test_lines_can_be_seen_on_their_paper(page, id, theme):
     """The nearest strokes have a contrast of 3 to 1 at least to the paper (WCAG 2.2, criterion 1.4.11)."""
     word = derive(system(id), 3, seed=1)[-1]
     ratios = painted(page, """const shade = shades(shapes.palette, given.theme);
-        return shapes.palette.map((_, colour) => contrast(shade(colour, 1), given.theme.paper));""", word, theme)
+        return shapes.palette.map((_, colour) => contrast(shade(colour), given.theme.paper));""", word, theme)
     assert min(ratios) >= 3
 
 

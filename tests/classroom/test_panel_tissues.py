@@ -14,8 +14,9 @@ from lsys_kit.classroom.panel.books.tissues import tissue_book
 from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
 from lsys_kit.geometry.cellwork_layout import cellwork_scene
 from lsys_kit.geometry.sphere_layout import SPHERE_FORCES
-from lsys_kit.pictures.cellworks import SHADES, _with_shades, wall_labels
+from lsys_kit.pictures.cellworks import wall_labels
 from lsys_kit.pictures.spheres import _seen_outlines, wall_arcs
+from lsys_kit.pictures.style.lighting import brightness
 from lsys_kit.pictures.view import axes, project
 from tests.classroom.test_panel_maps import PIXELS, asked
 from tests.derivation.random_cellworks import cellwork_systems
@@ -42,8 +43,8 @@ return sides.map(([around, above]) => {
   const frame = tissueFrame(shapes, 400, 300, { around, above }), seen = seenFrom(frame, shapes), { middle } = frame;
   const at = (point) => [seen.x[point] / 3, seen.y[point] / 3];
   const shown = shapes.isSphere ? [] : wallsSeen(shapes, seen, cells && new Set(cells));
-  const parts = shown.map(({ corners, ends, label, level }) =>
-    ({ points: (corners ?? ends).map(at), label: label ?? -1, level: level ?? -1 }));
+  const parts = shown.map(({ corners, ends, label, bright }) =>
+    ({ points: (corners ?? ends).map(at), label: label ?? -1, bright: bright ?? -1 }));
   const number = shapes.isSphere ? shapes.starts.length - 1 : 0, walls = shapes.isSphere ? shapes.kindOf.length : 0;
   return { middle: middle.map((place) => place / 3), parts,
     cells: Array.from({ length: number }, (_, cell) => cellSeen(shapes, seen, cell)),
@@ -74,20 +75,18 @@ def expect_as_drawn(page, rest, step, cells=None):
     shown = asked(page, SEEN, book=tissue_book(rest, {}), step=step, sides=SIDES, cells=cells)
     lit = range(len(rest.steps[step].cells)) if cells is None else cells
     scene = cellwork_scene(rest.steps[step], rest.places[step], labels, lit, len(labels))
-    for (azimuth, elevation), seen in zip(SIDES, shown, strict=True):
-        drawn = project(_with_shades(scene, azimuth, elevation, 0), azimuth, elevation)
-        right, up, _ = axes(np.radians(azimuth), np.radians(elevation))
-        middle = np.array([right @ seen["middle"], up @ seen["middle"]])
-        polygons, parts = [*drawn.polygons], seen["parts"]
+    for side, seen in zip(SIDES, shown, strict=True):
+        [drawn] = project([scene], side)
+        polygons, bright, parts = [*drawn.polygons], brightness(drawn.normals), seen["parts"]
         assert len(parts) == len(drawn.order)
         for number, part in zip(drawn.order.tolist(), parts, strict=True):
             if number < len(polygons):
-                assert divmod(int(drawn.polygons.states[number]), SHADES) == (part["label"], part["level"])
+                assert (int(drawn.polygons.states[number]), int(bright[number])) == (part["label"], part["bright"])
                 points = polygons[number]
             else:
                 points = drawn.segments.ends[number - len(polygons)].reshape(2, 2)
                 assert part["label"] == -1
-            assert np.allclose(np.array(part["points"]) + middle, points, rtol=0, atol=CLOSE)
+            assert np.allclose(np.array(part["points"]), points, rtol=0, atol=CLOSE)
 
 
 @pytest.mark.parametrize("cells", [None, [3], [0, 5, 6]])

@@ -57,7 +57,7 @@ EXTREME: tuple[object, ...] = (
 """Values for any argument."""
 NAMES = (
     "steps", "n", "seed", "arithmetic", "angle", "marked", "cells", "tokens", "positions", "intervals", "iterations",
-    "stiffness", "pressure", "azimuth", "cell", "generation", "polarity", "durations", "seconds", "hint", "solution", "ax",
+    "stiffness", "pressure", "view", "cell", "generation", "polarity", "durations", "seconds", "hint", "solution", "ax",
     "c", "d", "dt", "lifeTimeA", "measure", "executor", "progress", "log", "over", "notation", "name", "x", "settings", "base",
 )
 """Names of arguments, and of constants."""

@@ -6,12 +6,15 @@ import io
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 import trimesh
 from PIL import Image
 
 from lsys_kit import ModelLimitError, ModelNameError, ModelValueError, cellwork_system, derive, draw, limits
 from lsys_kit.pictures.cellworks import CellworkPicture
+from lsys_kit.pictures.style.lighting import LIGHT, brightness
+from lsys_kit.pictures.view import axes
 
 K33 = cellwork_system("K33")
 
@@ -31,18 +34,21 @@ def test_a_picture_says_how_much_there_is() -> None:
 def test_the_walls_of_a_cube_are_lighter_toward_the_light() -> None:
     assert len(fills(draw(K33, 0))) == 6
     assert len(set(fills(draw(K33, 0)))) >= 5
-    for azimuth, lighter, darker in ((0, 1, 0), (30, 1, 0), (200, 1, 0), (0, 2, 3), (90, 5, 4)):
-        picture = draw(K33, 0, azimuth=azimuth)
-        light, dark = (picture.colour_of[int(picture.scene.polygons.states[wall])] for wall in (lighter, darker))
-        assert all(int(light[at:at + 2], 16) >= int(dark[at:at + 2], 16) for at in (1, 3, 5))
-        assert light != dark
+    for side in ((0, 25), (30, 25), (200, 40), (90, -30)):
+        picture = draw(K33, 0, view=side)
+        normals = np.array([np.cross(*(wall[1:3] - wall[0])) for wall in picture.solid.polygons])
+        seen = normals / np.linalg.norm(normals, axis=1)[:, None] @ np.column_stack(axes(*np.radians(side)))
+        front = np.flatnonzero(np.abs(seen[:, 2]) > 0.1)
+        cosines = (seen * np.sign(seen[:, 2:])) @ LIGHT
+        assert np.corrcoef(np.clip(cosines, 0, 1)[front], brightness(picture.scene.normals)[front])[0, 1] > 0.99
 
 
 def test_a_full_turn_changes_nothing_and_half_a_turn_does() -> None:
-    assert draw(K33, 2, azimuth=390).svg == draw(K33, 2, azimuth=30).svg
-    assert draw(K33, 2, azimuth=120).svg != draw(K33, 2).svg
-    front = draw(K33, 0, azimuth=0, elevation=0).scene
-    assert (front.width, front.height) == pytest.approx((2, 2))
+    assert draw(K33, 2, view=(390, 25)).svg == draw(K33, 2, view=(30, 25)).svg
+    assert draw(K33, 2, view=(120, 25)).svg != draw(K33, 2).svg
+    front = draw(K33, 0, view=(0, 0)).scene
+    assert front.width == pytest.approx(front.height)
+    assert 2 < front.width < 2.5  # the wall in front is magnified
 
 
 def test_one_cell_or_one_generation_is_lit() -> None:
@@ -58,7 +64,7 @@ def test_one_cell_or_one_generation_is_lit() -> None:
 @pytest.mark.parametrize(("choices", "kind", "message"), [
     ({"angle": 30}, ModelNameError, 'A cellwork has no "angle". Its forces are stiffness, rest, pressure, damping'),
     ({"pressure": -1}, ModelValueError, '"pressure" must lie between'),
-    ({"azimuth": "x"}, ModelNameError, "I do not know the name"),
+    ({"view": ("x", 0)}, ModelNameError, "I do not know the name"),
     ({"cell": "x"}, ModelValueError, "The number of a cell must be a whole number"),
     ({"generation": -1}, ModelValueError, "The number of a generation must be a whole number"),
 ])

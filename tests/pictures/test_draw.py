@@ -148,7 +148,7 @@ def test_names_of_a_model_never_become_markup():
 
 
 @pytest.mark.parametrize(("what", "hint"), [
-    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells, field."),
+    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells, field, view."),
     (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
     (stages(system("P2")), "Options are: tokens, positions."), (lineage(system("P6"), 2), "Options are: intervals."),
 ])

@@ -10,8 +10,8 @@ import pytest
 from PIL import Image
 
 from lsys_kit import ModelValueError, derive, draw, figure, read, system
-from lsys_kit.pictures.display_list import WIDTH
 from lsys_kit.pictures.filaments import DrawnCell, FilamentLayout, filament_layout
+from lsys_kit.pictures.frames import WIDTH
 from lsys_kit.pictures.picture import Picture
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -13,16 +13,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 from PIL import Image
 
 from lsys_kit import derive, draw, figure, read
 from lsys_kit.geometry.scene import DISC, OWN, Discs, Polygons, Scene, Segments
-from lsys_kit.pictures.display_list import Faces, Strokes, display_list, frame_of
-from lsys_kit.pictures.formats.axes import plot_turtle
+from lsys_kit.pictures.display_list import AreaRun, LineRun
+from lsys_kit.pictures.formats.axes import frame_in, plot_turtle
 from lsys_kit.pictures.formats.raster import turtle_image
-from lsys_kit.pictures.style.palette import CHOSEN, tinted
+from lsys_kit.pictures.frames import frame_around
+from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.svg import turtle_svg
-from lsys_kit.pictures.view import project
+from lsys_kit.pictures.view import FRONT, MOST_CYLINDERS, project
 
 POINT = st.tuples(*[st.integers(-6, 6)] * 3)
 COLOUR, WIDTH = st.integers(0, 15), st.sampled_from([OWN, 0.5, 1, 2])
@@ -48,87 +51,95 @@ SCENES = st.builds(built, st.lists(st.tuples(POINT, POINT, WIDTH, COLOUR), min_s
 SIDES = st.tuples(st.sampled_from([0, 90, 30, -145]), st.sampled_from([0, 90, 20, -60]))
 
 
-def painted(scene, scale=20.0):
-    """The shapes of a projected scene in the order of painting: their kinds and numbers."""
-    return [(type(run).__name__, number) for run in display_list(scene, scale, {}) for number in run.numbers.tolist()]
-
-
-def depth(scene, kind, number, towards):
-    """How near the middle of a shape is."""
-    middle = {"Strokes": lambda: scene.segments.points.reshape(-1, 2, 3)[number].mean(axis=0),
-              "Faces": lambda: list(scene.polygons)[number].mean(axis=0), "Rounds": lambda: scene.discs.centres[number]}
-    return float(middle[kind]() @ towards)
+def painted(shapes):
+    """The shapes of a display list in the order of painting: their kinds and numbers."""
+    return [(type(run).__name__, number) for run in shapes for number in run.numbers.tolist()]
 
 
 @given(SCENES, SIDES)
 def test_what_is_nearer_is_painted_later(scene, side):
     around, above = np.radians(side)
     towards = np.array([np.sin(around) * np.cos(above), -np.cos(around) * np.cos(above), np.sin(above)])
-    order = painted(project(scene, *side))
-    assert len(order) == len(set(order)) == len(scene.segments) + len(scene.polygons) + len(scene.discs)
-    depths = [depth(scene, kind, number, towards) for kind, number in order]
-    assert all(one < other + 1e-3 for place, one in enumerate(depths) for other in depths[place:])
+    [seen] = project([scene], side)
+    middles = [corners.mean(axis=0) for corners in (*scene.polygons, *scene.segments.points.reshape(-1, 2, 3))]
+    depths = [float(middle @ towards) for middle in (*middles, *scene.discs.centres)]
+    assert sorted(seen.order.tolist()) == [*range(len(depths))]
+    in_order = [depths[number] for number in seen.order]
+    assert all(one < other + 1e-3 for place, one in enumerate(in_order) for other in in_order[place:])
+
+
+@given(SCENES, SIDES)
+def test_a_casing_hides_what_is_farther_than_its_stroke_is_long(scene, side):
+    """What crosses a stroke behind it is interrupted there; what the stroke is joined to is not."""
+    [seen] = project([scene], side)
+    shapes, strokes = display_list(seen, 20.0, {}), len(scene.segments)
+    where = {one: place for place, one in enumerate(painted(shapes))}
+    assert {shapes.palette[colour] for colour in shapes.lines.colours[:strokes]} == {PAPER}
+    depths = seen.depths[len(scene.polygons):]
+    for number in range(strokes):
+        for face in range(len(scene.polygons)):
+            behind = depths[number] - seen.depths[face] - seen.lengths[number]
+            if abs(behind) > 1e-3:
+                assert (where["LineRun", number] > where["AreaRun", face]) == (behind > 0)
 
 
 @given(SCENES)
 def test_svg_has_the_shapes_in_the_order_in_which_they_are_painted(scene):
-    flat = project(scene)
-    frame = frame_of(flat.box)
-    svg = turtle_svg(flat, frame, {})
-    points = frame.points(flat.segments.ends).tolist()
-    centres = frame.points(flat.discs.centres).tolist()
-    corners = [frame.points(each).tolist() for each in flat.polygons]
-    written = {"Strokes": lambda n: "M{} {}L{} {}".format(*points[n]),
-               "Rounds": lambda n: 'cx="{}" cy="{}"'.format(*centres[n]),
-               "Faces": lambda n: " ".join(map("{0[0]},{0[1]}".format, corners[n]))}
+    [seen] = project([scene], FRONT)
+    frame = frame_around([seen])
+    shapes, svg = display_list(seen, frame.scale, {}), turtle_svg(seen, frame, {})
+    points = frame.points(shapes.lines.ends).tolist()
+    centres = frame.points(shapes.rounds.centres).tolist()
+    corners = [frame.points(each).tolist() for each in np.split(shapes.areas.points, shapes.areas.starts[1:-1])]
+    written = {"LineRun": lambda n: "M{} {}L{} {}".format(*points[n]),
+               "RoundRun": lambda n: 'cx="{}" cy="{}"'.format(*centres[n]),
+               "AreaRun": lambda n: " ".join(map("{0[0]},{0[1]}".format, corners[n]))}
     found = re.findall(r'M\S+ \S+?L\S+ -?\d+|cx="\S+" cy="\S+"|(?<=points=")[^"]*', svg)
-    assert found == [written[kind](number) for kind, number in painted(flat, frame.scale)]
+    assert found == [written[kind](number) for kind, number in painted(shapes)]
 
 
 @given(SCENES)
 def test_a_figure_has_the_shapes_in_the_order_in_which_they_are_painted(scene):
-    ax, flat = Figure().add_subplot(), project(scene)
-    plot_turtle(ax, flat, {})
-    paths = ax.collections[0].get_paths()
-    expected = {"Strokes": 2, "Faces": 4, "Rounds": 26}
-    assert [len(path.vertices) for path in paths] == [expected[kind] for kind, _ in painted(flat)]
+    ax, [seen] = Figure().add_subplot(), project([scene], FRONT)
+    plot_turtle(ax, seen, {})
+    shapes = display_list(seen, frame_in(ax, seen).scale, {})
+    corners = np.diff(shapes.areas.starts)
+    expected = {"LineRun": lambda _: 2, "RoundRun": lambda _: 26, "AreaRun": lambda n: corners[n] + 1}
+    assert [len(path.vertices) for path in ax.collections[0].get_paths()] == [expected[kind](n) for kind, n in painted(shapes)]
 
 
 @pytest.mark.slow
 @settings(max_examples=25)
 @given(SCENES)
 def test_each_point_of_a_png_has_the_colour_of_what_is_painted_there_last(scene):
-    flat = project(scene)
-    frame = frame_of(flat.box)
-    image = np.array(turtle_image(flat, {}, frame))
+    [seen] = project([scene], FRONT)
+    frame = frame_around([seen])
+    image = np.array(turtle_image(seen, {}, frame))
     rows, columns = (np.arange(3, size - 3, 7) for size in image.shape[:2])
-    seen, sure = np.full((len(rows), len(columns)), -1), np.ones((len(rows), len(columns)), bool)
+    last, sure = np.full((len(rows), len(columns)), -1), np.ones((len(rows), len(columns)), bool)
     places = np.stack(np.meshgrid(columns + 0.5, rows + 0.5), axis=-1)
-    colours = []
-    for run in display_list(flat, frame.scale, {}):
+    colours, shapes = [], display_list(seen, frame.scale, {})
+    for run in shapes:
         for number in run.numbers.tolist():
-            inside = within(flat, frame, run, number, places)
-            seen[inside > 2] = len(colours)
+            inside = within(shapes, frame, run, number, places)
+            last[inside > 2] = len(colours)
             sure &= np.abs(inside) > 2
-            colours.append(run.colour if isinstance(run, Strokes) else tinted(CHOSEN[
-                (flat.polygons if isinstance(run, Faces) else flat.discs).colours[number]], 0.7))
-    expected = np.array([tuple(bytes.fromhex(colour[1:])) for colour in [*colours, "#ffffff"]])[seen]
+            colours.append(run.colour if isinstance(run, LineRun) else shapes.palette[
+                (shapes.areas if isinstance(run, AreaRun) else shapes.rounds).fills[number]])
+    expected = np.array([tuple(bytes.fromhex(colour[1:])) for colour in [*colours, "#ffffff"]])[last]
     assert (image[np.ix_(rows, columns)] == expected)[sure].all()
 
 
-def within(scene, frame, run, number, places):
+def within(shapes, frame, run, number, places):
     """How many pixels far places lie inside a shape; negative outside."""
-    if isinstance(run, Faces):
-        a, b, c = frame.points(list(scene.polygons)[number]) / 10
-        turn = np.sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-        edges = [turn * ((q[0] - p[0]) * (places[..., 1] - p[1]) - (q[1] - p[1]) * (places[..., 0] - p[0])) / np.hypot(*(q - p))
-                 if (q != p).any() else np.zeros(places.shape[:2]) for p, q in ((a, b), (b, c), (c, a))]
-        least = np.min(edges, axis=0)
-        return np.where(least < 0, -distance(places, (a, b, c, a)), least) if turn else -distance(places, (a, b, c, a))
-    if isinstance(run, Strokes):
-        return run.width / 20 - distance(places, frame.points(scene.segments.ends[number]).reshape(2, 2) / 10)
-    centre = frame.points(scene.discs.centres[number]) / 10
-    return scene.discs.radii[number] * frame.scale - np.hypot(*np.moveaxis(places - centre, -1, 0))
+    if isinstance(run, AreaRun):
+        corners = frame.points(shapes.areas.points[slice(*shapes.areas.starts[number:number + 2])]) / 10
+        inside = Path(np.vstack([corners, corners[:1]])).contains_points(places.reshape(-1, 2)).reshape(places.shape[:2])
+        return np.where(inside, 1, -1) * distance(places, [*corners, corners[0]])
+    if isinstance(run, LineRun):
+        return run.width / 20 - distance(places, frame.points(shapes.lines.ends[number]).reshape(2, 2) / 10)
+    centre = frame.points(shapes.rounds.centres[number]) / 10
+    return shapes.rounds.radii[number] * frame.scale - np.hypot(*np.moveaxis(places - centre, -1, 0))
 
 
 def distance(places, corners):
@@ -143,29 +154,31 @@ def distance(places, corners):
 @pytest.mark.parametrize("far_first", [True, False])
 def test_a_far_sphere_does_not_cover_a_near_one(far_first):
     far, near = "[&(90)f(4);(4)@O(3)]", "[^(90)f(4);(2)@O(2)]"  # away from the viewer, towards the viewer
-    picture = draw(derive(read(f"axiom: {far + near if far_first else near + far}"), 0))
-    near_one = tuple(bytes.fromhex(tinted(CHOSEN[2], 0.7)[1:]))
+    picture = draw(derive(read(f"axiom: {far + near if far_first else near + far}"), 0), view=FRONT)
     image = Image.open(io.BytesIO(picture.png))
-    assert image.getpixel((image.width // 2, image.height // 2)) == near_one
-    assert re.findall(r'<circle [^>]*fill="([^"]*)"', picture.svg)[-1] == tinted(CHOSEN[2], 0.7)
-    assert figure(picture).collections[0].get_facecolors()[-1][:3] == pytest.approx(np.array(near_one) / 255)
+    red, green, blue = image.getpixel((image.width // 2, image.height // 2))
+    assert green > max(red, blue)  # as colour 2 is, where colour 4 is red
+    *_, last = re.findall(r'<circle [^>]*fill="url\(#lsys-sphere-(\w\w)(\w\w)(\w\w)\)', picture.svg)
+    assert last[1] > max(last[0], last[2])
+    near_one = figure(picture).collections[0].get_facecolors()[-1][:3]
+    assert near_one[1] > max(near_one[0], near_one[2])
 
 
-def test_ten_times_as_many_strokes_of_changing_looks_are_painted_with_hardly_more_calls():
+def test_of_very_many_strokes_more_are_painted_with_hardly_more_calls():
     def calls(strokes):
         points = [(0, depth, 0) for depth in range(strokes)]
-        scene = project(built([(point, (1, *point[1:]), 0.01 + point[1] % 2 / 100, point[1] % 3) for point in points], [], []))
-        frame, profile = frame_of(scene.box), cProfile.Profile()
+        rows = [(point, (1, *point[1:]), 0.01 + point[1] % 2 / 100, point[1] % 3) for point in points]
+        [scene] = project([built(rows, [], [])], FRONT)
+        frame, profile = frame_around([scene]), cProfile.Profile()
         profile.runcall(turtle_image, scene, {}, frame)
         return pstats.Stats(profile).total_calls
 
     calls(1)  # imports what paints
-    assert calls(2_000) < 1.5 * calls(200)
+    assert calls(MOST_CYLINDERS + 20_000) < 1.5 * calls(MOST_CYLINDERS + 2_000)
 
 
 def test_where_nothing_is_drawn_in_space_the_picture_is_empty():
     picture = draw(read("axiom: A&"), 0)
-    assert picture.scene.order.tolist() == []
     assert "<path" not in picture.svg
     assert Image.open(io.BytesIO(picture.png)).convert("L").getextrema() == (255, 255)
     assert len(figure(picture).collections[0].get_paths()) == 0

@@ -27,11 +27,11 @@ def areas(svg: str) -> list[float]:
     return found
 
 
-@pytest.mark.parametrize("azimuth", [0, 20, 45, 100, 311])
-@pytest.mark.parametrize("elevation", [-90, -60, 0, 25, 80, 90])
-def test_the_cells_in_front_cover_the_sphere(azimuth: int, elevation: int) -> None:
+@pytest.mark.parametrize("around", [0, 20, 45, 100, 311])
+@pytest.mark.parametrize("above", [-90, -60, 0, 25, 80, 90])
+def test_the_cells_in_front_cover_the_sphere(around: int, above: int) -> None:
     for what in (derive(EIGHT, 0), derive(K34, 0), derive(read_map(str(K34).replace("steps: 4\n", "")), 1)):
-        last = draw(what, azimuth=azimuth + 0.1, elevation=elevation)
+        last = draw(what, view=(around + 0.1, above))
         spheres = len(last.maps)
         assert sum(areas(last.svg)) == pytest.approx(spheres, rel=0.01)
 
@@ -46,10 +46,10 @@ def test_a_picture_says_what_it_shows() -> None:
 
 
 def test_a_sphere_can_be_turned() -> None:
-    assert draw(K34, 1, azimuth=110).svg != draw(K34, 1).svg
-    assert draw(K34, 1, azimuth=380).svg == draw(K34, 1).svg
-    assert len(areas(draw(K34, 0, elevation=90, azimuth=10).svg)) == 4
-    assert len(areas(draw(EIGHT, 0, elevation=0, azimuth=10).svg)) == 5
+    assert draw(K34, 1, view=(110, 25)).svg != draw(K34, 1).svg
+    assert draw(K34, 1, view=(380, 25)).svg == draw(K34, 1).svg
+    assert len(areas(draw(K34, 0, view=(10, 90)).svg)) == 4
+    assert len(areas(draw(EIGHT, 0, view=(10, 0)).svg)) == 5
 
 
 @pytest.mark.parametrize(("choices", "kind", "message"), [

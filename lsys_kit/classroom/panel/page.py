@@ -36,7 +36,7 @@ STYLE = """
 .lsys-page h1 { font-size: 20px; font-weight: 600; margin: 4px 0 8px; overflow-wrap: anywhere; }
 @media (prefers-color-scheme: dark) { .lsys-page { background: #161b20; color: #e8edf2; } }
 """
-_CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter")), frozenset(("tissue",))
+_CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter", "projection")), frozenset(("tissue",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {"filament": _STROKES | _MAPS | _TISSUES, "plane": _CELLS | _MAPS | _TISSUES, "space": _CELLS | _MAPS | _TISSUES,
                "map": _CELLS | _TISSUES | {"turtle"}, "tissue": _CELLS | _MAPS | {"turtle"}}

@@ -145,7 +145,9 @@ class ViewModel:
         else:
             scene = place_path(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
             [scene] = in_units([scene], self.system)
-            picture = Picture((FilamentRow(step, project(scene, around, above)),), state_colours(derivation), None, marked)
+            [seen] = project([scene], (around, above))
+            picture = Picture((FilamentRow(step, seen),), state_colours(derivation), None, marked,
+                              scene if scene.dimension == 3 else None)
         return StepView(step, word, net, net.tokens(word), marked, scene, picture)
 
     def _sequence(self, derivation: Derivation, last: int) -> tuple[FilamentRow, ...]:

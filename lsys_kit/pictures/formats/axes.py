@@ -4,19 +4,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from lsys_kit.geometry.scene import CIRCLE, Scene
-from lsys_kit.pictures.display_list import MARGIN, Faces, Strokes, ViewFrame, display_list, frame_around, shape_colours
+from lsys_kit.geometry.scene import Floats, Scene
+from lsys_kit.pictures.display_list import AreaRun, DisplayList, LineRun
 from lsys_kit.pictures.filaments import wall_colour, wall_width
-from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
+from lsys_kit.pictures.frames import MARGIN, ViewFrame, frame_around
+from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
+from lsys_kit.pictures.style.palette import GREEN, INK, tinted
 from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.path import Path
+
+RINGS = 12
+"""Of so many discs a sphere is made."""
+
+
+class PaintedPath(NamedTuple):
+    """A path, the colours inside and of its edge, and the width of the edge in points."""
+
+    path: Path
+    inside: str
+    edge: str
+    width: float
 
 
 def new_axes() -> Axes:
@@ -31,8 +46,8 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
     from matplotlib.collections import PathCollection
     from matplotlib.colors import to_rgba_array
 
-    frame = _frame(ax, scene)
-    shapes = list(_painted(scene, frame.scale, colour_of))
+    frame = frame_in(ax, scene)
+    shapes = list(_painted(display_list(scene, frame.scale, colour_of)))
     paths, insides, edges, widths = zip(*shapes, strict=True) if shapes else [()] * 4
     ax.add_collection(PathCollection(paths, facecolors=to_rgba_array(insides), edgecolors=to_rgba_array(edges),
                                      linewidths=widths, capstyle="round", joinstyle="round", transform=ax.transData))
@@ -40,25 +55,36 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
     ax.update_datalim([(left, top), (left + frame.width / frame.scale, top - frame.height / frame.scale)])
 
 
-def _painted(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Iterator[tuple[Path, str, str, float]]:
-    """For each shape of the display list its path, the colours inside and of its edge, and the width of the edge in points."""
+def _painted(shapes: DisplayList) -> Iterator[PaintedPath]:
+    """What is painted, in its order."""
     from matplotlib.path import Path
 
-    strokes, faces, discs = scene.segments.ends.reshape(-1, 2, 2), list(scene.polygons), scene.discs
-    of_faces, of_discs = shape_colours(scene.polygons, colour_of), shape_colours(discs, colour_of)
-    for run in display_list(scene, scale, colour_of):
+    lines, areas, rounds, names = shapes.lines.ends.reshape(-1, 2, 2), shapes.areas, shapes.rounds, [*shapes.palette, "none"]
+    outlines = np.split(areas.points, areas.starts[1:-1])
+    for run in shapes:
         for one in run.numbers.tolist():
-            if isinstance(run, Strokes):
-                yield Path(strokes[one]), "none", run.colour, run.width / 10
-            elif isinstance(run, Faces):
-                outline = Path(np.vstack([faces[one], faces[one][:1]]), closed=True)
-                yield outline, tinted(of_faces[one], 0.7), of_faces[one], 0.5
+            if isinstance(run, LineRun):
+                yield PaintedPath(Path(lines[one]), "none", run.colour, run.width / 10)
+            elif isinstance(run, AreaRun):
+                outline = Path(np.vstack([outlines[one], outlines[one][:1]]), closed=True)
+                yield PaintedPath(outline, names[areas.fills[one]], names[areas.edges[one]], 0.5)
+            elif rounds.spheres[one]:
+                yield from _sphere(rounds.centres[one], float(rounds.radii[one]), names[rounds.fills[one]])
             else:
-                inside = PAPER if discs.kinds[one] == CIRCLE else tinted(of_discs[one], 0.7)
-                yield Path.circle(discs.centres[one].tolist(), float(discs.radii[one])), inside, of_discs[one], 0.8
+                disc = Path.circle(rounds.centres[one].tolist(), float(rounds.radii[one]))
+                yield PaintedPath(disc, names[rounds.fills[one]], names[rounds.edges[one]], 0.8)
 
 
-def _frame(ax: Axes, scene: Scene) -> ViewFrame:
+def _sphere(centre: Floats, radius: float, colour: str) -> Iterator[PaintedPath]:
+    """A sphere as discs within one another, from its rim to where it is brightest."""
+    from matplotlib.path import Path
+
+    for share in np.linspace(1, 0, RINGS, endpoint=False).tolist():
+        middle = centre + radius * (1 - share) * HIGHLIGHT
+        yield PaintedPath(Path.circle(middle.tolist(), radius * share), sphere_tone(colour, share), "none", 0.0)
+
+
+def frame_in(ax: Axes, scene: Scene) -> ViewFrame:
     """The frame of a scene that fills the axes, in points."""
     sheet = ax.get_figure(root=True)
     assert sheet is not None

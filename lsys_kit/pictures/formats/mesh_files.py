@@ -19,7 +19,7 @@ import numpy as np
 from lsys_kit.budget import check_budget, check_bytes, counted
 from lsys_kit.geometry.meshes import Mesh
 from lsys_kit.geometry.solids import Numbers, Singles
-from lsys_kit.pictures.display_list import numbered_colours
+from lsys_kit.pictures.looks import numbered_colours
 
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963

@@ -7,6 +7,7 @@ everywhere.
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -14,20 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget, counted
-from lsys_kit.geometry.scene import CIRCLE, Discs, Polygons, Scene
-from lsys_kit.pictures.display_list import (
-    FACE,
-    MARGIN,
-    ROUND,
-    WIDTH,
-    DisplayList,
-    ViewFrame,
-    colours_and_widths,
-    display_list,
-    frame_around,
-    numbered_colours,
-)
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.pictures.display_list import AREA, NO_COLOUR, ROUND, Areas, DisplayList, Lines, Rounds, colours_and_widths
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
+from lsys_kit.pictures.frames import MARGIN, WIDTH, ViewFrame, frame_around
+from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
 from lsys_kit.pictures.svg import FilamentRow
 
@@ -49,6 +42,9 @@ STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
 """Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
 operations; a longer stroke is a block of its own."""
 
+MOST_SPREADS, FEW_RUNS = 6, 2_000
+"""Lines of so many widths are painted at once, width after width; of more widths, those with few lines are painted in turn."""
+
 
 def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
     """A scene of a turtle as PNG."""
@@ -60,66 +56,95 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -
 
     Each point of a fine grid gets the number of what is seen there. Numbers grow along the display list: of two shapes the one
     with the greater number covers the other. The shape at place p has the number 2p + 1, and its edge 2p + 2; of a run of
-    strokes all have the number of the first.
+    lines all have the number of the first.
     """
     from PIL import Image
 
     shapes = display_list(scene, frame.scale, colour_of)
-    seen = _painted_surfaces(shapes, scene, frame)
-    _paint_strokes(seen, shapes, *_pixels(scene, frame))
-    colours = _colours(shapes, scene, colour_of)
-    return Image.fromarray(colours[seen]).resize((frame.width, frame.height), Image.Resampling.BOX)
+    across, down = _pixels(shapes.lines.ends, scene, frame)
+    spread_out = _spread_out(shapes)
+    seen = _painted_in_turn(shapes, frame, across, down, spread_out)
+    _paint_at_once(seen, shapes, across, down, spread_out)
+    pixels = _colours(shapes)[seen]
+    _shade_spheres(pixels, seen, shapes, frame)
+    return Image.fromarray(pixels).resize((frame.width, frame.height), Image.Resampling.BOX)
 
 
-def _painted_surfaces(shapes: DisplayList, scene: Scene, frame: ViewFrame) -> Grid:
-    """The grid with the numbers of polygons and discs."""
+def _spread_out(shapes: DisplayList) -> NDArray[np.int64]:
+    """For each run of lines the square of the radius by which its points are spread, whose fraction is not seen; those with the
+    same are painted at once. -1 for polygons and discs, and for broad lines of whose width there are few."""
+    widths = colours_and_widths(shapes.keys)[1]
+    squares = np.where(shapes.keys >= 0, (widths * FINE) ** 2 // 400, -1)
+    kinds, which, many = np.unique(squares, return_inverse=True, return_counts=True)
+    if len(kinds) <= MOST_SPREADS + 1:
+        return squares
+    return np.where((many < FEW_RUNS)[which] & (squares >= 1), -1, squares)
+
+
+def _painted_in_turn(shapes: DisplayList, frame: ViewFrame, across: Coordinates, down: Coordinates,
+                     spread_out: NDArray[np.int64]) -> Grid:
+    """The grid with the numbers of what is painted one after another: polygons, discs, and some lines."""
     from PIL import Image, ImageDraw
 
     sheet = Image.new("I", (frame.width * FINE, frame.height * FINE), 0)
     pen = ImageDraw.Draw(sheet)
-    painters = {FACE: _face_painter(scene.polygons, frame, pen), ROUND: _round_painter(scene.discs, frame, pen)}
-    kinds = np.repeat(np.minimum(shapes.keys, 0).astype(np.int8), np.diff(shapes.starts))
-    places = np.flatnonzero(kinds)
-    surfaces = kinds[places].tolist(), shapes.numbers[places].tolist(), places.tolist()
-    for kind, which, place in counted(zip(*surfaces, strict=True)):
-        painters[kind](which, 2 * place + 1)
+    painters = {AREA: _area_painter(shapes.areas, frame, pen), ROUND: _round_painter(shapes.rounds, frame, pen),
+                0: _line_painter(shapes.lines, across, down, pen)}
+    runs = np.flatnonzero(spread_out < 0)
+    columns = (np.minimum(shapes.keys, 0)[runs], shapes.starts[runs], shapes.starts[runs + 1])
+    for kind, first, end in counted(zip(*(column.tolist() for column in columns), strict=True)):
+        for place, which in enumerate(shapes.numbers[first:end].tolist(), first):
+            painters[kind](which, 2 * (place if kind else first) + 1)
     return np.array(sheet)
 
 
-def _face_painter(polygons: Polygons, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
-    """A function that paints a polygon, inside with a number and its edge with the next one."""
-    corners, ends = (frame.points(polygons.points) * (FINE / 10)).ravel().tolist(), (2 * polygons.starts).tolist()
+def _line_painter(lines: Lines, across: Coordinates, down: Coordinates, pen: ImageDraw) -> ShapePainter:
+    """A function that paints a line with round ends."""
+    def paint(which: int, number: int) -> None:
+        (x, to_x), (y, to_y), reach = across[which].tolist(), down[which].tolist(), float(lines.widths[which]) * FINE / 20
+        length = math.hypot(to_x - x, to_y - y) or 1.0
+        aside, up = reach * (y - to_y) / length, reach * (to_x - x) / length
+        pen.polygon([x + aside, y + up, to_x + aside, to_y + up, to_x - aside, to_y - up, x - aside, y - up], fill=number)
+        for left, top in ((x, y), (to_x, to_y)):
+            pen.ellipse((left - reach, top - reach, left + reach, top + reach), fill=number)
+    return paint
+
+
+def _area_painter(areas: Areas, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+    """A function that paints a polygon, inside with a number and its edge, if it has one, with the next."""
+    corners, ends = (frame.points(areas.points) * (FINE / 10)).ravel().tolist(), (2 * areas.starts).tolist()
+    edges = (areas.edges != NO_COLOUR).tolist()
 
     def paint(which: int, number: int) -> None:
         points = corners[ends[which]:ends[which + 1]]
         pen.polygon(points, fill=number)
-        pen.line(points + points[:2], fill=number + 1, width=2)
+        if edges[which]:
+            pen.line(points + points[:2], fill=number + 1, width=2)
     return paint
 
 
-def _round_painter(discs: Discs, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
-    """The same for circles, discs and spheres."""
-    middles, radii = (frame.points(discs.centres) * (FINE / 10)).tolist(), discs.radii.tolist()
+def _round_painter(rounds: Rounds, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+    """The same for discs."""
+    middles, radii = (frame.points(rounds.centres) * (FINE / 10)).tolist(), rounds.radii.tolist()
+    fills, edges = (rounds.fills != NO_COLOUR).tolist(), (rounds.edges != NO_COLOUR).tolist()
 
     def paint(which: int, number: int) -> None:
         (x, y), reach = middles[which], max(2.0, radii[which] * frame.scale * FINE)
-        pen.ellipse((x - reach, y - reach, x + reach, y + reach), fill=number, outline=number + 1, width=FINE)
+        box = (x - reach, y - reach, x + reach, y + reach)
+        pen.ellipse(box, fill=number if fills[which] else None, outline=number + edges[which], width=FINE)
     return paint
 
 
-def _colours(shapes: DisplayList, scene: Scene, colour_of: Mapping[int, str]) -> Colours:
+def _colours(shapes: DisplayList) -> Colours:
     """Red, green and blue of each number."""
-    found = np.zeros((2 * len(shapes.numbers) + 2, 3), np.uint8)
-    found[0], strokes = _channels([PAPER]), shapes.keys >= 0
-    found[2 * shapes.starts[:-1][strokes] + 1] = _channels(shapes.looks.names)[colours_and_widths(shapes.keys[strokes])[0]]
-    for key, kind in ((FACE, scene.polygons), (ROUND, scene.discs)):
+    palette = _channels([*shapes.palette, PAPER])
+    found, lines = np.zeros((2 * len(shapes.numbers) + 2, 3), np.uint8), shapes.keys >= 0
+    found[0] = palette[-1]
+    found[2 * shapes.starts[:-1][lines] + 1] = palette[colours_and_widths(shapes.keys[lines])[0]]
+    for key, kind in ((AREA, shapes.areas), (ROUND, shapes.rounds)):
         places = np.flatnonzero(np.repeat(shapes.keys == key, np.diff(shapes.starts)))
-        names, numbers = numbered_colours(kind.states, kind.colours, colour_of)
         which = shapes.numbers[places]
-        found[2 * places + 1] = _channels([tinted(name, 0.7) for name in names])[numbers[which]]
-        found[2 * places + 2] = _channels(names)[numbers[which]]
-        if key == ROUND:
-            found[2 * places[scene.discs.kinds[which] == CIRCLE] + 1] = _channels([PAPER])
+        found[2 * places + 1], found[2 * places + 2] = palette[kind.fills[which]], palette[kind.edges[which]]
     return found
 
 
@@ -128,29 +153,59 @@ def _channels(colours: Sequence[str]) -> Colours:
     return np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
 
 
-def _pixels(scene: Scene, frame: ViewFrame) -> tuple[Coordinates, Coordinates]:
-    """The columns and rows of the ends of strokes in the fine grid."""
+def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, frame: ViewFrame) -> None:
+    """Give each point of a sphere the colour that it has there."""
+    rounds, keys = shapes.rounds, np.repeat(shapes.keys, np.diff(shapes.starts))
+    places = np.flatnonzero(keys == ROUND)
+    places = places[rounds.spheres[shapes.numbers[places]]]
+    if not len(places):
+        return
+    owner = np.full(2 * len(keys) + 3, -1)
+    owner[2 * places + 1] = shapes.numbers[places]
+    rows, columns = np.nonzero(owner[seen] >= 0)
+    which = owner[seen[rows, columns]]
+    middles = frame.points(rounds.centres) * (FINE / 10)
+    radii = np.maximum(2.0, rounds.radii * frame.scale * FINE)
+    across = (columns + 0.5 - middles[which, 0]) / radii[which] - HIGHLIGHT[0]
+    up = (middles[which, 1] - rows - 0.5) / radii[which] - HIGHLIGHT[1]
+    pixels[rows, columns] = _tones(shapes.palette, rounds.fills[which], np.hypot(across, up) / REACH)
+
+
+def _tones(palette: Sequence[str], fills: NDArray[np.int64], way: Coordinates) -> Colours:
+    """The colours of points of spheres, given the numbers of the spheres' own, and how far each is from the brightest."""
+    found = np.zeros((len(fills), 3), np.uint8)
+    for fill in np.unique(fills).tolist():
+        shares, tones = zip(*sphere_tones(palette[fill]), strict=True)
+        ours, stops = fills == fill, _channels(tones).T
+        found[ours] = np.stack([np.interp(way[ours], shares, stop) for stop in stops], axis=1).round()
+    return found
+
+
+def _pixels(ends: Coordinates, scene: Scene, frame: ViewFrame) -> tuple[Coordinates, Coordinates]:
+    """The columns and rows of the ends of lines in the fine grid."""
     precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
-    ends, (left, top, factor, margin) = scene.segments.ends.astype(precision), np.array(
+    ends, (left, top, factor, margin) = ends.astype(precision), np.array(
         [frame.left, frame.top, frame.scale * FINE, MARGIN * FINE], precision)
     return (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
 
 
-def _paint_strokes(seen: Grid, shapes: DisplayList, across: Coordinates, down: Coordinates) -> None:
-    """Paint strokes over what has smaller numbers.
+def _paint_at_once(seen: Grid, shapes: DisplayList, across: Coordinates, down: Coordinates,
+                   spread_out: NDArray[np.int64]) -> None:
+    """Paint lines over what has smaller numbers.
 
-    Those of one width are rasterised and then dilated all at once, so that the time depends on the number of their points.
+    Those that are spread alike are rasterised and then dilated all at once, so that the time depends on the number of their
+    points.
     """
-    starts, sizes, widths = shapes.starts, np.diff(shapes.starts), colours_and_widths(shapes.keys)[1] * (shapes.keys >= 0)
-    for width in np.unique(widths[widths > 0]).tolist():
-        runs, radius = np.flatnonzero(widths == width), width * FINE / 20
+    starts, sizes = shapes.starts, np.diff(shapes.starts)
+    for square in np.unique(spread_out[spread_out >= 0]).tolist():
+        runs, radius = np.flatnonzero(spread_out == square), square ** 0.5
         if len(runs) == 1:  # then it is enough to know where they are
             first, end = starts[runs[0]:runs[0] + 2].tolist()
             chosen = shapes.numbers[first:end]
             found = spread(touched(across[chosen], down[chosen], seen.shape), radius)
             np.maximum(seen, 2 * first + 1, out=seen, where=found)
         else:
-            chosen = shapes.numbers[np.repeat(widths == width, sizes)]
+            chosen = shapes.numbers[np.repeat(spread_out == square, sizes)]
             covering = np.repeat((2 * starts[runs] + 1).astype(np.int32), sizes[runs])
             np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
 

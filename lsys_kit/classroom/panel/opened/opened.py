@@ -60,8 +60,6 @@ class Opened(Protocol):
         What the sliders are, for a tip: "the constant".
     kind
         What its page is called, if it is not in the catalogue.
-    side
-        From which side it is seen first, if it is in space: degrees around and above.
     """
 
     system: Any
@@ -70,7 +68,11 @@ class Opened(Protocol):
     values: Mapping[str, Sequence[Value]]
     hint: str
     kind: str
-    side: tuple[int, int]
+
+    @property
+    def side(self) -> tuple[int, int]:
+        """From which side it is seen first, if it is in space: degrees around and above."""
+        ...
 
     @property
     def steps(self) -> int:

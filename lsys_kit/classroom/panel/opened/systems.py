@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
@@ -17,12 +17,14 @@ from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import is_cellwork, is_map, read
 from lsys_kit.pictures.style.labels import place_text
+from lsys_kit.pictures.view import FROM_THE_RIGHT, FRONT, lies_flat
 
 
 class OpenedSystem:
@@ -35,7 +37,6 @@ class OpenedSystem:
     """
 
     hint, kind = "the constant", "L-system"
-    side = 0, 0
 
     def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
         self.system, self.title = system, title
@@ -48,6 +49,17 @@ class OpenedSystem:
     @property
     def steps(self) -> int:
         return first_step(self.system)
+
+    @cached_property
+    def side(self) -> tuple[int, int]:
+        """The front, where the first step that is shown lies in the plane of the picture."""
+        if drawing_mode(self.system) is not DrawingMode.SPACE:
+            return FRONT
+        try:
+            scene = self._views(self.system.seed or 0).sight(self.steps, {**self._fixed, **self.first}).scene
+        except LSystemError:
+            return FROM_THE_RIGHT
+        return FRONT if lies_flat(scene) else FROM_THE_RIGHT
 
     @property
     def angle(self) -> float:

@@ -25,6 +25,7 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures import cellworks, spheres
 from lsys_kit.pictures.cellworks import CellworkPicture, picture_at
 from lsys_kit.pictures.spheres import SpherePicture, spheres_at
+from lsys_kit.pictures.view import View
 
 EDGE_BYTES = 900
 """About what an edge of cells at rest takes in memory."""
@@ -37,9 +38,9 @@ def _bytes_of(found: TissueAtRest) -> int:
 CELLWORKS = Kind("cellwork", "cellwork L-system", CELLWORK.name, "edges", SPACE_FORCES, MappingProxyType({
     **VALUES, "rest": tuple(normalised(Fraction(part, 10)) for part in range(21)),
     "pressure": tuple(normalised(Fraction(part, 2)) for part in range(1, 21))}),
-    (cellworks.AZIMUTH, cellworks.ELEVATION), read_cellwork, steps_of, tissue_at_rest, _bytes_of)
+    cellworks.SIDE, read_cellwork, steps_of, tissue_at_rest, _bytes_of)
 SPHERES = Kind("map on a sphere", "map L-system", MAP.name, "edges", SPHERE_FORCES, VALUES,
-               (spheres.AZIMUTH, spheres.ELEVATION), read_map, steps_of, tissue_at_rest, _bytes_of)
+               spheres.SIDE, read_map, steps_of, tissue_at_rest, _bytes_of)
 
 
 class OpenedTissue(OpenedCells[TissueAtRest]):
@@ -60,7 +61,7 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
     def sight(self, chosen: Viewing) -> CellSight:
         found, step = self.shown(chosen), chosen.step
         return CellSight(step, size_text(found.steps[step]), found.steps[step],
-                         _picture(found, step, chosen.around, chosen.above))
+                         _picture(found, step, (chosen.around, chosen.above)))
 
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
@@ -74,10 +75,10 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
         return {"model": model, "mode": "tissue", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}
 
 
-def _picture(found: TissueAtRest, step: int, azimuth: float, elevation: float) -> CellworkPicture | SpherePicture:
+def _picture(found: TissueAtRest, step: int, view: View) -> CellworkPicture | SpherePicture:
     """The picture of a step, seen from a side."""
     steps, places = found.steps[:step + 1], found.places
     if isinstance(found.system, MapSystem):
-        return spheres_at([each for each in steps if isinstance(each, Map)], places, [step], azimuth, elevation)
+        return spheres_at([each for each in steps if isinstance(each, Map)], places, [step], view)
     cells = range(len(steps[-1].cells))
-    return picture_at([each for each in steps if isinstance(each, Cellwork)], places[step], cells, azimuth, elevation)
+    return picture_at([each for each in steps if isinstance(each, Cellwork)], places[step], cells, view)

@@ -3,7 +3,8 @@
 import { openBook } from "../books/book.js";
 import { made } from "../views/controls.js";
 import { sequence, paintSequence } from "./filament.js";
-import { frameOf, paint } from "./painter.js";
+import { paint } from "./painter.js";
+import { frameOf } from "./projection.js";
 import { placed, traced } from "./turtle.js";
 
 const MANY = 9;

@@ -18,13 +18,17 @@ export function strokeWidths({ n, orders, widths }, scale, thin) {
 }
 
 // The numbers of faces, strokes and rounds, counted in this order, as they are painted: in space from far to near; in the plane
-// strokes by colours, and of one colour the broad ones first. `depths` says how far points lie towards the viewer.
-export function paintingOrder(shapes, widths, depths, extent) {
-  const { strokes, faces, rounds } = shapes, many = faces.n + strokes.n + rounds.n;
-  const ranks = depths ? depthLevels(shapes, depths, extent) : planeRanks(shapes, widths), keys = new Float64Array(many);
-  for (let i = 0; i < many; i++) keys[i] = ranks[i] * MOST_NUMBERED + i;
+// strokes by colours, and of one colour the broad ones first. `depths` says how far points lie towards the viewer, and `behind`
+// how far the casings of strokes, whose numbers follow all others; of what is as far away they are painted first.
+export function paintingOrder(shapes, widths, depths = null, extent = 0, behind = []) {
+  const { strokes, faces, rounds } = shapes, many = faces.n + strokes.n + rounds.n, all = many + behind.length;
+  const ranks = depths ? depthLevels(shapes, depths, extent, behind) : planeRanks(shapes, widths), keys = new Float64Array(all);
+  for (let i = 0; i < all; i++) keys[i] = ranks[i] * MOST_NUMBERED + (i < many ? i + behind.length : i - many);
   keys.sort();
-  for (let i = 0; i < many; i++) keys[i] -= Math.floor(keys[i] / MOST_NUMBERED) * MOST_NUMBERED;
+  for (let i = 0; i < all; i++) {
+    const at = keys[i] - Math.floor(keys[i] / MOST_NUMBERED) * MOST_NUMBERED;
+    keys[i] = at < behind.length ? at + many : at - behind.length;
+  }
   return keys;
 }
 
@@ -35,13 +39,14 @@ function planeRanks({ strokes, faces, rounds }, widths) {
 }
 
 // A shape is as near as its middle: the mean of its corners, the middle of a stroke, a centre.
-function depthLevels({ strokes, faces, rounds }, depths, extent) {
-  const levels = new Float64Array(faces.n + strokes.n + rounds.n), unit = DEPTH_LEVELS / (extent || 1);
+function depthLevels({ strokes, faces, rounds }, depths, extent, behind) {
+  const many = faces.n + strokes.n + rounds.n, levels = new Float64Array(many + behind.length), unit = DEPTH_LEVELS / (extent || 1);
   for (let i = 0; i < faces.n; i++) levels[i] = halfToEven(meanOf(depths, cornersOf(faces, i)) * unit);
   for (let i = 0; i < strokes.n; i++)
     levels[faces.n + i] = halfToEven(((depths[strokes.from[i]] + depths[strokes.to[i]]) / 2) * unit);
   for (let i = 0; i < rounds.n; i++) levels[faces.n + strokes.n + i] = halfToEven(depths[rounds.centres[i]] * unit);
-  const least = levels.reduce((found, level) => Math.min(found, level), Infinity);
+  const least = levels.subarray(0, many).reduce((found, level) => Math.min(found, level), Infinity);
+  behind.forEach((depth, i) => { levels[many + i] = Math.max(least, halfToEven(depth * unit)); });
   return levels.map((level) => level - least);
 }
 

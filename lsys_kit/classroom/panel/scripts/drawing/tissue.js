@@ -6,7 +6,7 @@
 import { whole } from "../books/book.js";
 import { paintWalls, wallsSeen } from "./cell_walls.js";
 import { isInside } from "./outlines.js";
-import { frameOf } from "./painter.js";
+import { frameOf, magnified } from "./projection.js";
 import { cellSeen, paintSphere } from "./sphere.js";
 import { list } from "../views/controls.js";
 
@@ -39,20 +39,24 @@ function shapesOf(book, step) {
 // The frame of a view; a sphere is as large from all sides.
 export function tissueFrame(shapes, width, height, { around, above, near = 1, shift = [0, 0], box = null }) {
   if (!shapes.isSphere) return frameOf(shapes, width, height, { around, above, near, shift, box });
-  const round = { middle: [0, 0, 0], pixel: 1, extent: 2 * UNIT, across: UNIT, up: UNIT }, frame = frameOf(shapes, width, height, { around, near, shift, box: round });
+  const round = { middle: [0, 0, 0], pixel: 1, extent: 2 * UNIT, across: UNIT, up: UNIT }, frame = frameOf(shapes, width, height, { around, near, shift, box: round, far: true });
   return { ...frame, level: Math.cos(above * RADIANS), steep: Math.sin(above * RADIANS) };
 }
 
-// The points as they are seen: x to the right and y up, from the middle of the frame, and towards the viewer.
-export function seenFrom({ cos, sin, level, steep, middle: [cx, cy, cz] }, { n, x, y, z }) {
-  const seen = { x: new Float64Array(n), y: new Float64Array(n), depths: new Float64Array(n), unit: UNIT };
+// The points as they are seen: x to the right and y up, from the middle of the frame, and from infinitely far away right and up;
+// how far towards the viewer, and how near that is, from 0 to 1.
+export function seenFrom({ cos, sin, level, steep, reach, distance, middle: [cx, cy, cz] }, { n, x, y, z }) {
+  const [right, up, sx, sy, depths, nearness] = Array.from({ length: 6 }, () => new Float64Array(n));
   for (let i = 0; i < n; i++) {
     const px = x[i] - cx, py = y[i] - cy, pz = z[i] - cz, towards = px * sin - py * cos;
-    seen.x[i] = px * cos + py * sin;
-    seen.y[i] = pz * level - towards * steep;
-    seen.depths[i] = (x[i] * sin - y[i] * cos) * level + z[i] * steep;
+    right[i] = px * cos + py * sin;
+    up[i] = pz * level - towards * steep;
+    const ahead = towards * level + pz * steep, factor = magnified(distance, ahead);
+    [sx[i], sy[i]] = [right[i] * factor, up[i] * factor];
+    depths[i] = (x[i] * sin - y[i] * cos) * level + z[i] * steep;
+    nearness[i] = Math.max(0, Math.min(1, ahead / (2 * reach || 1) + 0.5));
   }
-  return seen;
+  return { x: sx, y: sy, right, up, depths, nearness, unit: UNIT };
 }
 
 // Paint what is seen; `cells` are those that are shown with their walls or in full colour, or null for all.

@@ -5,7 +5,8 @@
 // an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
 
 export const OWN_LOOK = -1; // stands for the width of a branch order and the colour of a symbol
-export const HOLLOW = 0; // the kind of a circle; discs are 1 and spheres 2
+export const HOLLOW = 0; // the kind of a circle; discs are 1
+export const BALL = 2; // the kind of a sphere
 const LARGEST_VALUE = 1e50;
 const LAST_COLOUR = 2 ** 31 - 1;
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
@@ -170,6 +171,6 @@ export function commonActions() {
     "begin polygon": beginPolygon, "record vertex": recordVertex, "end polygon": endPolygon,
     "expect surface": (turtle) => { turtle.expectsSurface = true; },
     "draw expected surface": drawExpectedSurface, "draw surface": drawSurface,
-    "draw circle": drawRound(HOLLOW), "draw disc": drawRound(1), "draw sphere": drawRound(2),
+    "draw circle": drawRound(HOLLOW), "draw disc": drawRound(1), "draw sphere": drawRound(BALL),
   };
 }

@@ -60,7 +60,7 @@ export function openPanel(element, host, compared = null) {
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
   const drawing = drawingView(view.drawing.body, {
     view: () => [host.get("around"), host.get("above")],
-    front: () => (model.book.mode === "tissue" ? [model.around, model.above] : [0, 0]),
+    front: () => [model.around, model.above],
     turned: (right, up) => change({ around: right, above: up }),
     traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
     pointed: (at, position) => point({ step: at, position }),

@@ -1,7 +1,7 @@
 // The relaxation of a step, watched iteration by iteration: the controls of it, and what is to be painted.
 
 import { movedShapes, mapShapes, UNIT } from "../drawing/map.js";
-import { boundsOf } from "../drawing/painter.js";
+import { boundsOf } from "../drawing/projection.js";
 import { relaxation, startOf, tissueOf } from "../drawing/relaxation.js";
 import { forcesOf, PULL, PUSH, strongest } from "../drawing/tension.js";
 import { button, drawn, icon, list, made } from "./controls.js";

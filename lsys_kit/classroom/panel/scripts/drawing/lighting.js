@@ -1,0 +1,48 @@
+// Light and shade (Lambert's cosine law), as in the pictures that stay: the light comes from the left, from above and from behind the
+// viewer; far things are paler, as in hazy air.
+
+import { lineColour, mixed } from "./colours.js";
+
+const DIRECTION = [-0.5, 0.65, 0.57], LENGTH = Math.hypot(...DIRECTION);
+export const TO_LIGHT = DIRECTION.map((part) => part / LENGTH); // right, up, towards the viewer
+const AMBIENT = 0.3; // the part of the light that comes from all around
+export const STEPS = 16; // of brightness and of haze
+export const OWN = 10; // the step at which a surface has its own colour
+export const BRIGHT = 14; // of light stripes
+export const DIM = 4; // of dark ones
+export const EDGE = -4; // of edges, to the inside
+const LIGHTEST = 0.55, DARKEST = 0.5; // the part of white in the lightest shade, and of black in the darkest
+const HAZE = 0.5; // the part of paper in what is farthest
+const HIGHLIGHT = [0.6 * TO_LIGHT[0], 0.6 * TO_LIGHT[1]], REACH = 1.6; // where a sphere of radius 1 is brightest, and how far from there darkest
+const SPHERE = [[0, 15], [0.45, OWN], [1, 2]]; // how bright it is at some parts of that way
+const LIGHTENED = 0.7; // how much of a colour is left on dark paper, where thin and far strokes would be lost else
+
+// The shades of a palette on the paper, each mixed once: of a colour, as near as from 0 to 1 and as bright as some steps.
+export function shades(palette, theme) {
+  const known = new Map(), lines = palette.map((colour) => lineColour(colour, theme));
+  const line = (colour) => (theme.dark ? mixed(lines[colour], theme.ink, LIGHTENED) : lines[colour]);
+  return (colour, near = 1, bright = OWN) => {
+    const haze = Math.round(near * STEPS), key = (colour * (STEPS + 1) + haze) * (STEPS + 1) + bright;
+    if (!known.has(key)) known.set(key, mixed(lit(line(colour), bright), theme.paper, 1 - HAZE * (1 - haze / STEPS)));
+    return known.get(key);
+  };
+}
+
+function lit(colour, bright) {
+  return bright > OWN ? mixed(colour, "#ffffff", 1 - (LIGHTEST * (bright - OWN)) / (STEPS - OWN))
+    : mixed(colour, "#000000", 1 - (DARKEST * (OWN - bright)) / OWN);
+}
+
+// How bright a surface is, in steps, given its normal: to the right, up, towards the viewer; from behind it is as from the front.
+export function brightness(normal) {
+  const length = Math.hypot(...normal) || 1, way = (normal[2] < 0 ? -1 : 1) / length;
+  const facing = normal.reduce((sum, part, i) => sum + part * way * TO_LIGHT[i], 0);
+  return Math.round(STEPS * (AMBIENT + (1 - AMBIENT) * Math.max(0, facing)));
+}
+
+// The colour of a sphere on the canvas: lighter towards the light, darker away from it.
+export function sphereFill(pen, x, y, radius, shade) {
+  const [left, top] = [x + radius * HIGHLIGHT[0], y - radius * HIGHLIGHT[1]], fill = pen.createRadialGradient(left, top, 0, left, top, radius * REACH);
+  for (const [share, bright] of SPHERE) fill.addColorStop(share, shade(bright));
+  return fill;
+}

@@ -1,0 +1,135 @@
+// Where shapes lie on a canvas: fitted into a frame, and in space seen in perspective.
+//
+// In space x grows to the right, z upwards, and y away from a viewer who stands at the front, at 0 degrees around and 0 above,
+// and looks at the middle of an upright cylinder around all shapes. A frame belongs to a view, not to the shapes: whatever else is
+// painted in it keeps its place and its size.
+
+import { startWidths } from "./cylinders.js";
+import { paintingOrder, strokeWidths } from "./painting_order.js";
+
+const FRAME_MARGIN = 14;
+const LARGEST_SCALE = 120; // pixels a unit
+const NOTHING_WIDE = 1e-9;
+const THINNEST = 0.3, THINNEST_IN_SPACE = 0.6; // how much finer strokes become where they are short
+const STURDY = 0.8, BOLDEST = 2; // how fine they are at least and how broad at most in space, where one sees each by itself
+const USUAL_STROKE = 12; // pixels that strokes are long where they have their usual width
+const DISTANCE = 4; // of the eye from the middle, in radii of the sphere around what is seen
+const MOST_CYLINDERS = 10_000; // of more strokes one sees none by itself, and they are plain lines
+const RADIANS = Math.PI / 180;
+
+// The room that shapes take, with the round ends of broad strokes: in the plane a box, in space the upright cylinder around
+// them, which no turn leads out of.
+export function boundsOf(shapes) {
+  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
+  const { pixel } = shapes, axes = [shapes.x, shapes.y, shapes.z].filter(Boolean), inSpace = axes.length > 2;
+  let bulge = 0;
+  eachPoint(shapes, (point, reach) => {
+    bulge = Math.max(bulge, reach);
+    for (let axis = 0; axis < axes.length; axis++) {
+      const place = axes[axis][point], more = inSpace ? 0 : reach;
+      if (place - more < least[axis]) least[axis] = place - more;
+      if (place + more > most[axis]) most[axis] = place + more;
+    }
+  });
+  const spans = axes.map((_, axis) => Math.max(0, most[axis] - least[axis]));
+  const middle = axes.map((_, axis) => (least[axis] <= most[axis] ? (least[axis] + most[axis]) / 2 : 0));
+  if (!inSpace) return { middle, pixel, extent: 0, across: spans[0] / 2, up: spans[1] / 2 };
+  let across = 0;
+  eachPoint(shapes, (i) => {
+    across = Math.max(across, Math.hypot(shapes.x[i] - middle[0], shapes.y[i] - middle[1]));
+  });
+  return { middle, pixel, extent: Math.max(...spans), across: across + bulge, up: spans[2] / 2 + bulge };
+}
+
+// Width and height from the front, in the units of the model, however broad the strokes are; null if nothing is drawn.
+export function widthAndHeight(shapes) {
+  const spans = [shapes.x, shapes.z ?? shapes.y].map((axis) => {
+    let [least, most] = [Infinity, -Infinity];
+    eachPoint(shapes, (i, reach) => ([least, most] = [Math.min(least, axis[i] - reach), Math.max(most, axis[i] + reach)]), 0);
+    return most - least;
+  });
+  return spans[0] >= 0 ? spans : null;
+}
+
+// Visit every point that is drawn, with how far the shape reaches beyond it; `broad` is 0 for strokes that are lines.
+function eachPoint({ strokes, faces, rounds }, visit, broad = 1) {
+  for (let i = 0; i < strokes.n; i++) {
+    const reach = broad * Math.max(0, strokes.widths[i] / 2);
+    visit(strokes.from[i], reach);
+    visit(strokes.to[i], reach);
+  }
+  for (const corner of faces.corners) visit(corner, 0);
+  for (let i = 0; i < rounds.n; i++) visit(rounds.centres[i], rounds.radii[i]);
+}
+
+// The frame of a view, into which a box fits where it is not brought nearer: by default that of the shapes. Where the eye is
+// infinitely far away, nothing is magnified.
+export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1, shift = [0, 0], box = null, far = false } = {}) {
+  const { middle, extent, across, up, pixel } = box ?? boundsOf(shapes), inSpace = shapes.dimension === 3;
+  const level = Math.cos(above * RADIANS), steep = Math.sin(above * RADIANS), reach = across * level + up * Math.abs(steep);
+  const distance = inSpace && !far ? DISTANCE * Math.hypot(across, up) || 1 : Infinity;
+  const high = inSpace ? (up * level + across * Math.abs(steep)) * magnified(distance, reach) : up;
+  const wide = inSpace ? across * magnified(distance, up * Math.abs(steep) + (across * across * level) / distance) : across;
+  const scale = near * Math.min((width / 2 - FRAME_MARGIN) / Math.max(wide, NOTHING_WIDE),
+    (height / 2 - FRAME_MARGIN) / Math.max(high, NOTHING_WIDE), LARGEST_SCALE);
+  const detailed = inSpace && shapes.strokes.n <= MOST_CYLINDERS;
+  const [finest, broadest] = detailed ? [STURDY, BOLDEST] : [inSpace ? THINNEST_IN_SPACE : THINNEST, 1];
+  return {
+    inSpace, detailed, scale, distance, middle, extent, pixel, x0: width / 2 + shift[0], y0: height / 2 + shift[1], seen: null,
+    cos: Math.cos(around * RADIANS), sin: Math.sin(around * RADIANS), level, steep, reach,
+    thin: Math.min(broadest, Math.max(finest, (shapes.typical * scale) / USUAL_STROKE)),
+  };
+}
+
+// By how much what lies so far towards the eye is magnified.
+export const magnified = (distance, towards) => (distance === Infinity ? 1 : distance / (distance - towards));
+
+// Shapes as they are seen in a frame: x to the right and y down in pixels; in space depths towards the viewer in units, how near
+// that is, from 0 to 1, and by how much points are magnified there; how broad strokes are; and the order of painting.
+export function seenIn(frame, shapes) {
+  if (frame.seen?.shapes !== shapes) {
+    const widths = strokeWidths(shapes.strokes, (frame.scale * frame.pixel) / shapes.pixel, frame.thin);
+    frame.seen = { shapes, ...(frame.inSpace ? seenInSpace(frame, shapes, widths) : seenInPlane(frame, shapes, widths)) };
+  }
+  return frame.seen;
+}
+
+function seenInPlane({ scale, x0, y0, middle: [cx, cy] }, shapes, widths) {
+  const { n } = shapes, x = new Float64Array(n), y = new Float64Array(n);
+  for (let i = 0; i < n; i++) {
+    x[i] = x0 + (shapes.x[i] - cx) * scale;
+    y[i] = y0 - (shapes.y[i] - cy) * scale;
+  }
+  const order = paintingOrder(shapes, widths);
+  return { x, y, widths, order, painted: order };
+}
+
+function seenInSpace(frame, shapes, single) {
+  const seen = projected(frame, shapes), { strokes } = shapes, { depths, factors } = seen;
+  const starts = frame.detailed ? startWidths(strokes, single) : single, ends = [new Float64Array(strokes.n), new Float64Array(strokes.n)];
+  const behind = new Float64Array(frame.detailed ? strokes.n : 0), widths = new Int32Array(strokes.n);
+  for (let i = 0; i < strokes.n; i++) {
+    const a = strokes.from[i], b = strokes.to[i];
+    ends[0][i] = starts[i] * factors[a];
+    ends[1][i] = single[i] * factors[b];
+    widths[i] = Math.max(3, Math.min(4000, Math.round((ends[0][i] + ends[1][i]) / 2)));
+    if (frame.detailed) behind[i] = (depths[a] + depths[b]) / 2 - Math.hypot(shapes.x[b] - shapes.x[a], shapes.y[b] - shapes.y[a], shapes.z[b] - shapes.z[a]);
+  }
+  const painted = paintingOrder(shapes, widths, depths, frame.extent, behind), all = shapes.faces.n + strokes.n + shapes.rounds.n;
+  return { ...seen, widths, ends, painted, order: painted.filter((number) => number < all) };
+}
+
+function projected({ scale, x0, y0, cos, sin, level, steep, reach, distance, middle: [cx, cy, cz] }, { n, x, y, z }) {
+  const seen = { x: new Float64Array(n), y: new Float64Array(n), depths: new Float64Array(n), factors: new Float64Array(n),
+    nearness: new Float64Array(n) };
+  for (let i = 0; i < n; i++) {
+    const px = x[i] - cx, py = y[i] - cy, pz = z[i] - cz, ahead = px * sin - py * cos, towards = ahead * level + pz * steep;
+    const factor = magnified(distance, towards);
+    seen.x[i] = x0 + (px * cos + py * sin) * scale * factor;
+    seen.y[i] = y0 - (pz * level - ahead * steep) * scale * factor;
+    seen.depths[i] = (x[i] * sin - y[i] * cos) * level + z[i] * steep;
+    seen.factors[i] = factor;
+    seen.nearness[i] = Math.max(0, Math.min(1, towards / (2 * reach || 1) + 0.5));
+  }
+  return seen;
+}

@@ -1,0 +1,69 @@
+"""Frames: where the plane of a drawing lies in a picture, with white space around what is painted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lsys_kit.geometry.scene import Floats, Integers, Scene
+from lsys_kit.pictures.view import ProjectedScene
+
+WIDTH, HEIGHT = 600, 400
+"""The size of the largest picture, in pixels."""
+MARGIN = 12
+"""White space around a drawing, in pixels."""
+
+
+@dataclass(frozen=True)
+class ViewFrame:
+    """The transform from the units of a scene to tenths of a pixel."""
+
+    scale: float
+    left: float
+    top: float
+    width: int
+    height: int
+
+    def points(self, coordinates: Floats) -> Integers:
+        """Tenths of a pixel for x and y in turn along the last axis; halves are always rounded the same way."""
+        flip = np.tile([1.0, -1.0], coordinates.shape[-1] // 2)
+        shift = np.tile([-self.left, self.top], coordinates.shape[-1] // 2)
+        pixels = (coordinates * flip + shift) * self.scale + MARGIN
+        tenths: Integers = np.floor(pixels * 10 + 0.5001).astype(np.int64)
+        return tenths
+
+
+def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
+    """The frame that fits all that is painted of some scenes into a picture, with the round ends of broad strokes.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.notation.read import read
+    >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
+    ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204)
+    """
+    left, bottom, right, top = zip(*map(_painted_box, scenes), strict=True)
+    return frame_of((min(left), min(bottom), max(right), max(top)), width, height)
+
+
+def _painted_box(scene: Scene) -> tuple[float, float, float, float]:
+    """Least x, least y, greatest x, greatest y of what is painted."""
+    ends, reach = scene.segments.ends, np.maximum(scene.segments.widths, 0) / 2
+    if not (len(ends) and reach.any()):
+        return scene.box
+    if isinstance(scene, ProjectedScene):
+        reach = reach * scene.factors.max(axis=1)
+    x, y = ends[:, ::2], ends[:, 1::2]
+    left, bottom, right, top = scene.box
+    return (min(left, float((x.min(axis=1) - reach).min())), min(bottom, float((y.min(axis=1) - reach).min())),
+            max(right, float((x.max(axis=1) + reach).max())), max(top, float((y.max(axis=1) + reach).max())))
+
+
+def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
+    """The frame that fits a box into a picture, no larger than needed."""
+    left, bottom, right, top = box
+    across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)
+    scale = min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0)
+    return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)

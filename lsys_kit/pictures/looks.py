@@ -1,0 +1,51 @@
+"""How shapes look by themselves: the colours of symbols and of the turtle, and the widths of strokes in pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from lsys_kit.geometry.scene import OWN, Integers, Segments
+from lsys_kit.pictures.style.palette import CHOSEN, GREEN
+
+STROKES = (2.4, 1.7, 1.3, 1.0)
+"""Stroke widths by branch order, in pixels; deeper branches have the last."""
+THINNEST, BROADEST = 3, 4_000
+"""The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
+SAMPLE = 20_000
+"""The median length of strokes is estimated from at most this number of them."""
+USUAL_LENGTH, FINEST, STURDY, BOLDEST = 12, 0.3, 0.8, 2.0
+"""The median length of strokes in pixels at which they have their usual width; the least factor by which they are finer where
+they are short; and in space, where one sees each by itself, the least and the greatest factor."""
+
+
+def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
+    """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
+    branch order, and are made finer by a factor."""
+    by_order = np.array([round(10 * width * thin) for width in STROKES])
+    widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
+    if (segments.widths != OWN).any():
+        given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)
+        widths = np.where(segments.widths == OWN, widths, given)
+    return widths
+
+
+def stroke_scale(segments: Segments, scale: float, boldest: float = 1.0) -> float:
+    """The factor by which strokes are finer where they are short on the average, or bolder where that is allowed."""
+    if not len(segments):
+        return 1.0
+    some = segments.ends[::len(segments) // SAMPLE + 1]
+    lengths = np.hypot(some[:, 2] - some[:, 0], some[:, 3] - some[:, 1])
+    return float(min(boldest, max(FINEST, np.median(lengths) * scale / USUAL_LENGTH)))
+
+
+def numbered_colours(states: Integers, colours: Integers, colour_of: Mapping[int, str]) -> tuple[list[str], Integers]:
+    """The colours in use, and for each shape the number of its own: that of its symbol, or the one that the turtle chose."""
+    names = list(dict.fromkeys((*colour_of.values(), GREEN, *CHOSEN)))
+    of_state = np.full(int(states.max(initial=0)) + 1, names.index(GREEN))
+    for state, colour in colour_of.items():
+        if state < len(of_state):
+            of_state[state] = names.index(colour)
+    chosen = np.array([names.index(colour) for colour in CHOSEN])
+    return names, np.where(colours == OWN, of_state[states], chosen[colours % len(CHOSEN)])
