@@ -3,36 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Integers, Scene
+from lsys_kit.pictures.looks import median_length
 from lsys_kit.pictures.view import ProjectedScene
 
 WIDTH, HEIGHT = 600, 400
 """The size of the largest picture, in pixels."""
 MARGIN = 12
 """White space around a drawing, in pixels."""
+PARTS, LEAST_PARTS = (10, 100, 1_000), 50
+"""Into how many parts a pixel may be divided, and how many of these the median stroke has at least."""
 
 
 @dataclass(frozen=True)
 class ViewFrame:
-    """The transform from the units of a scene to tenths of a pixel."""
+    """The transform from the units of a scene to parts of a pixel, by default tenths."""
 
     scale: float
     left: float
     top: float
     width: int
     height: int
+    parts: int = 10
 
     def points(self, coordinates: Floats) -> Integers:
-        """Tenths of a pixel for x and y in turn along the last axis; halves are always rounded the same way."""
+        """Parts of a pixel for x and y in turn along the last axis; halves are always rounded the same way."""
         flip = np.tile([1.0, -1.0], coordinates.shape[-1] // 2)
         shift = np.tile([-self.left, self.top], coordinates.shape[-1] // 2)
         pixels = (coordinates * flip + shift) * self.scale + MARGIN
-        tenths: Integers = np.floor(pixels * 10 + 0.5001).astype(np.int64)
-        return tenths
+        parts: Integers = np.floor(pixels * self.parts + 0.5001).astype(np.int64)
+        return parts
+
+
+def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
+    """The frame with pixels in so many parts that rounding bends no stroke to be seen: the median one is 50 long at least.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.notation.read import read
+    >>> koch = [scene_of(derive(read("angle: 60\\naxiom: F\\nF -> F+F--F+F"), step)) for step in (2, 4)]
+    >>> [in_fine_parts(frame_around([scene]), scene).parts for scene in koch]
+    [10, 100]
+    """
+    length = median_length(scene.segments) * frame.scale
+    return replace(frame, parts=next(parts for parts in PARTS if parts * length >= LEAST_PARTS or parts == PARTS[-1]))
 
 
 def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
@@ -42,7 +60,7 @@ def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = 
     >>> from lsys_kit.geometry.drawing import scene_of
     >>> from lsys_kit.notation.read import read
     >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
-    ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204)
+    ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204, parts=10)
     """
     left, bottom, right, top = zip(*map(_painted_box, scenes), strict=True)
     return frame_of((min(left), min(bottom), max(right), max(top)), width, height)

@@ -35,9 +35,13 @@ def stroke_scale(segments: Segments, scale: float, boldest: float = 1.0) -> floa
     """The factor by which strokes are finer where they are short on the average, or bolder where that is allowed."""
     if not len(segments):
         return 1.0
+    return min(boldest, max(FINEST, median_length(segments) * scale / USUAL_LENGTH))
+
+
+def median_length(segments: Segments) -> float:
+    """The median length of strokes, from a part of them where they are many; infinite without strokes."""
     some = segments.ends[::len(segments) // SAMPLE + 1]
-    lengths = np.hypot(some[:, 2] - some[:, 0], some[:, 3] - some[:, 1])
-    return float(min(boldest, max(FINEST, np.median(lengths) * scale / USUAL_LENGTH)))
+    return float(np.median(np.hypot(some[:, 2] - some[:, 0], some[:, 3] - some[:, 1]))) if len(some) else np.inf
 
 
 def numbered_colours(states: Integers, colours: Integers, colour_of: Mapping[int, str]) -> tuple[list[str], Integers]:

@@ -26,7 +26,7 @@ from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.frames import WIDTH, frame_around
+from lsys_kit.pictures.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
@@ -85,19 +85,19 @@ class Picture(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
-            pixels = self.size > current().segments
+            pixels, parts = self.size > current().segments, 10
             if len(self.scene.cells):
                 sheet = filament_layout(self.rows, not pixels and self.current is not None, self.time)
                 width, height = WIDTH, sheet.height
                 body = "" if pixels else rows_svg(sheet, self.look, self.colour_of, self.current, self.marked)
             else:
-                frame = frame_around([self.scene])
-                width, height = frame.width, frame.height
+                frame = in_fine_parts(frame_around([self.scene]), self.scene)
+                width, height, parts = frame.width, frame.height, frame.parts
                 body = "" if pixels else turtle_svg(self.scene, frame, self.colour_of, self.marked)
             if pixels:
                 data = base64.b64encode(self.png).decode()
-                body = f'<image width="{width * 10}" height="{height * 10}" href="data:image/png;base64,{data}"/>'
-            return document(background(width, height) + body, width, height, self.text)
+                body = f'<image width="{width * parts}" height="{height * parts}" href="data:image/png;base64,{data}"/>'
+            return document(background(width, height, parts) + body, width, height, self.text, parts)
 
     @cached_property
     def png(self) -> bytes:

@@ -1,6 +1,7 @@
 """Scenes as SVG text: the form of lesson pictures, because it scales, prints, and carries its own description.
 
-Coordinates are whole tenths of a pixel, so that the text of a picture is the same on every machine.
+Coordinates are whole tenths of a pixel, or hundredths or thousandths where strokes are short, so that the text of a picture is
+the same on every machine.
 """
 
 from __future__ import annotations
@@ -21,10 +22,10 @@ from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER
 
 
-def document(body: str, width: int, height: int, description: str) -> str:
-    """A whole SVG picture with its text alternative."""
+def document(body: str, width: int, height: int, description: str, parts: int = 10) -> str:
+    """A whole SVG picture with its text alternative; its units are parts of a pixel."""
     words = escape(description, quote=True)
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * 10} {height * 10}" width="{width}" '
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * parts} {height * parts}" width="{width}" '
             f'height="{height}" role="img" aria-label="{words}" style="max-width:100%;height:auto">'
             f"<title>{words}</title>{body}</svg>")
 
@@ -32,20 +33,23 @@ def document(body: str, width: int, height: int, description: str) -> str:
 def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:
     """A scene of a turtle as SVG, in the order in which it is painted."""
     shapes = display_list(scene, frame.scale, colour_of)
-    areas, rounds, broad = _areas(shapes, frame), _rounds(shapes, frame), 90 * stroke_scale(scene.segments, frame.scale)
+    areas, rounds, broad = _areas(shapes, frame), _rounds(shapes, frame), max(5, 9 * stroke_scale(scene.segments, frame.scale))
     points, parts = frame.points(shapes.lines.ends), [_gradients(shapes)]
     for kind, runs in groupby(shapes, type):
         if kind is LineRun:
             lines = [run for run in runs if isinstance(run, LineRun)]
-            parts.append(_lines_svg(shapes.lines, points, lines, max(50, broad), marked))
+            parts.append(_lines_svg(shapes.lines, points, lines, (frame.parts, broad), marked))
         else:
             texts, look = (areas, _AREAS) if kind is AreaRun else (rounds, _ROUNDS)
             body = "".join(texts[number] for run in runs for number in run.numbers.tolist())
-            parts.append(f"<g {look}>{body}</g>" if body else "")
+            parts.append(f'<g stroke-width="{look * frame.parts:.0f}" stroke-linejoin="round">{body}</g>' if body else "")
     return "".join(parts)
 
 
-_AREAS, _ROUNDS = 'stroke-width="6" stroke-linejoin="round"', 'stroke-width="10"'
+_AREAS, _ROUNDS = 0.6, 1.0
+"""The widths of the edges of polygons and of discs, in pixels."""
+SMALLEST = 0.8
+"""The least radius of a disc, in pixels."""
 
 
 def _areas(shapes: DisplayList, frame: ViewFrame) -> list[str]:
@@ -68,9 +72,10 @@ def _rounds(shapes: DisplayList, frame: ViewFrame) -> list[str]:
     for (x, y), radius, fill, edge, sphere in zip(frame.points(rounds.centres).tolist(), rounds.radii.tolist(),
                                                   rounds.fills.tolist(), rounds.edges.tolist(), rounds.spheres.tolist(),
                                                   strict=True):
-        reach, colour = max(8, round(radius * frame.scale * 10)), "none" if fill == NO_COLOUR else shapes.palette[fill]
+        reach = max(SMALLEST, radius * frame.scale) * frame.parts
+        colour = "none" if fill == NO_COLOUR else shapes.palette[fill]
         inside = f"url(#{_gradient_name(colour)})" if sphere else colour
-        texts.append(f'<circle cx="{x}" cy="{y}" r="{reach}" fill="{inside}"{_edge(shapes, edge)}/>')
+        texts.append(f'<circle cx="{x}" cy="{y}" r="{reach:.0f}" fill="{inside}"{_edge(shapes, edge)}/>')
     return texts
 
 
@@ -91,16 +96,20 @@ def _gradient_name(colour: str) -> str:
     return f"lsys-sphere-{colour[1:]}"
 
 
-def _lines_svg(lines: Lines, points: Integers, runs: Sequence[LineRun], broad: float, marked: Collection[int]) -> str:
-    """Lines that nothing lies between: a path for each colour and width; marked ones lie on a broad band."""
-    body = []
+def _lines_svg(lines: Lines, points: Integers, runs: Sequence[LineRun], look: tuple[int, float],
+               marked: Collection[int]) -> str:
+    """Lines that nothing lies between: a path for each colour and width; marked ones lie on a broad band.
+
+    The look says how many parts a pixel has, and how many pixels broad the band is.
+    """
+    body, (parts, broad) = [], look
     if marked:
         numbers = np.concatenate([run.numbers for run in runs])
         chosen = points[numbers[np.isin(lines.states[numbers], list(marked))]]
-        body += [f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad:.0f}" '
+        body += [f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad * parts:.0f}" '
                  'stroke-opacity="0.45"/>'] * bool(len(chosen))
     for run in runs:
-        body.append(f'<path d="{_path(points[run.numbers])}" stroke="{run.colour}" stroke-width="{run.width}"/>')
+        body.append(f'<path d="{_path(points[run.numbers])}" stroke="{run.colour}" stroke-width="{run.width * parts // 10}"/>')
     return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'
 
 
@@ -116,9 +125,9 @@ class FilamentRow:
     scene: Scene
 
 
-def background(width: int, height: int) -> str:
+def background(width: int, height: int, parts: int = 10) -> str:
     """White paper, so that a picture can be read on a dark page too."""
-    return f'<rect width="{width * 10}" height="{height * 10}" fill="{PAPER}"/>'
+    return f'<rect width="{width * parts}" height="{height * parts}" fill="{PAPER}"/>'
 
 
 def described(parts: Iterable[str]) -> str:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
 
-from lsys_kit import animate, derive, draw, figure, read
+from lsys_kit import animate, derive, draw, figure, read, system
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.pictures.painters_order import BROADEST_CASING
 from lsys_kit.pictures.style.palette import PAPER
@@ -117,9 +117,11 @@ def test_a_mesh_has_stems_as_broad_as_those_of_the_picture():
 def test_the_trees_of_the_book_are_drawn_with_stems_and_twigs(number, trunk):
     """Figures 2.6 to 2.8: stems ten pixels wide at most, twigs as fine as hairs, and paper between them."""
     picture = draw(read((BOOK / f"{number}.txt").read_text(encoding="utf-8")), arithmetic="float")
-    widths = [int(width) - BROADEST_CASING for width in re.findall(r'stroke="#FFFFFF" stroke-width="(\d+)"', picture.svg)]
+    width, parts = map(int, re.search(r'viewBox="0 0 (\d+) .*? width="(\d+)"', picture.svg).groups())
+    tenths = [int(each) * 10 * parts / width for each in re.findall(r'stroke="#FFFFFF" stroke-width="(\d+)"', picture.svg)]
+    widths = [each - BROADEST_CASING for each in tenths]
     assert max(widths) == pytest.approx(trunk, abs=0.12 * trunk)  # near ones are magnified
-    assert min(int(width) for width in WIDTHS.findall(picture.svg)) <= 6
+    assert min(int(each) * 10 * parts / width for each in WIDTHS.findall(picture.svg)) <= 6
     image = np.array(Image.open(io.BytesIO(picture.png)).convert("L"))
     assert 0.02 < (image < 250).mean() < 0.3
 
@@ -135,3 +137,15 @@ def test_the_unit_of_widths_is_kept_in_what_is_written():
     assert read(str(read("widths: units\naxiom: F"))).widths == "units"
     assert read("axiom: F").widths == ""
     assert (drawn("axiom: F!(3)F").scene.segments.widths == OWN).tolist() == [True, False]
+
+
+@pytest.mark.parametrize(("id", "step"), [("K5", 5), ("K5", 6), ("T2", 5), ("K4", 6)])
+def test_rounding_bends_strokes_by_less_than_is_seen(id, step):
+    picture = draw(system(id), step)
+    places = re.findall(r"M(-?\d+) (-?\d+)L(-?\d+) (-?\d+)", picture.svg)
+    x, y, to_x, to_y = np.array(places, float).T
+    found = np.sort(np.degrees(np.arctan2(y - to_y, to_x - x)))
+    start_x, start_y, end_x, end_y = picture.scene.segments.ends.T
+    drawn = np.sort(np.degrees(np.arctan2(end_y - start_y, end_x - start_x)))
+    off = np.abs(found - drawn)
+    assert np.minimum(off, 360 - off).mean() < 0.5

@@ -112,7 +112,7 @@ def _line_painter(lines: Lines, across: Coordinates, down: Coordinates, pen: Ima
 
 def _area_painter(areas: Areas, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
     """A function that paints a polygon, inside with a number and its edge, if it has one, with the next."""
-    corners, ends = (frame.points(areas.points) * (FINE / 10)).ravel().tolist(), (2 * areas.starts).tolist()
+    corners, ends = (frame.points(areas.points) * (FINE / frame.parts)).ravel().tolist(), (2 * areas.starts).tolist()
     edges = (areas.edges != NO_COLOUR).tolist()
 
     def paint(which: int, number: int) -> None:
@@ -125,7 +125,7 @@ def _area_painter(areas: Areas, frame: ViewFrame, pen: ImageDraw) -> ShapePainte
 
 def _round_painter(rounds: Rounds, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
     """The same for discs."""
-    middles, radii = (frame.points(rounds.centres) * (FINE / 10)).tolist(), rounds.radii.tolist()
+    middles, radii = (frame.points(rounds.centres) * (FINE / frame.parts)).tolist(), rounds.radii.tolist()
     fills, edges = (rounds.fills != NO_COLOUR).tolist(), (rounds.edges != NO_COLOUR).tolist()
 
     def paint(which: int, number: int) -> None:
@@ -164,7 +164,7 @@ def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, frame: View
     owner[2 * places + 1] = shapes.numbers[places]
     rows, columns = np.nonzero(owner[seen] >= 0)
     which = owner[seen[rows, columns]]
-    middles = frame.points(rounds.centres) * (FINE / 10)
+    middles = frame.points(rounds.centres) * (FINE / frame.parts)
     radii = np.maximum(2.0, rounds.radii * frame.scale * FINE)
     across = (columns + 0.5 - middles[which, 0]) / radii[which] - HIGHLIGHT[0]
     up = (middles[which, 1] - rows - 0.5) / radii[which] - HIGHLIGHT[1]
