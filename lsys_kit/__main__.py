@@ -76,10 +76,14 @@ def _argument_parser() -> argparse.ArgumentParser:
     derive.add_argument("--json", action="store_true", help="print one JSON document")
     draw = command("draw", models.draw_word, "Draw the word of step N, or a filament with the steps before it.",
                    "Example: lsys-kit draw K5 -n 4 -o plant.gif")
-    _add_system(draw, steps_needed=False)
+    _add_system(draw, steps_needed=False, several_steps=True)
     draw.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
     draw.add_argument("-o", "--output", required=True, metavar="FILE",
                       help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng)")
+    draw.add_argument("--seeds", type=_numbers, default=(), metavar="S,S,...", help="draw plants of several seeds side by side")
+    draw.add_argument("--view", type=_numbers, metavar="AROUND,ABOVE",
+                      help="the side from which a plant in space is seen, in degrees (default: 30,15)")
+    draw.add_argument("--size", type=_numbers, metavar="WIDTH[,HEIGHT]", help="the size of a picture or film in pixels")
     draw.add_argument("--seconds", default="0.6", help="how long a film shows each step (default: 0.6)")
     stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
@@ -144,10 +148,11 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
     package.set_defaults(action=course.write_package)
 
 
-def _add_system(parser: argparse.ArgumentParser, steps_needed: bool) -> None:
+def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_steps: bool = False) -> None:
     """The options that say which system, and up to which step."""
     _add_model(parser)
-    parser.add_argument("-n", "--steps", type=_step_count, required=steps_needed, metavar="N", help="the number of steps")
+    kind, more = (_step_counts, "; several, as in 4,6,8, are drawn side by side") if several_steps else (_step_count, "")
+    parser.add_argument("-n", "--steps", type=kind, required=steps_needed, metavar="N", help=f"the number of steps{more}")
     parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
                         help="float uses doubles, as other programs do")
 
@@ -200,6 +205,20 @@ def _step_count(text: str) -> int:
     if not (text.isascii() and text.isdigit() and len(text) < 20 and int(text) <= MOST_STEPS):
         raise argparse.ArgumentTypeError(f'the number of steps must be a whole number, 0 or greater, not "{text[:40]}"')
     return int(text)
+
+
+def _step_counts(text: str) -> int | list[int]:
+    """One number of steps, or several with commas between them."""
+    found = [_step_count(each) for each in text.split(",")]
+    return found if len(found) > 1 else found[0]
+
+
+def _numbers(text: str) -> list[int]:
+    """Whole numbers with commas between them."""
+    try:
+        return [int(each[:20]) for each in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'whole numbers with commas between them are needed, not "{text[:40]}"') from None
 
 
 def _constant_setting(text: str) -> tuple[str, str]:

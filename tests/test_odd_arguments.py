@@ -77,7 +77,8 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
 }
 """For each public function arguments that it takes."""
 CHOICES: Mapping[str, tuple[str, ...]] = {
-    "derive": ("seed", "arithmetic", "c"), "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c"),
+    "derive": ("seed", "arithmetic", "c"),
+    "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c", "steps", "seeds", "size"),
     "ensemble": ("arithmetic", "c"), "sweep": ("arithmetic", "seed"), "plot": ("seed", "arithmetic", "c"),
     "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"), "limits": ("modules", "bytes", "seconds"),
     "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",),

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, quotable
@@ -17,8 +17,8 @@ from lsys_kit.files import create_file
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
     from lsys_kit.notation.model.system import LSystem
+    from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.films import Film
-    from lsys_kit.pictures.picture import Picture
 
 STEPS = 5
 """The number of steps drawn by default, if the system has none of its own."""
@@ -91,17 +91,28 @@ def draw_word(options: argparse.Namespace) -> None:
 
     if is_map_system(options.system) or is_cellwork_system(options.system):
         cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
-        picture = draw(cells, options.steps)
-        picture.save(options.output)
-        print(picture)
-        return
-    words = _derivation(system_with_constants(options), options)
-    if Path(options.output).suffix.lower() in FILMS:
-        shown: Picture | Film = animate(words, angle=options.angle, seconds=options.seconds)
+        shown: AnyPicture | Film = draw(cells, options.steps, **_seen(options))
+    elif options.seeds or isinstance(options.steps, list):
+        shown = draw(system_with_constants(options), seed=options.seed, arithmetic=options.arithmetic, angle=options.angle,
+                     seeds=options.seeds, **_steps(options), **_seen(options))
     else:
-        shown = draw(words, angle=options.angle)
+        words = _derivation(system_with_constants(options), options)
+        film = Path(options.output).suffix.lower() in FILMS
+        shown = animate(words, angle=options.angle, seconds=options.seconds, **_seen(options)) if film else \
+            draw(words, angle=options.angle, **_seen(options))
     shown.save(options.output)
     print(shown)
+
+
+def _seen(options: argparse.Namespace) -> dict[str, Any]:
+    """The side from which something is seen, and the size of the picture, as far as they are given."""
+    size = options.size[0] if options.size and len(options.size) == 1 else options.size
+    return {name: value for name, value in (("view", options.view), ("size", size)) if value is not None}
+
+
+def _steps(options: argparse.Namespace) -> dict[str, Any]:
+    """The steps that are drawn, as `draw` takes them."""
+    return {"steps": options.steps} if isinstance(options.steps, list) else {"n": options.steps}
 
 
 def draw_stages(options: argparse.Namespace) -> None:

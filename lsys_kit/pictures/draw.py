@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
@@ -23,42 +24,48 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.cellworks import CellworkPicture, cellwork_picture
+from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
 from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes
 from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.maps import MapPicture, map_picture
+from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
 from lsys_kit.pictures.plots.chart import Plot, painted
+from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.spheres import sphere_picture
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.view import project, view_from
-from lsys_kit.worlds.derive import derive
 from lsys_kit.worlds.fields import Field
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+AnyPicture: TypeAlias = "MapPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
 MOST_ROWS = 24
 """The greatest number of rows of a developmental sequence, which shows the last steps."""
 
 
 @overload
-def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False) -> NetPicture: ...
+def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False,
+         size: object = None) -> NetPicture: ...
 @overload
-def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture: ...
+def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, object]] = (),
+         size: object = None) -> LineagePicture: ...
 @overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
-         view: object = None, **constants: object) -> Picture: ...
+         view: object = None, steps: Sequence[int] = (), seeds: Sequence[int] = (), size: object = None,
+         **constants: object) -> Picture: ...
 @overload
 def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (), labels: bool = True,
-         **forces: object) -> MapPicture: ...
+         size: object = None, **forces: object) -> MapPicture: ...
 @overload
 def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = ..., cell: int | None = None,
-         generation: int | None = None, **forces: object) -> CellworkPicture: ...
-def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
+         generation: int | None = None, size: object = None, **forces: object) -> CellworkPicture: ...
+def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
     Parameters
@@ -76,6 +83,10 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
     view
         From which side something in space is seen, in degrees: around, 0 from the front and 90 from the right; and above, 0
         from the side and 90 from the top. By default plants are seen from (30, 15), and from the front if they are flat.
+    steps, seeds
+        Steps, and seeds, that are drawn side by side on one scale, each with a caption; of a filament the rows.
+    size
+        The width of the picture in pixels, or its width and height; all of it is enlarged, with its strokes and its text.
     **choices
         For a system `seed`, `arithmetic`, `field` and new values of constants, as for `derive`; `marked`, the states whose
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
@@ -102,7 +113,13 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> MapPicture | Pictur
         return _drawn(what, n, **choices)
 
 
-def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | NetPicture | LineagePicture:
+def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
+    """The picture in the size that was chosen."""
+    pixels, picture = size_from(size), _in_usual_size(what, n, **choices)
+    return picture if pixels is None else replace(picture, pixels=pixels)
+
+
+def _in_usual_size(what: Any, n: int | None, **choices: Any) -> AnyPicture:
     if isinstance(what, Stages):
         _check_options(choices, ("tokens", "positions"))
         return _net_picture(what, **choices)
@@ -115,13 +132,14 @@ def _drawn(what: Any, n: int | None, **choices: Any) -> MapPicture | Picture | N
         _check_options(choices, ("intervals",))
         return lineage_picture(what, **choices)
     if isinstance(what, LSystem):
-        options = "angle", "seed", "arithmetic", "marked", "cells", "field", "view"
+        options = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
         _check_options(choices, options, [each.name for each in what.constants])
     return _drawing(what, n, **choices)
 
 
 def _check_options(given: Iterable[str], options: Sequence[str], constants: Sequence[str] = ()) -> None:
     """Every choice is an option of the picture, or a constant of the system."""
+    options = [*options, "size"]
     for name in given:
         if name not in options and name not in constants:
             declared = f" Constants of the system are: {', '.join(constants)}." if constants else ""
@@ -134,40 +152,39 @@ def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = Fals
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
 
 
-def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, seed: int | None = None,
-             arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
-             view: object = None, **constants: object) -> Picture:
+def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, marked: Collection[int] = (),
+             cells: str | None = None, view: object = None, steps: object = (), seeds: object = (),
+             **choices: Any) -> AnyPicture:
     if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
     require(marked, Collection, "A collection of states")
-    marked = frozenset(whole_number(each, "A state") for each in marked)
-    what = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **({} if field is None else {"field": field}), **constants)
-    if drawing_mode(what.states.system) is DrawingMode.FILAMENT:
-        return _sequence(what, marked, cells)
-    turn = real_from(angle, "angle") if angle is not None else float(what.states.system.angle)
-    step, [scene] = what.steps if isinstance(what, Derivation) else 0, in_units([scene_of(what, turn)], what.states.system)
-    [seen] = project([scene], None if view is None else view_from(view))
-    return Picture((FilamentRow(step, seen),), state_colours(what), None, marked,
-                   scene if scene.dimension == 3 else None)
+    states, side = frozenset(whole_number(each, "A state") for each in marked), None if view is None else view_from(view)
+    drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
+    system = drawn[0].word.states.system
+    if drawing_mode(system) is DrawingMode.FILAMENT:
+        return _sequence(drawn, states, cells)
+    turn = real_from(angle, "angle") if angle is not None else float(system.angle)
+    scenes = in_units([scene_of(each.word, turn) for each in drawn], system)
+    pictures = [Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states,
+                        scene if scene.dimension == 3 else None)
+                for each, scene, seen in zip(drawn, scenes, project(scenes, side), strict=True)]
+    if not drawn[0].caption:
+        return pictures[0]
+    columns = len({each.step for each in drawn}) if len({each.seed for each in drawn}) > 1 else 0
+    return SmallMultiples(pictures, [each.caption for each in drawn], columns if columns > 1 else 0)
 
 
-def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
-    """The derivation of a system; a derivation or word unchanged, because its steps are fixed already."""
-    if isinstance(what, LSystem):
-        return derive(what, n if n is not None else what.steps if what.steps is not None else 5, **choices)
-    if n is not None or choices.keys() - {"seed", "arithmetic"}:
-        raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
-    return what
-
-
-def _sequence(what: Derivation | Word, marked: Collection[int], cells: str | None) -> Picture:
+def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None) -> Picture:
     """A filament's steps below one another; a word alone."""
-    if isinstance(what, Word):
-        return filament_picture(what, (FilamentRow(0, filament(what)),), None, marked, cells)
-    first = max(0, what.steps + 1 - MOST_ROWS)
-    rows = tuple(FilamentRow(step, filament(what[step])) for step in range(first, what.steps + 1))
-    return filament_picture(what, rows, what.steps, marked, cells)
+    last = drawn[-1].word
+    if isinstance(last, Word):
+        return filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells)
+    if len({each.seed for each in drawn}) > 1:
+        raise ModelValueError("The rows of a filament are the steps of one seed", hint="Draw one seed at a time.")
+    steps = [each.step for each in drawn] if drawn[0].caption else range(max(0, last.steps + 1 - MOST_ROWS), last.steps + 1)
+    rows = tuple(FilamentRow(step, filament(last.to(max(steps))[step])) for step in steps)
+    return filament_picture(last, rows, steps[-1], marked, cells)
 
 
 def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], current: int | None, marked: Collection[int] = (),
@@ -208,6 +225,7 @@ def figure(what: Picture | Plot | LSystem | Derivation | Word, ax: Axes | None =
 
     Examples
     --------
+    >>> from lsys_kit.derivation.derive import derive
     >>> from matplotlib.figure import Figure
     >>> from lsys_kit.notation.read import read
     >>> left, right = Figure().subplots(1, 2)

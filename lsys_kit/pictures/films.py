@@ -7,7 +7,7 @@ appears.
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,14 +21,17 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.draw import derivation_of, draw, state_colours
+from lsys_kit.pictures.chosen_words import derivation_of
+from lsys_kit.pictures.draw import draw, state_colours
+from lsys_kit.pictures.filaments import filament_layout
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import film_bundle
-from lsys_kit.pictures.formats.raster import turtle_image
-from lsys_kit.pictures.frames import MARGIN, frame_around
+from lsys_kit.pictures.formats.raster import centred, turtle_image
+from lsys_kit.pictures.frames import MARGIN, WIDTH, frame_around
 from lsys_kit.pictures.line_widths import in_units
+from lsys_kit.pictures.sizes import Size, enlargement, final_size, size_from
 from lsys_kit.pictures.style.palette import PAPER
-from lsys_kit.pictures.view import project
+from lsys_kit.pictures.view import View, project, view_from
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -100,7 +103,8 @@ class Film:
 
 
 def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object = SECONDS, angle: object = None,
-            seed: int | None = None, arithmetic: str = "exact", **constants: object) -> Film:
+            seed: int | None = None, arithmetic: str = "exact", view: object = None, size: object = None,
+            **constants: object) -> Film:
     """Draw the steps of a development one after another, in a common frame.
 
     Parameters
@@ -111,7 +115,7 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
         The number of steps of a system; by default its own.
     seconds
         The duration of each step; the last is shown longer.
-    angle, seed, arithmetic, **constants
+    angle, seed, arithmetic, view, size, **constants
         As for `draw`.
 
     Raises
@@ -140,35 +144,41 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
                               limit=MOST_FRAMES, needed=derivation.steps + 1)
     with Task("The film was not finished"):
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-            return _sequence_film(derivation, pace)
+            return _sequence_film(derivation, pace, size_from(size))
         turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
-        return _turtle_film(derivation, turn, pace)
+        return _turtle_film(derivation, turn, pace, None if view is None else view_from(view), size_from(size))
 
 
-def _turtle_film(derivation: Derivation, turn: float, pace: float) -> Film:
+def _turtle_film(derivation: Derivation, turn: float, pace: float, view: View | None, size: Size | None) -> Film:
     """What the turtle draws, step after step."""
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
         steps.append(scene_of(derivation.to(step), turn))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
-    scenes = project(in_units(steps, derivation.states.system))
+    scenes = project(in_units(steps, derivation.states.system), view)
     frame, colour_of = frame_around(scenes), state_colours(derivation)
-    return Film(_caption(derivation, steps[-1]), tuple(turtle_image(scene, colour_of, frame) for scene in scenes), pace)
+    enlarged, whole = enlargement(frame.width, frame.height, size), final_size(frame.width, frame.height, size)
+    images = tuple(centred(turtle_image(scene, colour_of, frame, enlarged), whole) for scene in scenes)
+    return Film(_caption(derivation, steps[-1]), images, pace)
 
 
 def _caption(derivation: Derivation, last: Scene) -> str:
     return f"steps 0 to {derivation.steps}; the last: {last}"
 
 
-def _sequence_film(derivation: Derivation, pace: float) -> Film:
+def _sequence_film(derivation: Derivation, pace: float, size: Size | None) -> Film:
     """A developmental sequence, whose rows appear one after another."""
     from PIL import Image
 
     picture = draw(derivation)
+    usual = WIDTH, filament_layout(picture.rows, written=False).height
+    enlarged = enlargement(*usual, size)
+    picture = replace(picture, pixels=(round(WIDTH * enlarged), None))
     whole = Image.open(io.BytesIO(picture.png)).convert("RGB")
-    images, pitch = [], (whole.height - 2 * MARGIN) / len(picture.rows)
+    images, margin = list[Image.Image](), MARGIN * enlarged
     for shown in range(1, len(picture.rows) + 1):
-        image, until = Image.new("RGB", whole.size, PAPER), round(MARGIN + shown * pitch)
+        until = round(margin + shown * (whole.height - 2 * margin) / len(picture.rows))
+        image = Image.new("RGB", whole.size, PAPER)
         image.paste(whole.crop((0, 0, whole.width, until)))
-        images.append(image)
+        images.append(centred(image, final_size(*usual, size)))
     return Film(picture.text, tuple(images), pace)

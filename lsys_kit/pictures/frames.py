@@ -62,11 +62,11 @@ def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = 
     >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
     ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204, parts=10)
     """
-    left, bottom, right, top = zip(*map(_painted_box, scenes), strict=True)
+    left, bottom, right, top = zip(*map(painted_box, scenes), strict=True)
     return frame_of((min(left), min(bottom), max(right), max(top)), width, height)
 
 
-def _painted_box(scene: Scene) -> tuple[float, float, float, float]:
+def painted_box(scene: Scene) -> tuple[float, float, float, float]:
     """Least x, least y, greatest x, greatest y of what is painted."""
     ends, reach = scene.segments.ends, np.maximum(scene.segments.widths, 0) / 2
     if not (len(ends) and reach.any()):

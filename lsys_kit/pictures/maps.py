@@ -26,7 +26,7 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.frames import MARGIN, ViewFrame
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
-from lsys_kit.pictures.svg import background, described, document
+from lsys_kit.pictures.svg import background, described, document, resized
 
 WIDTH, HIGHEST = 760, 400
 """The greatest width of a line of maps and height of a map, in pixels."""
@@ -93,7 +93,8 @@ class MapPicture(SVGPicture):
             shown = zip(self.maps, self.places, self.scenes, panels, self.numbers, strict=True)
             body = "".join(panel_svg(*each, self.labels) for each in shown)
             width, height = panels[0].frame.width, panels[0].frame.height
-            return document(background(width, height) + body, width, height, described([self.text, self._colours]))
+            words = described([self.text, self._colours])
+            return resized(document(background(width, height) + body, width, height, words), self.pixels)
 
     @property
     def _colours(self) -> str:

@@ -110,7 +110,8 @@ def casing_widths(widths: Integers) -> Integers:
     [22, 47, 124]
     """
     more = np.minimum(LEAST_CASING + np.rint(CASING * widths).astype(np.int64), BROADEST_CASING)
-    return widths + more
+    found: Integers = widths + more
+    return found
 
 
 def _boldness(segments: Segments, scale: float, detailed: bool) -> float:

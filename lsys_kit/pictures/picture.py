@@ -29,7 +29,7 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
-from lsys_kit.pictures.svg import FilamentRow, background, described, document, turtle_svg
+from lsys_kit.pictures.svg import FilamentRow, background, described, document, resized, turtle_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -97,15 +97,15 @@ class Picture(SVGPicture):
             if pixels:
                 data = base64.b64encode(self.png).decode()
                 body = f'<image width="{width * parts}" height="{height * parts}" href="data:image/png;base64,{data}"/>'
-            return document(background(width, height, parts) + body, width, height, self.text, parts)
+            return resized(document(background(width, height, parts) + body, width, height, self.text, parts), self.pixels)
 
     @cached_property
     def png(self) -> bytes:
         """The picture as PNG, without text."""
         with Task("The picture was not drawn"):
             if len(self.scene.cells):
-                return raster.rows_png(self.rows, self.look, self.colour_of)
-            return raster.turtle_png(self.scene, self.colour_of)
+                return raster.rows_png(self.rows, self.look, self.colour_of, self.pixels)
+            return raster.turtle_png(self.scene, self.colour_of, self.pixels)
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -159,7 +159,7 @@ class NetPicture(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
-            return drawn_stages(self.net, self.tokens, positions=self.positions)
+            return resized(drawn_stages(self.net, self.tokens, positions=self.positions), self.pixels)
 
     def save(self, path: str | Path) -> None:
         """Write the picture to an .svg file, or the net to a .pnml file for Petri-net tools (see `pnml`).

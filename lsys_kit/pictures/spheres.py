@@ -26,7 +26,7 @@ from lsys_kit.pictures.formats.spheres import SphereShapes, spheres_file
 from lsys_kit.pictures.frames import MARGIN
 from lsys_kit.pictures.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
 from lsys_kit.pictures.style.palette import INK, QUIET
-from lsys_kit.pictures.svg import background, described, document
+from lsys_kit.pictures.svg import background, described, document, resized
 from lsys_kit.pictures.view import View, axes, view_from
 
 SIDE = 20, 25
@@ -74,7 +74,8 @@ class SpherePicture(MapPicture):
             width = math.ceil(2 * MARGIN + many * 2 * radius + (many - 1) * GAP)
             height = math.ceil(2 * MARGIN + 2 * radius + CAPTION)
             body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
-            return document(body, width, height, described([self.text, "cells of one colour have the same walls around them"]))
+            words = described([self.text, "cells of one colour have the same walls around them"])
+            return resized(document(body, width, height, words), self.pixels)
 
     def save(self, path: str | Path) -> None:
         """Write the picture to an .svg, .png or .pdf file.
@@ -90,7 +91,7 @@ class SpherePicture(MapPicture):
     def _file(self, kind: str) -> bytes:
         with Task("The picture was not written"), supervised():
             shapes = map(_shapes, self.maps, self.views, self.numbers)
-            return spheres_file([*shapes], self.text, kind)
+            return spheres_file([*shapes], self.text, kind, self.pixels)
 
 
 def sphere_picture(what: MapSystem | Development, n: int | None = None, *, view: object = SIDE,

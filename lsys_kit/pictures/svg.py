@@ -6,6 +6,7 @@ the same on every machine.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -18,6 +19,7 @@ from lsys_kit.pictures.display_list import NO_COLOUR, AreaRun, DisplayList, Line
 from lsys_kit.pictures.frames import ViewFrame
 from lsys_kit.pictures.looks import stroke_scale
 from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER
 
@@ -28,6 +30,29 @@ def document(body: str, width: int, height: int, description: str, parts: int = 
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * parts} {height * parts}" width="{width}" '
             f'height="{height}" role="img" aria-label="{words}" style="max-width:100%;height:auto">'
             f"<title>{words}</title>{body}</svg>")
+
+
+_HEAD = re.compile(r'viewBox="0 0 (\d+) (\d+)" width="(\d+)" height="(\d+)"')
+
+
+def resized(svg: str, size: Size | None) -> str:
+    """A whole SVG picture enlarged to a size; where that has other proportions, it lies in the middle of more paper.
+
+    >>> resized('<svg viewBox="0 0 60 40" width="6" height="4"><title>-</title></svg>', (60, 60))
+    '<svg viewBox="0 -10 60 60" width="60" height="60"><title>-</title><rect x="0" y="-10" ...
+    """
+    found = _HEAD.search(svg)
+    if size is None or found is None:
+        return svg
+    across, down, width, height = map(int, found.groups())
+    factor, (wide, high) = enlargement(width, height, size), final_size(width, height, size)
+    sides = () if size[1] is None else ((across, wide, width), (down, high, height))
+    more = [round(side * (room / factor / own - 1) / 2) for side, room, own in sides] or [0, 0]
+    box = f"{-more[0]} {-more[1]} {across + 2 * more[0]} {down + 2 * more[1]}"
+    svg = f'{svg[:found.start()]}viewBox="{box}" width="{wide}" height="{high}"{svg[found.end():]}'
+    corner_and_size = 'x="{}" y="{}" width="{}" height="{}"'.format(*box.split())
+    paper = f'<rect {corner_and_size} fill="{PAPER}"/>' if any(more) else ""
+    return svg.replace("</title>", f"</title>{paper}", 1)
 
 
 def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:

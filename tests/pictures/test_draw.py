@@ -148,9 +148,10 @@ def test_names_of_a_model_never_become_markup():
 
 
 @pytest.mark.parametrize(("what", "hint"), [
-    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells, field, view."),
+    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells, field, view, steps, seeds, size."),
     (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
-    (stages(system("P2")), "Options are: tokens, positions."), (lineage(system("P6"), 2), "Options are: intervals."),
+    (stages(system("P2")), "Options are: tokens, positions, size."),
+    (lineage(system("P6"), 2), "Options are: intervals, size."),
 ])
 def test_an_option_that_there_is_not_is_named(what, hint):
     with pytest.raises(ModelNameError) as caught:

@@ -5,16 +5,27 @@ from __future__ import annotations
 import base64
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 from typing import Any
 
 from lsys_kit.files import marked_xml
 from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.sizes import Size
 
 
+@dataclass(frozen=True)
 class SVGPicture(ABC):
-    """A picture that is written as SVG; its text alternative is what `repr` says of it."""
+    """A picture that is written as SVG; its text alternative is what `repr` says of it.
+
+    Attributes
+    ----------
+    pixels
+        Its width and height, if it is not of the usual size.
+    """
+
+    pixels: Size | None = field(default=None, kw_only=True, repr=False)
 
     @property
     @abstractmethod

@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.budget import check_budget, counted
-from lsys_kit.geometry.scene import Scene
+from lsys_kit.budget import check_bytes, counted
+from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.pictures.display_list import AREA, NO_COLOUR, ROUND, Areas, DisplayList, Lines, Rounds, colours_and_widths
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
+from lsys_kit.pictures.formats.line_raster import Coordinates, Grid, spread, touched
 from lsys_kit.pictures.frames import MARGIN, WIDTH, ViewFrame, frame_around
 from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
 from lsys_kit.pictures.svg import FilamentRow
@@ -28,31 +31,41 @@ if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
-Coordinates: TypeAlias = NDArray[np.floating[Any]]
-Grid: TypeAlias = NDArray[np.int32]
 Colours: TypeAlias = NDArray[np.uint8]
 ShapePainter: TypeAlias = Callable[[int, int], None]
 FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
+POINT_BYTES = 16
+"""About what a point of the fine grid takes in memory."""
 CELLS_A_PIXEL = 16
 """Of more cells than this in one pixel, the others cannot be seen."""
 FLOAT32_RANGE = 1e30
 """Coordinates up to this can be computed in single precision."""
-STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
-"""Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
-operations; a longer stroke is a block of its own."""
 
 MOST_SPREADS, FEW_RUNS = 6, 2_000
 """Lines of so many widths are painted at once, width after width; of more widths, those with few lines are painted in turn."""
 
 
-def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
+def turtle_png(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None) -> bytes:
     """A scene of a turtle as PNG."""
-    return _png(turtle_image(scene, colour_of, frame_around([scene])))
+    frame = frame_around([scene])
+    image = turtle_image(scene, colour_of, frame, enlargement(frame.width, frame.height, size))
+    return _png(centred(image, final_size(frame.width, frame.height, size)))
 
 
-def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -> Image:
-    """A scene of a turtle as an image, in a frame that contains it.
+def centred(image: Image, size: tuple[int, int]) -> Image:
+    """An image in the middle of white paper."""
+    from PIL import Image
+
+    if image.size == size:
+        return image
+    paper = Image.new("RGB", size, PAPER)
+    paper.paste(image, ((size[0] - image.width) // 2, (size[1] - image.height) // 2))
+    return paper
+
+
+def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame, enlarged: float = 1.0) -> Image:
+    """A scene of a turtle as an image, in a frame that contains it; perhaps enlarged.
 
     Each point of a fine grid gets the number of what is seen there. Numbers grow along the display list: of two shapes the one
     with the greater number covers the other. The shape at place p has the number 2p + 1, and its edge 2p + 2; of a run of
@@ -60,36 +73,60 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame) -
     """
     from PIL import Image
 
-    shapes = display_list(scene, frame.scale, colour_of)
-    across, down = _pixels(shapes.lines.ends, scene, frame)
-    spread_out = _spread_out(shapes)
-    seen = _painted_in_turn(shapes, frame, across, down, spread_out)
+    shapes, grid = display_list(scene, frame.scale, colour_of), FineGrid(frame, FINE * enlarged)
+    check_bytes(POINT_BYTES * grid.width * grid.height, lambda: "The picture was not drawn")
+    across, down = _pixels(shapes.lines.ends, scene, grid)
+    spread_out = _spread_out(shapes, grid.fine)
+    seen = _painted_in_turn(shapes, grid, across, down, spread_out)
     _paint_at_once(seen, shapes, across, down, spread_out)
     pixels = _colours(shapes)[seen]
-    _shade_spheres(pixels, seen, shapes, frame)
-    return Image.fromarray(pixels).resize((frame.width, frame.height), Image.Resampling.BOX)
+    _shade_spheres(pixels, seen, shapes, grid)
+    return Image.fromarray(pixels).resize((grid.width // FINE, grid.height // FINE), Image.Resampling.BOX)
 
 
-def _spread_out(shapes: DisplayList) -> NDArray[np.int64]:
+@dataclass(frozen=True)
+class FineGrid:
+    """A grid of points over a frame, so many in each direction of its pixels."""
+
+    frame: ViewFrame
+    fine: float
+
+    @property
+    def width(self) -> int:
+        """How many points it has across, a multiple of those in a pixel of the image."""
+        return round(self.frame.width * self.fine / FINE) * FINE
+
+    @property
+    def height(self) -> int:
+        """How many points it has from the top to the bottom."""
+        return round(self.frame.height * self.fine / FINE) * FINE
+
+    def points(self, coordinates: Floats) -> Coordinates:
+        """Places on it, rounded to parts of a pixel as in other formats."""
+        parts = self.frame if self.fine == FINE else replace(self.frame, parts=1_000)
+        return parts.points(coordinates) * (self.fine / parts.parts)
+
+
+def _spread_out(shapes: DisplayList, fine: float) -> NDArray[np.int64]:
     """For each run of lines the square of the radius by which its points are spread, whose fraction is not seen; those with the
     same are painted at once. -1 for polygons and discs, and for broad lines of whose width there are few."""
     widths = colours_and_widths(shapes.keys)[1]
-    squares = np.where(shapes.keys >= 0, (widths * FINE) ** 2 // 400, -1)
+    squares = np.where(shapes.keys >= 0, np.floor((widths * fine) ** 2 / 400).astype(np.int64), -1)
     kinds, which, many = np.unique(squares, return_inverse=True, return_counts=True)
     if len(kinds) <= MOST_SPREADS + 1:
         return squares
     return np.where((many < FEW_RUNS)[which] & (squares >= 1), -1, squares)
 
 
-def _painted_in_turn(shapes: DisplayList, frame: ViewFrame, across: Coordinates, down: Coordinates,
+def _painted_in_turn(shapes: DisplayList, grid: FineGrid, across: Coordinates, down: Coordinates,
                      spread_out: NDArray[np.int64]) -> Grid:
     """The grid with the numbers of what is painted one after another: polygons, discs, and some lines."""
     from PIL import Image, ImageDraw
 
-    sheet = Image.new("I", (frame.width * FINE, frame.height * FINE), 0)
+    sheet = Image.new("I", (grid.width, grid.height), 0)
     pen = ImageDraw.Draw(sheet)
-    painters = {AREA: _area_painter(shapes.areas, frame, pen), ROUND: _round_painter(shapes.rounds, frame, pen),
-                0: _line_painter(shapes.lines, across, down, pen)}
+    painters = {AREA: _area_painter(shapes.areas, grid, pen), ROUND: _round_painter(shapes.rounds, grid, pen),
+                0: _line_painter(shapes.lines, grid.fine, across, down, pen)}
     runs = np.flatnonzero(spread_out < 0)
     columns = (np.minimum(shapes.keys, 0)[runs], shapes.starts[runs], shapes.starts[runs + 1])
     for kind, first, end in counted(zip(*(column.tolist() for column in columns), strict=True)):
@@ -98,10 +135,10 @@ def _painted_in_turn(shapes: DisplayList, frame: ViewFrame, across: Coordinates,
     return np.array(sheet)
 
 
-def _line_painter(lines: Lines, across: Coordinates, down: Coordinates, pen: ImageDraw) -> ShapePainter:
+def _line_painter(lines: Lines, fine: float, across: Coordinates, down: Coordinates, pen: ImageDraw) -> ShapePainter:
     """A function that paints a line with round ends."""
     def paint(which: int, number: int) -> None:
-        (x, to_x), (y, to_y), reach = across[which].tolist(), down[which].tolist(), float(lines.widths[which]) * FINE / 20
+        (x, to_x), (y, to_y), reach = across[which].tolist(), down[which].tolist(), float(lines.widths[which]) * fine / 20
         length = math.hypot(to_x - x, to_y - y) or 1.0
         aside, up = reach * (y - to_y) / length, reach * (to_x - x) / length
         pen.polygon([x + aside, y + up, to_x + aside, to_y + up, to_x - aside, to_y - up, x - aside, y - up], fill=number)
@@ -110,28 +147,29 @@ def _line_painter(lines: Lines, across: Coordinates, down: Coordinates, pen: Ima
     return paint
 
 
-def _area_painter(areas: Areas, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+def _area_painter(areas: Areas, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
     """A function that paints a polygon, inside with a number and its edge, if it has one, with the next."""
-    corners, ends = (frame.points(areas.points) * (FINE / frame.parts)).ravel().tolist(), (2 * areas.starts).tolist()
-    edges = (areas.edges != NO_COLOUR).tolist()
+    corners, ends = grid.points(areas.points).ravel().tolist(), (2 * areas.starts).tolist()
+    edges, edge = (areas.edges != NO_COLOUR).tolist(), round(2 * grid.fine / FINE)
 
     def paint(which: int, number: int) -> None:
         points = corners[ends[which]:ends[which + 1]]
         pen.polygon(points, fill=number)
         if edges[which]:
-            pen.line(points + points[:2], fill=number + 1, width=2)
+            pen.line(points + points[:2], fill=number + 1, width=edge)
     return paint
 
 
-def _round_painter(rounds: Rounds, frame: ViewFrame, pen: ImageDraw) -> ShapePainter:
+def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
     """The same for discs."""
-    middles, radii = (frame.points(rounds.centres) * (FINE / frame.parts)).tolist(), rounds.radii.tolist()
+    middles, radii = grid.points(rounds.centres).tolist(), rounds.radii.tolist()
     fills, edges = (rounds.fills != NO_COLOUR).tolist(), (rounds.edges != NO_COLOUR).tolist()
+    edge = round(grid.fine)
 
     def paint(which: int, number: int) -> None:
-        (x, y), reach = middles[which], max(2.0, radii[which] * frame.scale * FINE)
+        (x, y), reach = middles[which], max(2.0, radii[which] * grid.frame.scale * grid.fine)
         box = (x - reach, y - reach, x + reach, y + reach)
-        pen.ellipse(box, fill=number if fills[which] else None, outline=number + edges[which], width=FINE)
+        pen.ellipse(box, fill=number if fills[which] else None, outline=number + edges[which], width=edge)
     return paint
 
 
@@ -153,7 +191,7 @@ def _channels(colours: Sequence[str]) -> Colours:
     return np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
 
 
-def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, frame: ViewFrame) -> None:
+def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, grid: FineGrid) -> None:
     """Give each point of a sphere the colour that it has there."""
     rounds, keys = shapes.rounds, np.repeat(shapes.keys, np.diff(shapes.starts))
     places = np.flatnonzero(keys == ROUND)
@@ -164,8 +202,8 @@ def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, frame: View
     owner[2 * places + 1] = shapes.numbers[places]
     rows, columns = np.nonzero(owner[seen] >= 0)
     which = owner[seen[rows, columns]]
-    middles = frame.points(rounds.centres) * (FINE / frame.parts)
-    radii = np.maximum(2.0, rounds.radii * frame.scale * FINE)
+    middles = grid.points(rounds.centres)
+    radii = np.maximum(2.0, rounds.radii * grid.frame.scale * grid.fine)
     across = (columns + 0.5 - middles[which, 0]) / radii[which] - HIGHLIGHT[0]
     up = (middles[which, 1] - rows - 0.5) / radii[which] - HIGHLIGHT[1]
     pixels[rows, columns] = _tones(shapes.palette, rounds.fills[which], np.hypot(across, up) / REACH)
@@ -181,11 +219,12 @@ def _tones(palette: Sequence[str], fills: NDArray[np.int64], way: Coordinates) -
     return found
 
 
-def _pixels(ends: Coordinates, scene: Scene, frame: ViewFrame) -> tuple[Coordinates, Coordinates]:
+def _pixels(ends: Coordinates, scene: Scene, grid: FineGrid) -> tuple[Coordinates, Coordinates]:
     """The columns and rows of the ends of lines in the fine grid."""
     precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
+    frame, fine = grid.frame, grid.fine
     ends, (left, top, factor, margin) = ends.astype(precision), np.array(
-        [frame.left, frame.top, frame.scale * FINE, MARGIN * FINE], precision)
+        [frame.left, frame.top, frame.scale * fine, MARGIN * fine], precision)
     return (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
 
 
@@ -210,96 +249,40 @@ def _paint_at_once(seen: Grid, shapes: DisplayList, across: Coordinates, down: C
             np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
 
 
-def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
-    """The points of a grid that lie on strokes, given the columns and rows of their ends.
-
-    If each stroke has a number, in ascending order, a point gets that of the last stroke on which it lies.
-
-    >>> across, down = np.array([[0.5, 2.5], [1.5, 1.5]], np.float32), np.array([[0.5, 0.5], [0.5, 1.5]], np.float32)
-    >>> touched(across[:1], down[:1], (2, 4)).astype(int).tolist()
-    [[1, 1, 1, 0], [0, 0, 0, 0]]
-    >>> touched(across, down, (2, 4), np.array([5, 7])).tolist()
-    [[5, 7, 5, 0], [0, 7, 0, 0]]
-    """
-    found = np.zeros(shape[0] * shape[1], dtype=bool if numbers is None else np.int32)
-    for first in range(0, len(across), STROKES_AT_A_TIME):
-        x, y = across[first:first + STROKES_AT_A_TIME], down[first:first + STROKES_AT_A_TIME]
-        wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
-        steps = np.ceil(np.maximum(np.abs(wide), np.abs(high))).astype(np.int32)
-        np.maximum(steps, 1, out=steps)
-        for some in _blocks(steps + 1):
-            check_budget()
-            counts = steps[some] + 1
-            along = np.arange(int(counts.sum()), dtype=np.int32) - np.repeat(np.cumsum(counts) - counts, counts)
-            column = (np.repeat(x[some, 0], counts) + np.repeat(wide[some] / steps[some], counts) * along).astype(np.int32)
-            row = (np.repeat(y[some, 0], counts) + np.repeat(high[some] / steps[some], counts) * along).astype(np.int32)
-            here = True if numbers is None else np.repeat(numbers[first:first + STROKES_AT_A_TIME][some], counts)
-            found[row * shape[1] + column] = here
-    return found.reshape(shape)
-
-
-def _blocks(counts: NDArray[np.integer[Any]]) -> Iterator[slice]:
-    """Stretches of strokes that have few points together."""
-    ends = np.cumsum(counts, dtype=np.int64)
-    first = 0
-    while first < len(counts):
-        before = ends[first - 1] if first else 0
-        after = max(first + 1, int(np.searchsorted(ends, before + POINTS_AT_A_TIME, side="right")))
-        yield slice(first, after)
-        first = after
-
-
-def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
-    """The dilation of a set of points of a grid by a disc of a given radius; of numbers, the greatest in each disc.
-
-    >>> spread(np.array([[0, 0, 0], [0, 1, 0], [0, 0, 0]], dtype=bool), 1).astype(int).tolist()
-    [[0, 1, 0], [1, 1, 1], [0, 1, 0]]
-    >>> spread(np.array([[0, 0, 5, 7]]), 1).tolist()
-    [[0, 5, 7, 7]]
-    >>> spread(np.array([[1], [0], [0], [0]]), 5).ravel().tolist()  # a disc larger than the grid
-    [1, 1, 1, 1]
-    """
-    row, side, whole, height = found.copy(), 0, np.zeros_like(found), len(found)  # the row is dilated to both sides
-    for up in counted(range(min(int(radius), height - 1), -1, -1), 1):
-        while side < int((radius * radius - up * up) ** 0.5):
-            side += 1
-            np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])
-            np.maximum(row[:, :-side], found[:, side:], out=row[:, :-side])
-        np.maximum(whole[up:], row[:height - up], out=whole[up:])
-        np.maximum(whole[:height - up], row[up:], out=whole[:height - up])
-    return whole
-
-
-def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str]) -> bytes:
+def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str],
+             size: Size | None = None) -> bytes:
     """Filaments below one another, with a common scale, as a PNG picture."""
     from PIL import Image, ImageDraw
 
     sheet = filament_layout(rows, written=False)
-    image = Image.new("RGB", (WIDTH * FINE, sheet.height * FINE), PAPER)
+    wide, high = (round(side * enlargement(WIDTH, sheet.height, size)) for side in (WIDTH, sheet.height))
+    fine = FINE * enlargement(WIDTH, sheet.height, size)
+    check_bytes(POINT_BYTES * wide * high * FINE ** 2, lambda: "The picture was not drawn")
+    image = Image.new("RGB", (wide * FINE, high * FINE), PAPER)
     pen = ImageDraw.Draw(image)
     for place, row in enumerate(rows):
-        middle = sheet.middle(place) * FINE
+        middle = sheet.middle(place) * fine
         for cell in counted(sheet.cells(row, CELLS_A_PIXEL)):
-            _cell(pen, cell, look, middle, colour_of.get(cell.state, GREEN))
+            _cell(pen, cell, fine, look, middle, colour_of.get(cell.state, GREEN))
         for wall in counted(sheet.walls(row, CELLS_A_PIXEL)):
-            reach, colour = (wall.height + 2) * FINE, wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
-            pen.line([(wall.x * FINE, middle - reach), (wall.x * FINE, middle + reach)], fill=colour,
-                     width=round(wall_width(wall.shade) * FINE))
-    return _png(image.resize((WIDTH, sheet.height), Image.Resampling.BOX))
+            reach, colour = (wall.height + 2) * fine, wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
+            pen.line([(wall.x * fine, middle - reach), (wall.x * fine, middle + reach)], fill=colour,
+                     width=round(wall_width(wall.shade) * fine))
+    return _png(centred(image.resize((wide, high), Image.Resampling.BOX), final_size(WIDTH, sheet.height, size)))
 
 
-def _cell(pen: ImageDraw, cell: DrawnCell, look: str, middle: float, colour: str) -> None:
-    x, length, width = cell.x * FINE, cell.length * FINE, cell.width * FINE
+def _cell(pen: ImageDraw, cell: DrawnCell, fine: float, look: str, middle: float, colour: str) -> None:
+    x, length, width = cell.x * fine, cell.length * fine, cell.width * fine
     box, fill = (x - length, middle - width, x + length, middle + width), tinted(colour, 0.28 + 0.6 * cell.shade)
     if look == "ellipses":
-        pen.ellipse(box, outline=colour, fill=fill, width=FINE)
+        pen.ellipse(box, outline=colour, fill=fill, width=round(fine))
     else:
-        pen.rounded_rectangle(box, min(length, width), outline=colour, fill=fill, width=FINE)
-    if length > 7 and cell.way:
+        pen.rounded_rectangle(box, min(length, width), outline=colour, fill=fill, width=round(fine))
+    if length > 7 * fine / FINE and cell.way:
         tip, head = x + 0.55 * length * cell.way, 0.3 * min(length, width)
         back = tip - head * cell.way
-        pen.line([(2 * x - tip, middle), (tip, middle)], fill=INK, width=FINE)
-        pen.line([(back, middle - head), (tip, middle), (back, middle + head)], fill=INK, width=FINE, joint="curve")
+        pen.line([(2 * x - tip, middle), (tip, middle)], fill=INK, width=round(fine))
+        pen.line([(back, middle - head), (tip, middle), (back, middle + head)], fill=INK, width=round(fine), joint="curve")
 
 
 def _png(image: object) -> bytes:

@@ -41,6 +41,11 @@ class Sheet:
         self._pen = ImageDraw.Draw(self._image)
         self._pasted: list[tuple[Image.Image, tuple[int, int]]] = []
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Its width and height in pixels."""
+        return self._size
+
     def part(self, x: float, y: float, unit: float = 1.0) -> Self:
         """The same sheet, measured from another point with another unit."""
         part = copy.copy(self)

@@ -10,6 +10,7 @@ import numpy as np
 
 from lsys_kit.files import KIT_MARK
 from lsys_kit.geometry.scene import Floats
+from lsys_kit.pictures.sizes import Size, enlargement
 from lsys_kit.pictures.style.palette import INK, QUIET
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ class SphereShapes(NamedTuple):
     step: int
 
 
-def spheres_file(spheres: Sequence[SphereShapes], title: str, kind: str) -> bytes:
+def spheres_file(spheres: Sequence[SphereShapes], title: str, kind: str, size: Size | None = None) -> bytes:
     """The bytes of a "png" or "pdf" picture of spheres side by side."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -49,10 +50,11 @@ def spheres_file(spheres: Sequence[SphereShapes], title: str, kind: str) -> byte
         _paint(ax, each, APART * place, radius)
     ax.set(xlim=(-APART / 2, APART * (len(spheres) - 0.5)), ylim=(-1.4, 1.1), aspect="equal")
     ax.set_axis_off()
+    dots = DOTS if size is None else enlargement(float(sheet.get_figwidth()), float(sheet.get_figheight()), size)
     buffer = io.BytesIO()
     facts = {"CreationDate": None, "Title": title, "Creator": KIT_MARK.decode()} if kind == "pdf" else {"Title": title}
     with rc_context({"pdf.fonttype": 42}):
-        sheet.savefig(buffer, format=kind, dpi=DOTS, metadata=facts)
+        sheet.savefig(buffer, format=kind, dpi=dots, metadata=facts)
     return buffer.getvalue()
 
 

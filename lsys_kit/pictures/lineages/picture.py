@@ -25,7 +25,7 @@ from lsys_kit.pictures.frames import MARGIN, WIDTH
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.style.labels import svg_label, values_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
-from lsys_kit.pictures.svg import background, document
+from lsys_kit.pictures.svg import background, document, resized
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
@@ -55,7 +55,7 @@ class LineagePicture(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
-            return drawn_lineage(self.lineage, self.intervals)
+            return resized(drawn_lineage(self.lineage, self.intervals), self.pixels)
 
     def __repr__(self) -> str:
         return f"lineage of {self.lineage}"

@@ -1,0 +1,169 @@
+"""Small multiples: several steps, or plants of several seeds, side by side on one scale, each with a caption.
+
+Source: E. R. Tufte, The Visual Display of Quantitative Information, 1983, on small multiples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from pathlib import Path
+from typing import NamedTuple
+
+from lsys_kit.budget import Task, current
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.files import marked_png, marked_xml
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.formats.sheet import Sheet
+from lsys_kit.pictures.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
+from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.sizes import enlargement, final_size
+from lsys_kit.pictures.style.palette import QUIET
+from lsys_kit.pictures.svg import background, described, document, resized, turtle_svg
+
+WIDTH, HEIGHT = 760, 540
+"""The greatest size of a picture, in pixels."""
+GAP, CAPTION, TEXT, LOWER = 30, 44, 13, 22
+"""The space between two drawings, that below one, the size of its caption there and how far below the ground it stands, in
+pixels."""
+LARGEST_SCALE = 120.0
+"""Pixels of a unit, at most."""
+MOST = 36
+"""The greatest number of drawings in a picture."""
+
+
+class Panel(NamedTuple):
+    """Where a drawing lies: its frame in the whole picture, the middle of its cell, and its ground, in pixels."""
+
+    frame: ViewFrame
+    middle: float
+    ground: float
+
+
+@dataclass(frozen=True)
+class SmallMultiples(SVGPicture):
+    """Drawings side by side.
+
+    Attributes
+    ----------
+    pictures
+        The drawings, seen from the same side.
+    captions
+        For each what stands below it.
+    columns
+        How many stand in a line; 0 for as many as make them largest.
+    """
+
+    pictures: Sequence[Picture]
+    captions: Sequence[str]
+    columns: int = 0
+
+    @cached_property
+    def text(self) -> str:
+        """What the picture shows, in words."""
+        return described([f"{self.captions[0]} to {self.captions[-1]}", f"the last: {self.pictures[-1].text}"])
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text."""
+        with Task("The picture was not drawn"):
+            _check_shapes(self.pictures)
+            panels = arranged([each.scene for each in self.pictures], self.columns)
+            frame = panels[0].frame
+            body = "".join(_panel_svg(*each) for each in zip(self.pictures, panels, self.captions, strict=True))
+            whole = document(background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text,
+                             frame.parts)
+            return resized(whole, self.pixels)
+
+    @cached_property
+    def png(self) -> bytes:
+        """The picture as PNG."""
+        with Task("The picture was not drawn"):
+            panels = arranged([each.scene for each in self.pictures], self.columns)
+            width, height = panels[0].frame.width, panels[0].frame.height
+            enlarged = enlargement(width, height, self.pixels)
+            paper = Sheet(*final_size(width, height, self.pixels))
+            left, top = (max(0.0, room - side * enlarged) / 2 for room, side in zip(paper.size, (width, height), strict=True))
+            sheet = paper.part(left, top, enlarged)
+            for picture, panel, caption in zip(self.pictures, panels, self.captions, strict=True):
+                own = own_frame(picture.scene, panel.frame.scale)
+                image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
+                sheet.picture(panel.middle - own.width / 2, panel.ground - own.height + MARGIN, image)
+                sheet.centred(panel.middle, panel.ground + LOWER, caption, TEXT, QUIET)
+            return paper.png
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture to an .svg or .png file.
+
+        Raises
+        ------
+        ModelFileError
+            The extension is unknown, or the file cannot be written.
+        """
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png)},
+                "Other formats take one drawing at a time.")
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def _check_shapes(pictures: Sequence[Picture]) -> None:
+    shapes, most = sum(each.size for each in pictures), current().segments
+    if shapes > most:
+        raise ModelLimitError(f"The picture would have {shapes:,} shapes; the limit is {most:,}", limit=most, needed=shapes,
+                              hint="Take fewer steps, keep the picture as .png, or set limits(segments=...).")
+
+
+def own_frame(scene: Scene, scale: float) -> ViewFrame:
+    """The frame of a drawing by itself, on a given scale."""
+    left, bottom, right, top = painted_box(scene)
+    return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
+
+
+def arranged(scenes: Sequence[Scene], columns: int = 0) -> list[Panel]:
+    """The places of drawings, on the greatest scale on which all fit: in lines of as many, on a common ground.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> from lsys_kit.notation.read import read
+    >>> plants = [scene_of(derive(read("axiom: F\\nF -> FF"), step)) for step in (1, 2)]
+    >>> [(round(panel.middle), round(panel.ground), panel.frame.scale) for panel in arranged(plants)]
+    [(12, 484, 118.0), (42, 484, 118.0)]
+    """
+    boxes = [painted_box(scene) for scene in scenes]
+    wide, high = max(right - left for left, _, right, _ in boxes), max(top - bottom for _, bottom, _, top in boxes)
+    choices = [columns] if columns else range(len(boxes), 0, -1)
+    columns = max(choices, key=lambda many: _scale(wide, high, len(boxes), many))
+    scale = _scale(wide, high, len(boxes), columns)
+    lines = -(-len(boxes) // columns)
+    across, down = wide * scale + GAP, high * scale + CAPTION
+    width, height = round(columns * across - GAP) + 2 * MARGIN, round(lines * down) + 2 * MARGIN
+    parts = max(in_fine_parts(own_frame(scene, scale), scene).parts for scene in scenes)
+    panels = []
+    for number, (left, bottom, right, _) in enumerate(boxes):
+        line, column = divmod(number, columns)
+        middle, ground = MARGIN + column * across + wide * scale / 2, MARGIN + line * down + high * scale
+        corner = (left + right) / 2 - (middle - MARGIN) / scale, bottom + (ground - MARGIN) / scale
+        panels.append(Panel(ViewFrame(scale, *corner, width, height, parts), middle, ground))
+    return panels
+
+
+def _scale(wide: float, high: float, many: int, columns: int) -> float:
+    """The pixels of a unit with which so many drawings fit into a picture, in so many columns."""
+    lines = -(-many // columns)
+    across = (WIDTH - 2 * MARGIN + GAP) / columns - GAP
+    down = (HEIGHT - 2 * MARGIN) / lines - CAPTION
+    return min(across / max(wide, 1e-9), down / max(high, 1e-9), LARGEST_SCALE)
+
+
+def _panel_svg(picture: Picture, panel: Panel, caption: str) -> str:
+    """A drawing with its caption."""
+    parts = panel.frame.parts
+    return (f"{turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked)}"
+            f'<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" font-size="{TEXT * parts}" '
+            f'text-anchor="middle" font-family="sans-serif" fill="{QUIET}">{escape(caption)}</text>')
