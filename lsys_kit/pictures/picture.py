@@ -21,11 +21,12 @@ from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
-from lsys_kit.pictures.formats import raster
 from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
+from lsys_kit.pictures.formats.filament_raster import rows_png
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.raster import turtle_png
 from lsys_kit.pictures.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
@@ -104,8 +105,8 @@ class Picture(SVGPicture):
         """The picture as PNG, without text."""
         with Task("The picture was not drawn"):
             if len(self.scene.cells):
-                return raster.rows_png(self.rows, self.look, self.colour_of, self.pixels)
-            return raster.turtle_png(self.scene, self.colour_of, self.pixels)
+                return rows_png(self.rows, self.look, self.colour_of, self.pixels)
+            return turtle_png(self.scene, self.colour_of, self.pixels)
 
     @cached_property
     def mesh(self) -> Mesh:

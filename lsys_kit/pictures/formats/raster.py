@@ -15,17 +15,15 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.budget import check_bytes, counted
+from lsys_kit.budget import check_bytes, counted, current
 from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.pictures.display_list import AREA, NO_COLOUR, ROUND, Areas, DisplayList, Lines, Rounds, colours_and_widths
-from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
 from lsys_kit.pictures.formats.line_raster import Coordinates, Grid, spread, touched
-from lsys_kit.pictures.frames import MARGIN, WIDTH, ViewFrame, frame_around
+from lsys_kit.pictures.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
-from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
-from lsys_kit.pictures.svg import FilamentRow
+from lsys_kit.pictures.style.palette import PAPER
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -37,8 +35,6 @@ FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""
 POINT_BYTES = 16
 """About what a point of the fine grid takes in memory."""
-CELLS_A_PIXEL = 16
-"""Of more cells than this in one pixel, the others cannot be seen."""
 FLOAT32_RANGE = 1e30
 """Coordinates up to this can be computed in single precision."""
 
@@ -50,7 +46,7 @@ def turtle_png(scene: Scene, colour_of: Mapping[int, str], size: Size | None = N
     """A scene of a turtle as PNG."""
     frame = frame_around([scene])
     image = turtle_image(scene, colour_of, frame, enlargement(frame.width, frame.height, size))
-    return _png(centred(image, final_size(frame.width, frame.height, size)))
+    return encoded(centred(image, final_size(frame.width, frame.height, size)))
 
 
 def centred(image: Image, size: tuple[int, int]) -> Image:
@@ -59,6 +55,7 @@ def centred(image: Image, size: tuple[int, int]) -> Image:
 
     if image.size == size:
         return image
+    check_bytes(3 * size[0] * size[1], lambda: "The picture was not drawn")
     paper = Image.new("RGB", size, PAPER)
     paper.paste(image, ((size[0] - image.width) // 2, (size[1] - image.height) // 2))
     return paper
@@ -73,33 +70,46 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame, e
     """
     from PIL import Image
 
-    shapes, grid = display_list(scene, frame.scale, colour_of), FineGrid(frame, FINE * enlarged)
-    check_bytes(POINT_BYTES * grid.width * grid.height, lambda: "The picture was not drawn")
+    shapes = display_list(scene, frame.scale, colour_of)
+    grid = FineGrid(frame, enlarged, samples_for(frame.width * enlarged, frame.height * enlarged))
     across, down = _pixels(shapes.lines.ends, scene, grid)
     spread_out = _spread_out(shapes, grid.fine)
     seen = _painted_in_turn(shapes, grid, across, down, spread_out)
     _paint_at_once(seen, shapes, across, down, spread_out)
     pixels = _colours(shapes)[seen]
     _shade_spheres(pixels, seen, shapes, grid)
-    return Image.fromarray(pixels).resize((grid.width // FINE, grid.height // FINE), Image.Resampling.BOX)
+    return Image.fromarray(pixels).resize((grid.width // grid.samples, grid.height // grid.samples), Image.Resampling.BOX)
+
+
+def samples_for(width: float, height: float) -> int:
+    """The supersampling factor of an image: less than usual for one of so many pixels that memory would not do."""
+    needed = [POINT_BYTES * round(width * height) * samples ** 2 for samples in range(1, FINE + 1)]
+    check_bytes(needed[0], lambda: "The picture was not drawn")
+    return sum(size <= current().bytes for size in needed)
 
 
 @dataclass(frozen=True)
 class FineGrid:
-    """A grid of points over a frame, so many in each direction of its pixels."""
+    """A grid of points over a frame that is enlarged, so many in each direction of a pixel."""
 
     frame: ViewFrame
-    fine: float
+    enlarged: float
+    samples: int
+
+    @property
+    def fine(self) -> float:
+        """The points in each direction of a pixel of the frame."""
+        return self.enlarged * self.samples
 
     @property
     def width(self) -> int:
         """How many points it has across, a multiple of those in a pixel of the image."""
-        return round(self.frame.width * self.fine / FINE) * FINE
+        return round(self.frame.width * self.enlarged) * self.samples
 
     @property
     def height(self) -> int:
         """How many points it has from the top to the bottom."""
-        return round(self.frame.height * self.fine / FINE) * FINE
+        return round(self.frame.height * self.enlarged) * self.samples
 
     def points(self, coordinates: Floats) -> Coordinates:
         """Places on it, rounded to parts of a pixel as in other formats."""
@@ -150,7 +160,7 @@ def _line_painter(lines: Lines, fine: float, across: Coordinates, down: Coordina
 def _area_painter(areas: Areas, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
     """A function that paints a polygon, inside with a number and its edge, if it has one, with the next."""
     corners, ends = grid.points(areas.points).ravel().tolist(), (2 * areas.starts).tolist()
-    edges, edge = (areas.edges != NO_COLOUR).tolist(), round(2 * grid.fine / FINE)
+    edges, edge = (areas.edges != NO_COLOUR).tolist(), max(1, round(2 * grid.fine / FINE))
 
     def paint(which: int, number: int) -> None:
         points = corners[ends[which]:ends[which + 1]]
@@ -164,7 +174,7 @@ def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePaint
     """The same for discs."""
     middles, radii = grid.points(rounds.centres).tolist(), rounds.radii.tolist()
     fills, edges = (rounds.fills != NO_COLOUR).tolist(), (rounds.edges != NO_COLOUR).tolist()
-    edge = round(grid.fine)
+    edge = max(1, round(grid.fine))
 
     def paint(which: int, number: int) -> None:
         (x, y), reach = middles[which], max(2.0, radii[which] * grid.frame.scale * grid.fine)
@@ -249,43 +259,8 @@ def _paint_at_once(seen: Grid, shapes: DisplayList, across: Coordinates, down: C
             np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
 
 
-def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str],
-             size: Size | None = None) -> bytes:
-    """Filaments below one another, with a common scale, as a PNG picture."""
-    from PIL import Image, ImageDraw
-
-    sheet = filament_layout(rows, written=False)
-    wide, high = (round(side * enlargement(WIDTH, sheet.height, size)) for side in (WIDTH, sheet.height))
-    fine = FINE * enlargement(WIDTH, sheet.height, size)
-    check_bytes(POINT_BYTES * wide * high * FINE ** 2, lambda: "The picture was not drawn")
-    image = Image.new("RGB", (wide * FINE, high * FINE), PAPER)
-    pen = ImageDraw.Draw(image)
-    for place, row in enumerate(rows):
-        middle = sheet.middle(place) * fine
-        for cell in counted(sheet.cells(row, CELLS_A_PIXEL)):
-            _cell(pen, cell, fine, look, middle, colour_of.get(cell.state, GREEN))
-        for wall in counted(sheet.walls(row, CELLS_A_PIXEL)):
-            reach, colour = (wall.height + 2) * fine, wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
-            pen.line([(wall.x * fine, middle - reach), (wall.x * fine, middle + reach)], fill=colour,
-                     width=round(wall_width(wall.shade) * fine))
-    return _png(centred(image.resize((wide, high), Image.Resampling.BOX), final_size(WIDTH, sheet.height, size)))
-
-
-def _cell(pen: ImageDraw, cell: DrawnCell, fine: float, look: str, middle: float, colour: str) -> None:
-    x, length, width = cell.x * fine, cell.length * fine, cell.width * fine
-    box, fill = (x - length, middle - width, x + length, middle + width), tinted(colour, 0.28 + 0.6 * cell.shade)
-    if look == "ellipses":
-        pen.ellipse(box, outline=colour, fill=fill, width=round(fine))
-    else:
-        pen.rounded_rectangle(box, min(length, width), outline=colour, fill=fill, width=round(fine))
-    if length > 7 * fine / FINE and cell.way:
-        tip, head = x + 0.55 * length * cell.way, 0.3 * min(length, width)
-        back = tip - head * cell.way
-        pen.line([(2 * x - tip, middle), (tip, middle)], fill=INK, width=round(fine))
-        pen.line([(back, middle - head), (tip, middle), (back, middle + head)], fill=INK, width=round(fine), joint="curve")
-
-
-def _png(image: object) -> bytes:
+def encoded(image: object) -> bytes:
+    """An image as PNG."""
     buffer = io.BytesIO()
     image.save(buffer, "PNG")  # type: ignore[attr-defined]
     return buffer.getvalue()
