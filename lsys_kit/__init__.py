@@ -19,7 +19,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lsys_kit.budget import limits
-    from lsys_kit.classroom.catalogue import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
+    from lsys_kit.classroom.catalogue import (
+        book_systems,
+        cellwork_system,
+        cellwork_systems,
+        map_system,
+        map_systems,
+        system,
+        systems,
+    )
     from lsys_kit.classroom.exercises.check import check
     from lsys_kit.classroom.exercises.practice.practice import practice
     from lsys_kit.classroom.exercises.progress import progress
@@ -64,7 +72,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "LSystemError": "errors", "ModelFileError": "errors", "ModelLimitError": "errors", "ModelNameError": "errors",
     "ModelSyntaxError": "errors", "ModelValueError": "errors", "animate": "pictures.films",
-    "cellwork_system": "classroom.catalogue", "cellwork_systems": "classroom.catalogue",
+    "book_systems": "classroom.catalogue", "cellwork_system": "classroom.catalogue", "cellwork_systems": "classroom.catalogue",
     "check": "classroom.exercises.check", "compare": "classroom.panel.comparison",
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "draw_hierarchy": "pictures.hierarchy",
@@ -92,6 +100,7 @@ __all__ = [
     "ModelValueError",
     "Table",
     "animate",
+    "book_systems",
     "cellwork_system",
     "cellwork_systems",
     "check",

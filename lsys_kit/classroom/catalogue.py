@@ -1,5 +1,7 @@
 """The catalogue: L-systems in the folder `systems`, map systems in `maps`, cellwork systems in `cellworks`, a TOML file each.
 
+Beside them, in the folder `book`, stand the figures of The Algorithmic Beauty of Plants, whose ids are their numbers there.
+
 A file holds the rules in their own notation, where they were printed, what is wrong in print, and the words that must come
 out. A system is asked for by its id, which is the name of its file, or by its telling name. A file is read when its system is
 first asked for; all files are read when a name, not an id, is first looked up.
@@ -27,9 +29,9 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 
-SYSTEMS, MAPS, CELLWORKS = "systems", "maps", "cellworks"
+SYSTEMS, BOOK, MAPS, CELLWORKS = "systems", "book", "maps", "cellworks"
 """The folders."""
-_KINDS = {SYSTEMS: ("an L-system", "system"), MAPS: ("a map system", "map_system"),
+_KINDS = {SYSTEMS: ("an L-system", "system"), BOOK: ("an L-system", "system"), MAPS: ("a map system", "map_system"),
           CELLWORKS: ("a cellwork system", "cellwork_system")}
 """What each folder holds, and the function that returns it."""
 WORKS = MappingProxyType({
@@ -38,6 +40,7 @@ WORKS = MappingProxyType({
     "Prusinkiewicz": "P. Prusinkiewicz, Introduction to Modeling with L-systems",
     "Kurth": "W. Kurth, L-Systeme (lecture slides)",
     "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
+    "ABOP": "P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants",
 })
 """The works from which the systems come, in the order in which the catalogue lists them."""
 MOST_LISTED = 40
@@ -107,7 +110,7 @@ def system(id: str) -> LSystem:
     Parameters
     ----------
     id
-        One of `systems()`, or the name listed beside it.
+        One of `systems()` or `book_systems()`, or the name listed beside it.
 
     Raises
     ------
@@ -122,8 +125,10 @@ def system(id: str) -> LSystem:
     ar -> al br
     >>> system("anabaena-life-spans") == system("J4")
     True
+    >>> print(system("ABOP-1.24a").productions[0])
+    F -> F[+F]F[-F]F
     """
-    return _parsed_system(_known(id, SYSTEMS))
+    return _parsed_system(_known(id, SYSTEMS, BOOK))
 
 
 def map_system(id: str) -> MapSystem:
@@ -154,6 +159,20 @@ def systems() -> Catalogue:
       J1   anabaena-polarity                Anabaena catenula: long and short cells with a polarity
     """
     return _catalogue(SYSTEMS)
+
+
+def book_systems() -> Catalogue:
+    """The figures of The Algorithmic Beauty of Plants (1990) of which the catalogue has the L-systems, by their numbers.
+
+    Their rules are read as they are printed; `system` returns each.
+
+    >>> "ABOP-1.24a" in book_systems()
+    True
+    >>> print("\\n".join(repr(book_systems()).splitlines()[:2]))
+    P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants
+      ABOP-1.6   quadratic-koch-island     Quadratic Koch island
+    """
+    return _catalogue(BOOK)
 
 
 def map_systems() -> Catalogue:
@@ -214,23 +233,23 @@ def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
     >>> likely_system("anabaena-lifespans")
     'Did you mean "anabaena-life-spans"?'
     """
-    return _suggestion(id, SYSTEMS, others)
+    return _suggestion(id, (SYSTEMS, BOOK), others)
 
 
-def _known(id: str, folder: str) -> str:
-    """The id as the catalogue writes it, of a system that is asked for by its id or its name."""
+def _known(id: str, *folders: str) -> str:
+    """The id as the catalogue writes it, of a system in one of the folders that is asked for by its id or its name."""
     if not isinstance(id, str):
         raise ModelValueError(f'The id or name of a system must be a text such as "P4", not {type(id).__name__}')
-    known = _id_of(id, folder)
+    known = next(filter(None, (_id_of(id, folder) for folder in folders)), None)
     if known is not None:
         return known
     for other, (kind, function) in _KINDS.items():
         elsewhere = _id_of(id, other)
         if elsewhere is not None:
-            raise ModelValueError(f"{elsewhere} is {kind}, not {_KINDS[folder][0]}",
+            raise ModelValueError(f"{elsewhere} is {kind}, not {_KINDS[folders[0]][0]}",
                                   hint=f'It is returned by {function}("{elsewhere}").')
     shown = id if len(id) <= 30 else f"{id[:30]}..."
-    hint = _suggestion(id, folder) or _listed(sorted(_ids(folder).values(), key=_natural))
+    hint = _suggestion(id, folders) or _listed(sorted(_ids(folders[0]).values(), key=_natural))
     raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)
 
 
@@ -246,10 +265,11 @@ def _id_of(id: str, folder: str) -> str | None:
     return _ids(folder).get(spelt) or (_ids_by_name(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
 
 
-def _suggestion(id: str, folder: str, others: Iterable[str] = ()) -> str | None:
+def _suggestion(id: str, folders: Iterable[str], others: Iterable[str] = ()) -> str | None:
     """A hint that names an id or else a name that is spelt alike; ids are in capitals and names are not."""
-    return (suggestion(id[:40], [*others, *_ids(folder).values()]) or suggestion(id[:40].upper(), _ids(folder).values())
-            or suggestion(id[:40].lower(), _ids_by_name(folder)))
+    ids = [known for folder in folders for known in _ids(folder).values()]
+    names = [name for folder in folders for name in _ids_by_name(folder)]
+    return suggestion(id[:40], [*others, *ids]) or suggestion(id[:40].upper(), ids) or suggestion(id[:40].lower(), names)
 
 
 @cache
@@ -290,7 +310,10 @@ def _parsed_map(id: str) -> MapSystem:
     return read_map(_entry(id).rules)
 
 
-def _natural(id: str) -> tuple[str, int, str]:
-    """Sorts P2 before P10, and P9 before P9w."""
-    letters, digits, rest = re.fullmatch(r"(\D*)(\d*)(\D*)", id).groups()  # type: ignore[union-attr]
-    return letters, int(digits or 0), rest
+def _natural(id: str) -> list[str | int]:
+    """Sorts P2 before P10, P9 before P9w, and ABOP-1.9a before ABOP-1.24a.
+
+    >>> _natural("P9w")
+    ['P', 9, 'w']
+    """
+    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", id)]
