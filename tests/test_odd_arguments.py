@@ -50,7 +50,8 @@ ODD: Mapping[str, object] = {
 GROWING = read("c = 1\naxiom: a\na -> a b(c)\nb(x) -> b(x)")
 AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
-    "animate": lambda: (GROWING, 1), "check": lambda: ("1.1", "al"), "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
+    "animate": lambda: (GROWING, 1), "book_systems": tuple, "check": lambda: ("1.1", "al"),
+    "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
     "derive": lambda: (GROWING, 1), "exercises": tuple,
     "practice": lambda: ("derive", 1, 1), "score": lambda: ("1.1",), "draw": lambda: (GROWING, 1), "draw_hierarchy": tuple,
     "cellwork_system": lambda: ("K33",), "compare": lambda: (GROWING, GROWING), "link": lambda: (GROWING, {"step": 1}),

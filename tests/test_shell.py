@@ -544,10 +544,10 @@ def loaded_by(code: str) -> set[str]:
 
 
 def test_list_names_every_system(shell):
-    from lsys_kit import cellwork_systems, map_systems, systems
+    from lsys_kit import book_systems, cellwork_systems, map_systems, systems
 
     rows = [line.split()[0] for line in shell("list").out.splitlines() if line.startswith("  ")]
-    assert rows == [*systems(), *map_systems(), *cellwork_systems()]
+    assert rows == [*systems(), *book_systems(), *map_systems(), *cellwork_systems()]
 
 
 def test_draw_draws_maps_too(shell, tmp_path):

@@ -28,9 +28,9 @@ FILMS = (".gif", ".apng")
 
 def list_systems(_: argparse.Namespace) -> None:
     """Print the catalogue: ids, names and titles, under the works from which the systems come."""
-    from lsys_kit import cellwork_systems, map_systems, systems
+    from lsys_kit import book_systems, cellwork_systems, map_systems, systems
 
-    print(f"{systems()!r}\n\nMap systems\n{map_systems()!r}\n\nCellwork systems\n{cellwork_systems()!r}")
+    print(f"{systems()!r}\n{book_systems()!r}\n\nMap systems\n{map_systems()!r}\n\nCellwork systems\n{cellwork_systems()!r}")
 
 
 def print_words(options: argparse.Namespace) -> None:

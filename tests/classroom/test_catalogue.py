@@ -6,7 +6,8 @@ from itertools import pairwise
 import pytest
 
 from lsys_kit import derive, draw, explore, read, stages, timed, write
-from lsys_kit.classroom.catalogue import WORKS, Entry, entry, system, systems
+from lsys_kit.classroom.catalogue import entry, system, systems
+from lsys_kit.classroom.catalogue_entry import WORKS, Entry
 from lsys_kit.geometry.filament import filament
 
 STAGES = {"S": 1, "L": 2, "A": 3, "B": 4, "C": 5}

@@ -72,9 +72,10 @@ def system_text(chance: random.Random) -> str:
 @cache
 def catalogue() -> tuple[Any, ...]:
     """All systems of the catalogue."""
-    from lsys_kit import cellwork_system, cellwork_systems, map_system, map_systems, system, systems
+    from lsys_kit import book_systems, cellwork_system, cellwork_systems, map_system, map_systems, system, systems
 
-    return (*map(system, systems()), *map(map_system, map_systems()), *map(cellwork_system, cellwork_systems()))
+    flat = (*systems(), *book_systems())
+    return (*map(system, flat), *map(map_system, map_systems()), *map(cellwork_system, cellwork_systems()))
 
 
 def some_system(chance: random.Random) -> Any:
@@ -104,10 +105,10 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 
 
 FUNCTIONS = (
-    "animate", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy", "ensemble", "exercises",
-    "explain", "explore", "figure", "growth", "lineage", "link", "linked", "map_system", "map_systems", "plot", "pnml",
-    "practice", "predict", "progress", "qr_code", "read", "read_cellwork", "read_map", "score", "stages", "sweep", "system",
-    "systems", "timed", "variants", "vote", "worksheet", "write",
+    "animate", "book_systems", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy",
+    "ensemble", "exercises", "explain", "explore", "figure", "growth", "lineage", "link", "linked", "map_system",
+    "map_systems", "plot", "pnml", "practice", "predict", "progress", "qr_code", "read", "read_cellwork", "read_map", "score",
+    "stages", "sweep", "system", "systems", "timed", "variants", "vote", "worksheet", "write",
 )
 """The public functions; `limits` is about each of them."""
 

@@ -33,7 +33,7 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
-_ID = re.compile(r"[\w-]+")
+_ID = re.compile(r"[\w-]+(\.[\w-]+)?")
 
 
 def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
