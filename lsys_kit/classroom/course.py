@@ -1,4 +1,4 @@
-"""The course: lessons, exercises and references, copied into a folder that belongs to the user.
+"""The course: lessons, exercises, a gallery and references, copied into a folder that belongs to the user.
 
 What a student has written is never overwritten. A manifest in the folder holds the SHA-256 of each file that was copied: a
 file that still matches is untouched, and a newer version of the kit may update it. Any other file is the student's own; a newer
@@ -23,15 +23,14 @@ from lsys_kit.errors import ModelFileError
 from lsys_kit.files import replace_file
 
 COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
-"""The folders of the course: lessons, exercises, and the live references of notations and turtle commands. The teacher's pages,
-in `notebooks/teacher`, are not for students and never copied."""
-LESSONS = "notebooks"
-"""The folder of those that a student gets without what they show."""
+"""The folders of the course: lessons with the gallery, exercises, and the live references of notations and turtle commands. The
+teacher's pages, in `notebooks/teacher`, are not for students and never copied."""
 FOLDER = "lsys_kit_course"
 """The default folder of the user."""
 MANIFEST = ".lsys_kit_course.json"
 MOST_MANIFEST = 1_000_000
 """The greatest size of a manifest that is read; those written here are far smaller."""
+_LESSON = re.compile(r"notebooks/\d\d_[A-Za-z0-9_-]+\.ipynb")
 _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
 
 
@@ -66,6 +65,15 @@ def course_files(source: Path | None = None) -> dict[str, Path]:
         raise ModelFileError(f"The course is missing from the installation of the kit, {source}",
                              hint="Install lsys-kit again.")
     return found
+
+
+def is_lesson(name: str) -> bool:
+    """Whether a file of the course is a lesson, which has a number.
+
+    >>> is_lesson("notebooks/01_all_at_once.ipynb"), is_lesson("notebooks/gallery.ipynb")
+    (True, False)
+    """
+    return _LESSON.fullmatch(name) is not None
 
 
 def _home() -> Path:
@@ -123,7 +131,7 @@ def copy_report(folder: str | Path, copied: tuple[Copied, ...]) -> str:
 def _content(name: str, path: Path) -> bytes:
     """What is copied of a file: a lesson without what it shows, anything else as it is."""
     content = path.read_bytes()
-    return students_copy(content) if name.rpartition("/")[0] == LESSONS and name.endswith(".ipynb") else content
+    return students_copy(content) if is_lesson(name) else content
 
 
 def _made_folder(path: Path) -> None:

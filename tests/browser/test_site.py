@@ -16,7 +16,7 @@ import pytest
 from playwright.sync_api import Browser, Page, Route, expect
 
 from lsys_kit import read
-from lsys_kit.classroom.course import course_files
+from lsys_kit.classroom.course import course_files, is_lesson
 from lsys_kit.classroom.lessons.declared import declared
 from lsys_kit.classroom.lessons.settings import asked_settings
 from lsys_kit.classroom.panel.books.book import book
@@ -29,7 +29,7 @@ from tests.browser.test_lessons import move_every_slider
 pytestmark = pytest.mark.slow
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 PAGES = ["index.html", *(name.replace(".ipynb", ".html") for name in course_files() if name.endswith(".ipynb"))]
-LESSONS = [name for name in PAGES if name.startswith("notebooks/") and "reference" not in name]
+LESSONS = [name.replace(".ipynb", ".html") for name in course_files() if is_lesson(name)]
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ COURSE = (
 
 def test_the_course_has_nineteen_lessons_each_with_notebook_page_and_exercises() -> None:
     assert names() == COURSE
-    assert tuple(sorted(path.stem for path in LESSONS.glob("*.ipynb"))) == COURSE
+    assert tuple(sorted(path.stem for path in LESSONS.glob("[0-9][0-9]_*.ipynb"))) == COURSE
     assert tuple(sorted(path.stem for path in TEACHER.glob("*.md"))) == COURSE
     assert tuple(sorted(each.name for each in exercises())) == COURSE
 

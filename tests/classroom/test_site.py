@@ -154,6 +154,17 @@ def test_the_first_page_has_each_lesson_with_what_it_asks_and_how_long_it_takes(
         assert said in text
 
 
+def test_the_gallery_is_on_the_first_page_and_is_no_lesson() -> None:
+    gallery = Entry("notebooks/gallery.ipynb", "Gallery")
+    lessons, others = index_page([*ENTRIES, gallery]).split('<h2 id="reference">')
+    assert 'href="notebooks/gallery.html"' in others
+    assert "gallery" not in lessons
+    page = notebook_page(gallery, [new_markdown_cell("# Gallery")], [*ENTRIES, gallery])
+    assert "Votes and tables" not in page
+    assert 'class="before"' not in page
+    assert "gallery" not in notebook_page(ENTRIES[1], [new_markdown_cell("# More")], [*ENTRIES, gallery])
+
+
 def test_the_title_is_the_first_heading() -> None:
     assert title_of([new_markdown_cell("text\n\n# The *K5* `plant`\n\n# Not this")], "x") == "The K5 plant"
 

@@ -1,4 +1,4 @@
-"""The pages of the site: a lesson, its exercises, a reference, and the course with all of them."""
+"""The pages of the site: a lesson, its exercises, the gallery, a reference, and the course with all of them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import PurePosixPath
 from posixpath import relpath
 from typing import Any
 
+from lsys_kit.classroom.course import is_lesson
 from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
 from lsys_kit.classroom.lessons.widget import prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import compact, style
@@ -86,8 +87,8 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) 
 
 def index_page(entries: Sequence[Entry]) -> str:
     """The first page: the lessons with their questions, and what belongs to them."""
-    lessons = [each for each in entries if each.folder == "notebooks"]
-    others = [each for each in entries if each.folder == "notebooks/reference"]
+    lessons = [each for each in entries if is_lesson(each.name)]
+    others = [each for each in entries if each.folder != "exercises" and each not in lessons]
     rows = "".join(_lesson_row(each, entries) for each in lessons)
     references = "".join(f'<li><a href="{escaped(each.page)}">{escaped(each.title)}</a></li>\n' for each in others)
     tracks = ", ".join(f'<span class="track">{letter}</span> {text}' for letter, text in TRACKS.items())
@@ -101,7 +102,7 @@ look, move a slider, change a rule.</p>
 <p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
 <ol class="lessons">
 {rows}</ol>
-<h2 id="reference">To look things up</h2>
+<h2 id="reference">To look at, and to look things up</h2>
 <ul>
 {references}</ul>
 </main>
@@ -134,7 +135,9 @@ def _checks(source: str) -> bool:
 
 def _note(entry: Entry) -> str:
     """What is said on a page of what can be done on it."""
-    return {"notebooks": _KEPT, "exercises": _HOW.format(name=escaped(entry.name))}.get(entry.folder, "")
+    if entry.folder == "exercises":
+        return _HOW.format(name=escaped(entry.name))
+    return _KEPT if is_lesson(entry.name) else ""
 
 
 def _above(entry: Entry) -> str:
@@ -151,7 +154,7 @@ def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
 
 def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
     """Where one may go on from a page: how the link looks, what it is called, the page."""
-    alike = [each for each in entries if each.folder == entry.folder]
+    alike = [each for each in entries if each.folder == entry.folder and is_lesson(each.name) == is_lesson(entry.name)]
     place = alike.index(entry)
     if place:
         yield "before", "Before", alike[place - 1]
