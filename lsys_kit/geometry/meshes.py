@@ -1,12 +1,13 @@
 """Meshes: the shapes of a scene as triangles in space, for file formats and viewers.
 
-A stroke is a tapered prism with eight sides, closed at both ends, from the width of the stroke before it to its own. A polygon
-stays flat, a sphere is a subdivided icosahedron, a cell is an ellipsoid. A scene in the plane is set upright.
+Strokes that follow one another are a tube with eight sides, or five where it is thin, closed at both ends; each tapers from
+the width of the stroke before it to its own. A polygon stays flat, a sphere is a subdivided icosahedron, a cell is an
+ellipsoid. A scene in the plane is set upright.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -15,8 +16,9 @@ import numpy as np
 from lsys_kit.budget import check_bytes, counted, current
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
-from lsys_kit.geometry.solids import SIDES, Numbers, Singles, Solid, ball, circle, disc, prism_triangles
+from lsys_kit.geometry.solids import SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
 from lsys_kit.geometry.triangulation import triangulate
+from lsys_kit.geometry.tubes import Rings, blocks, by_width, connected, rings, triangles
 
 LARGEST_COORDINATE = 1e37
 """Greater coordinates cannot be computed in single precision."""
@@ -29,8 +31,8 @@ MOST_CORNERS = 10_000
 """A polygon with more corners takes too long to triangulate."""
 VERTEX_BYTES, TRIANGLE_BYTES = 80, 36
 """About what a vertex and a triangle take while a mesh is made."""
-SHAPES_AT_A_TIME = 2**12
-"""Strokes and copies of round shapes are computed in blocks of so many, with a look at the budget after each."""
+NEAR, THIN = 1e-9, 1 / 1000
+"""Points that are closer than this are one; strokes of this radius or less are thin; relative to the extent of the scene."""
 _SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
 
 
@@ -99,7 +101,7 @@ def mesh_of(scene: Scene) -> Mesh:
     centres, radii = _in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
     return _merged_meshes([
-        _tubes(scene.segments, _extent(scene)),
+        *_tubes(scene.segments, _extent(scene)),
         _faces(scene.polygons),
         _copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
         _copies(ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
@@ -110,7 +112,7 @@ def mesh_of(scene: Scene) -> Mesh:
 def _check_triangles(scene: Scene) -> None:
     vertices, needed = _size(scene)
     if needed > current().triangles:
-        raise ModelLimitError(f"The drawing would have {needed:,} triangles; the limit is {current().triangles:,}",
+        raise ModelLimitError(f"The drawing would have up to {needed:,} triangles; the limit is {current().triangles:,}",
                               limit=current().triangles, needed=needed,
                               hint="Take fewer steps, or set limits(triangles=...).")
     check_bytes(vertices * VERTEX_BYTES + needed * TRIANGLE_BYTES, lambda: "The mesh was not made")
@@ -154,28 +156,22 @@ def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
 # Strokes
 
 
-def _tubes(segments: Segments, reach: float) -> Mesh:
-    """Strokes as closed prisms with round shading."""
+def _tubes(segments: Segments, reach: float) -> list[Mesh]:
+    """Strokes as closed tubes with round shading, thick ones and thin ones."""
     points = _in_space(segments.points).reshape(-1, 2, 3)
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     there = lengths > 0
     widths = _widths(segments, lengths, reach)
     radii = np.stack([start_widths(segments, widths, reach), widths], axis=1)[there] / 2
-    ways = (points[:, 1] - points[:, 0])[there] / lengths[there, None]
-    ends, colours = points[there], np.broadcast_to(segments.colours, len(segments))[there]
-    vertices, normals = np.empty((2, len(ways), 2, SIDES, 3), np.float32)
-    for some in _blocks(len(ways)):
-        rings = _rings(ways[some])[:, None]
-        vertices[some] = ends[some, :, None] + radii[some, :, None, None] * rings
-        normals[some] = rings
-    firsts = np.arange(len(ways), dtype=np.uint32) * np.uint32(_SIDE)
-    return Mesh(vertices.reshape(-1, 3), normals.reshape(-1, 3), (firsts[:, None, None] + prism_triangles()).reshape(-1, 3),
-                np.repeat(segments.states[there], _SIDE), np.repeat(colours, _SIDE))
+    looks = np.column_stack([segments.states, np.broadcast_to(segments.colours, len(segments))])[there]
+    strokes = connected(points[there], radii, segments.orders[there], looks, reach * NEAR)
+    return [_tube_mesh(rings(some, sides))
+            for some, sides in zip(by_width(strokes, THIN * reach), (SIDES, THIN_SIDES), strict=True)]
 
 
-def _blocks(size: int) -> Iterator[slice]:
-    """So many shapes in blocks."""
-    return (slice(first, first + SHAPES_AT_A_TIME) for first in counted(range(0, size, SHAPES_AT_A_TIME), 1))
+def _tube_mesh(found: Rings) -> Mesh:
+    states, colours = np.repeat(found.looks, found.vertices.shape[1], axis=0).T
+    return Mesh(found.vertices.reshape(-1, 3), found.normals.reshape(-1, 3), triangles(found), states, colours)
 
 
 def _widths(segments: Segments, lengths: Floats, reach: float) -> Floats:
@@ -190,25 +186,13 @@ def start_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
     """The width of each stroke at its start: that of the last stroke of its branch that ends there, else its own."""
     if len(segments) < 2 or (widths == widths[0]).all():
         return widths
-    grid = np.rint(segments.points / (reach * 1e-9)).astype(np.int64).reshape(len(segments), 2, -1)
+    grid = np.rint(segments.points / (reach * NEAR)).astype(np.int64).reshape(len(segments), 2, -1)
     places = np.concatenate([np.column_stack([grid[:, end], segments.orders]) for end in (0, 1)])
     numbers = np.unique(places, axis=0, return_inverse=True)[1].reshape(2, -1)
     width_at = np.full(len(places), np.nan)
     width_at[numbers[1]] = widths
     found = width_at[numbers[0]]
     return np.where(np.isnan(found), widths, found)
-
-
-def _rings(ways: Floats) -> Floats:
-    """For each direction the radial directions of the edges of its prism, shape (n, SIDES, 3)."""
-    aside = np.zeros_like(ways)
-    np.put_along_axis(aside, np.abs(ways).argmin(axis=1)[:, None], 1.0, axis=1)
-    first = np.cross(ways, aside)
-    first /= np.linalg.norm(first, axis=1)[:, None]
-    second = np.cross(ways, first)
-    cos, sin = circle(SIDES)
-    ring: Floats = first[:, None] * cos[:, None] + second[:, None] * sin[:, None]
-    return ring
 
 
 # Polygons
@@ -244,7 +228,7 @@ def _copies(shape: Solid, centres: Floats, sizes: Floats, states: Integers, colo
     """Copies of a shape about the origin, translated and scaled along the axes; sizes have the shape (n, 1) or (n, 3)."""
     count = len(shape.vertices)
     vertices, normals = np.empty((2, len(centres), count, 3), np.float32)
-    for some in _blocks(len(centres)):
+    for some in blocks(len(centres)):
         vertices[some] = centres[some, None] + sizes[some, None] * shape.vertices
         outward = shape.normals / np.where(sizes[some] > 0, sizes[some], 1.0)[:, None]
         normals[some] = outward / np.linalg.norm(outward, axis=2, keepdims=True)

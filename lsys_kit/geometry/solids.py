@@ -14,8 +14,8 @@ from lsys_kit.geometry.scene import Floats
 Singles: TypeAlias = NDArray[np.float32]
 Numbers: TypeAlias = NDArray[np.uint32]
 
-SIDES, ROUND = 8, 24
-"""The number of sides of a stroke, and of corners of a disc."""
+SIDES, THIN_SIDES, ROUND = 8, 5, 24
+"""The number of sides of a stroke and of a thin one, and of corners of a disc."""
 
 
 class Solid(NamedTuple):
@@ -35,14 +35,14 @@ def circle(count: int) -> tuple[Floats, Floats]:
 
 
 @cache
-def prism_triangles() -> Numbers:
-    """The triangles of a prism whose first ring of vertices is its start: sides, then both ends."""
-    here = np.arange(SIDES)
-    there = (here + 1) % SIDES
-    sides = np.concatenate([np.stack([here, there, there + SIDES], axis=1),
-                            np.stack([here, there + SIDES, here + SIDES], axis=1)])
-    start = np.array([(0, k + 1, k) for k in range(1, SIDES - 1)])
-    return np.concatenate([sides, start, start[:, [0, 2, 1]] + SIDES]).astype(np.uint32)
+def prism_triangles(sides: int) -> tuple[Numbers, Numbers, Numbers]:
+    """The triangles of a prism whose first ring of vertices is its start: its sides; its start; its end as if it were alone."""
+    here = np.arange(sides)
+    there = (here + 1) % sides
+    walls = np.concatenate([np.stack([here, there, there + sides], axis=1),
+                            np.stack([here, there + sides, here + sides], axis=1)])
+    start = np.array([(0, k + 1, k) for k in range(1, sides - 1)])
+    return walls.astype(np.uint32), start.astype(np.uint32), start[:, [0, 2, 1]].astype(np.uint32)
 
 
 @cache
