@@ -19,7 +19,7 @@ import numpy as np
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.pictures.frames import HEIGHT, MARGIN, WIDTH
-from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, QUIET, tinted
+from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, OLDEST, QUIET, cell_fill, shaded
 from lsys_kit.pictures.svg import FilamentRow
 
 LOOKS = ("rectangles", "ellipses")
@@ -193,7 +193,7 @@ def time_text(time: Value) -> str:
 def filament_svg(cells: Sequence[DrawnCell], look: str, middle: float, colour_of: Mapping[int, str],
               marked: Collection[int] = ()) -> str:
     """One filament: cells, lighter when young, with arrows for their polarity."""
-    fills = {key: tinted(colour_of.get(key[0], GREEN), 0.28 + 0.6 * key[1]) for key in {(c.state, c.shade) for c in cells}}
+    fills = {key: cell_fill(colour_of.get(key[0], GREEN), key[1]) for key in {(c.state, c.shade) for c in cells}}
     y, shapes, arrows = tenths(middle), [], []
     for cell in cells:
         x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
@@ -221,8 +221,8 @@ def wall_width(shade: float) -> float:
 
 
 def wall_colour(colour: str, shade: float) -> str:
-    """The colour of a wall, given that of its symbol."""
-    return tinted(colour, 0.5 + 0.5 * shade)
+    """The colour of a wall, given that of its symbol: the older, the darker."""
+    return shaded(colour, 1 - (1 - OLDEST) * shade)
 
 
 def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str],

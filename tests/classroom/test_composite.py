@@ -82,7 +82,7 @@ def test_what_is_marked_is_marked_in_the_word_and_in_the_diagram() -> None:
         assert has(marked, colour)
         assert has(marked[:130], colour)
         assert has(marked[150:, :340], colour)
-    assert has(plain[:130], tinted("#009E73", 0.22))
+    assert has(plain[:130], tinted("#28A964", 0.22))
 
 
 def test_every_token_is_painted() -> None:

@@ -91,7 +91,7 @@ def test_where_a_cell_divides_late_a_broad_band_begins() -> None:
 
 def test_lines_within_a_step_are_thin() -> None:
     """Seed 002, figure 6: thick where the production moves a cell on, thin where decomposition makes it."""
-    assert paths(draw(P6), stroke_width="11", stroke="#009E73")
+    assert paths(draw(P6), stroke_width="11", stroke="#28A964")
     assert not paths(draw(lineage(system("P1"), 4)), stroke_width="11")
     assert not paths(draw(lineage(ANABAENA, 4)), stroke_width="11")
 

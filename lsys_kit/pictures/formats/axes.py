@@ -14,7 +14,7 @@ from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.painters_order import display_list
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
-from lsys_kit.pictures.style.palette import GREEN, INK, tinted
+from lsys_kit.pictures.style.palette import GREEN, INK, cell_fill, tinted
 from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def plot_rows(ax: Axes, rows: Sequence[FilamentRow], look: str, colour_of: Mappi
             centre, style = x - row.scene.width / 2, f"round,pad=0,rounding_size={min(length, width) / 2}"
             shape: Patch = Ellipse((centre, y), length, width) if look == "ellipses" else \
                 FancyBboxPatch((centre - length / 2, y - width / 2), length, width, boxstyle=style)
-            shape.set(facecolor=tinted(colour, 0.28 + 0.6 * shade), edgecolor=colour, linewidth=0.6)
+            shape.set(facecolor=cell_fill(colour, shade), edgecolor=colour, linewidth=0.6)
             ax.add_patch(shape)
             reach = 0.29 * length * way
             if way:

@@ -10,7 +10,7 @@ from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour,
 from lsys_kit.pictures.formats.raster import FINE, centred, encoded, samples_for
 from lsys_kit.pictures.frames import WIDTH
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
-from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, tinted
+from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, cell_fill
 from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def rows_png(rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str
 def _cell(pen: ImageDraw, cell: DrawnCell, fine: float, look: str, middle: float, colour: str) -> None:
     edge = max(1, round(fine))
     x, length, width = cell.x * fine, cell.length * fine, cell.width * fine
-    box, fill = (x - length, middle - width, x + length, middle + width), tinted(colour, 0.28 + 0.6 * cell.shade)
+    box, fill = (x - length, middle - width, x + length, middle + width), cell_fill(colour, cell.shade)
     if look == "ellipses":
         pen.ellipse(box, outline=colour, fill=fill, width=edge)
     else:

@@ -18,7 +18,7 @@ from lsys_kit.pictures.nets.layered_layout import layered_layout
 from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, crossings, layout_of
 from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
 from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
-from lsys_kit.pictures.style.palette import QUIET, colours
+from lsys_kit.pictures.style.palette import LABELLED, PALEST, QUIET, colours
 
 LABEL_SIZE, SMALL = 14, 11
 """Font sizes, in pixels."""
@@ -184,7 +184,7 @@ def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, float]]:
     groups: dict[str, list[int]] = {}
     for place in sorted(order, key=lambda place: _rank(net.places[place])):
         groups.setdefault(palette.get(net.places[place].symbol, QUIET), []).append(place)
-    return {place: (colour, 0.14 + 0.3 * number / (len(group) - 1) if len(group) > 1 else 0.2)
+    return {place: (colour, PALEST + (LABELLED - PALEST) * number / (max(len(group), 2) - 1))
             for colour, group in groups.items() for number, place in enumerate(group)}
 
 

@@ -1,7 +1,8 @@
 """Colours: one for each symbol, the same in the word, the stage diagram and the drawing.
 
-The colours are those of Okabe and Ito (Color Universal Design, 2008), which people with any kind of colour vision can tell
-apart. Age or another value is a colour's strength; what matters is never said by colour alone.
+The colours have about the hues of Okabe and Ito's (Color Universal Design, 2008), which people with any kind of colour vision
+can tell apart, but are dark enough for thin lines on white paper: all have a contrast of 3:1 and more (WCAG 2.2, 1.4.11). The
+first three differ in grey too. Age or another value is a colour's strength; what matters is never said by colour alone.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.style.labels import polar_symbols
 
-GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#D55E00", "#56B4E9"
+GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#28A964", "#AF7605", "#0658A0", "#B97FB3", "#B3482B", "#337CCD"
 SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
 NATURAL = {"leaf": GREEN, "petal": PURPLE, "flower": PURPLE, "rosette": PURPLE}
 """What has its natural colour, as far as there is one."""
@@ -21,6 +22,11 @@ CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A
           "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8")
 """The colours that a turtle chooses by number: the sixteen of GROGRA, in shades that can be told apart and be seen on
 white: black, blue, green, cyan, red, magenta, brown, light and dark grey, the light ones, yellow, white."""
+PALEST, LABELLED, STRONGEST = 0.45, 0.58, 0.85
+"""The strengths of fills: the least at which colours can be told apart with any kind of colour vision; the greatest behind a
+label; the greatest."""
+OLDEST = 0.6
+"""How light the line of the oldest wall is, compared with its colour."""
 INK = "#22303C"
 """Text and arrows."""
 QUIET = "#7A8794"
@@ -37,7 +43,7 @@ def colours(system: LSystem) -> Mapping[str, str]:
 
     >>> from lsys_kit.notation.read import read
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
-    {'ar': '#009E73', 'al': '#009E73', 'br': '#E69F00', 'bl': '#E69F00'}
+    {'ar': '#28A964', 'al': '#28A964', 'br': '#AF7605', 'bl': '#AF7605'}
     """
     pairs = polar_symbols(system)
     found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
@@ -58,6 +64,15 @@ def colour_of(symbol: str, system: LSystem) -> str:
     (True, True)
     """
     return colours(system).get(symbol, GREEN)
+
+
+def cell_fill(colour: str, age: float) -> str:
+    """The fill of a cell of some colour: the older, from 0 to 1, the stronger.
+
+    >>> cell_fill("#0072B2", 0) == tinted("#0072B2", PALEST)
+    True
+    """
+    return tinted(colour, PALEST + (STRONGEST - PALEST) * age)
 
 
 def tinted(colour: str, strength: float) -> str:

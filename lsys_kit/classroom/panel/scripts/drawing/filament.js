@@ -1,12 +1,13 @@
 // The rows of a developmental sequence: cells and walls below one another with a common scale, laid out as pictures that stay are.
 
-import { fillColour, lineColour } from "./colours.js";
+import { fillColour, lineColour, mixed } from "./colours.js";
 
 const SHEET = { margin: 12, height: 400, heading: 18, steps: 34, times: 46, ages: 12 }; // of a picture that stays, in pixels
 const TALLEST_ROW = 46, LOWEST_ROW = 14, FILLED_ROW = 0.66; // the distance of rows, and the part of it that cells fill
 const LEGIBLE_ROW = 28; // ages of walls are written where rows are farther apart than this
 const CELLS_IN_PIXEL = 4; // more cells beside one another are not painted
-const NO_SYMBOL_COLOUR = "#009E73"; // of what a sign draws
+const NO_SYMBOL_COLOUR = "#28A964"; // of what a sign draws
+const PALEST = 0.45, STRONGEST = 0.85, OLDEST = 0.6; // fills of young and of old cells; how much of its colour an old wall keeps
 const RINGS = { self: [3.5, []], mother: [2.5, [5, 3]], daughter: [2.5, []] }; // around what is traced: width and dashes
 const rowsOfBooks = new WeakMap();
 
@@ -167,7 +168,7 @@ function paintCells(pen, sheet, seen, { theme, marked }) {
   const chosen = [...groups.values()].sort(([i], [j]) => marked.has(cells.state[i]) - marked.has(cells.state[j]));
   for (const group of chosen) {
     const [first] = group, colour = colours[cells.state[first]], mark = marked.has(cells.state[first]);
-    pen.fillStyle = fillColour(colour, theme, 0.28 + 0.6 * cells.shade[first]);
+    pen.fillStyle = fillColour(colour, theme, PALEST + (STRONGEST - PALEST) * cells.shade[first]);
     pen.strokeStyle = mark ? theme.markEdge : lineColour(colour, theme);
     pen.lineWidth = mark ? Math.max(1, Math.min(3.2, cells.width[first])) : 1;
     pen.beginPath();
@@ -208,7 +209,7 @@ function paintWalls(pen, { walls, colours, above, width }, row, { theme, marked 
   const ages = [];
   for (let i = walls.starts[row]; i < walls.starts[row + 1]; i++) {
     const colour = colours[walls.state[i]], reach = walls.width[i] / 2 + 2;
-    pen.strokeStyle = marked.has(walls.state[i]) ? theme.markEdge : fillColour(lineColour(colour, theme), theme, 0.5 + 0.5 * walls.shade[i]);
+    pen.strokeStyle = marked.has(walls.state[i]) ? theme.markEdge : mixed(lineColour(colour, theme), theme.ink, 1 - (1 - OLDEST) * walls.shade[i]);
     pen.lineWidth = 1.5 + 3 * walls.shade[i];
     pen.beginPath();
     pen.moveTo(walls.x[i], walls.y[i] - reach);

@@ -7,7 +7,7 @@ import { OWN_LOOK, newTurtle } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
 import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
-const SIGN_COLOUR = "#009E73"; // of what a sign draws
+const SIGN_COLOUR = "#28A964"; // of what a sign draws
 const MOST_CALLS = 10_000_000;
 const POINTS_KEPT = 300_000; // of the paths of earlier steps, of which two are kept in any case
 const PICTURE_WIDTH = 600, PICTURE_HEIGHT = 400, PICTURE_MARGIN = 12, PICTURE_SCALE = 120;
