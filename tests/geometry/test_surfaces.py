@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -36,9 +38,25 @@ def test_faces_are_plane(surface):
 @pytest.mark.parametrize("surface", surfaces().values(), ids=list(surfaces()))
 def test_a_surface_is_the_same_on_both_sides(surface):
     faces = {frozenset((round(ahead, 2), round(left, 2), round(up, 2)) for ahead, left, up in face) for face in surface.faces}
-    mirrored = "left" if surface.name in ("leaf", "petal", "rosette") else "up"
+    mirrored = "left" if surface.name in ("leaf", "needle", "petal", "sepal", "rosette") else "up"
     flip = {"left": lambda a, left, u: (a, -left, u), "up": lambda a, left, u: (a, left, -u)}[mirrored]
     assert {frozenset(flip(*corner) for corner in face) for face in faces} == faces
+
+
+@pytest.mark.parametrize("name", ["bud", "fruit"])
+def test_a_solid_is_closed_and_its_faces_look_outwards(name):
+    faces = surfaces()[name].faces
+    edges = [edge for face in faces for edge in zip(face, (*face[1:], face[0]), strict=True)]
+    assert sorted(edges) == sorted((b, a) for a, b in edges)
+    volume = sum(np.linalg.det([face[0], b, c]) for face in faces for b, c in pairwise(face[1:])) / 6
+    assert volume > 0.04
+
+
+def test_the_petals_of_a_flower_are_hollow_towards_its_axis():
+    for left, right in zip(surfaces()["flower"].faces[::2], surfaces()["flower"].faces[1::2], strict=True):
+        midrib, edges = np.array(left[-1]), (np.array(left[4]) + right[4]) / 2
+        outward = np.array([0, *midrib[1:]])
+        assert edges @ outward / (edges @ midrib) < midrib @ outward / (midrib @ midrib)
 
 
 def test_each_symbol_stands_for_one_surface():
@@ -50,8 +68,9 @@ def test_each_symbol_stands_for_one_surface():
 def test_a_leaf_stands_in_the_turtles_axes_and_is_as_long_as_its_number():
     leaf = in_space("axiom: f &(90) ~L(2)").polygons
     least, greatest = leaf.points.min(axis=0), leaf.points.max(axis=0)
-    assert greatest - least == pytest.approx([0.8, 2, 0.12])  # wide to the left and right, long away from the viewer
-    assert least[1:] == pytest.approx([0, 1]), "its base is where the turtle is, its edges are bent upwards"
+    # wide to the left and right, long away from the viewer
+    assert greatest - least == pytest.approx([0.765, 2, 0.117], abs=1e-3)
+    assert least[1:] == pytest.approx([0, 1], abs=1e-9), "its base is where the turtle is, its edges are bent upwards"
 
 
 def test_without_a_number_a_surface_is_as_long_as_the_step():
@@ -75,7 +94,8 @@ def test_a_surface_that_nobody_knows_is_listed_once():
 
 
 @pytest.mark.parametrize(("word", "said"), [
-    ("F ~X(2) ~l ~X", "no surface is called X or l: there are L (leaf), P (petal), B (bud), K (flower), rosette"),
+    ("F ~X(2) ~l ~X",
+     "no surface is called X or l: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit"),
     ("F RH ~ Leaf", "passed over, without a meaning here: RH; no surface is called Leaf: there are L (leaf)"),
     ("F ~", "passed over, because no surface is named after it: ~"), ("F ~L ~rosette(2)", ""),
 ])

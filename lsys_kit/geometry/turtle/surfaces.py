@@ -1,14 +1,18 @@
-"""Predefined surfaces, as in `~L(2)`: leaves, petals, buds and flowers; their shapes are defined in `surfaces.toml`."""
+"""Predefined surfaces, as in `~L(2)`: leaves, needles, petals, sepals, buds, flowers and fruits.
+
+Their shapes are defined in `surfaces.toml`: blades by the outline of one half, flowers by their petals, solids by a profile.
+"""
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from itertools import pairwise
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from lsys_kit.errors import quotable
 from lsys_kit.geometry.turtle.commands import COMMANDS
@@ -17,6 +21,9 @@ from lsys_kit.notation.model.system import LSystem
 
 Corner: TypeAlias = tuple[float, float, float]
 """A point in the frame of the turtle: ahead, to the left, up."""
+Faces: TypeAlias = tuple[tuple[Corner, ...], ...]
+DECIMALS = 4
+"""So many decimals of a corner are kept: a surface is about 1 long."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +42,7 @@ class Surface:
 
     name: str
     symbols: tuple[str, ...]
-    faces: tuple[tuple[Corner, ...], ...]
+    faces: Faces
 
 
 @cache
@@ -43,14 +50,68 @@ def surfaces() -> Mapping[str, Surface]:
     """All surfaces, by name.
 
     >>> list(surfaces())
-    ['leaf', 'petal', 'bud', 'flower', 'rosette']
+    ['leaf', 'needle', 'petal', 'sepal', 'bud', 'flower', 'rosette', 'fruit']
     >>> len(surfaces()["bud"].faces)
-    10
+    25
     """
     tables = tomllib.loads((files(__package__) / "surfaces.toml").read_text(encoding="utf-8"))
-    return {name: Surface(name, tuple(table["symbols"]), tuple(tuple((ahead, left, up) for ahead, left, up in face)
-                                                               for face in table["faces"]))
-            for name, table in tables.items()}
+    return {name: Surface(name, tuple(table["symbols"]), _rounded(_faces(table))) for name, table in tables.items()}
+
+
+def _faces(table: Mapping[str, Any]) -> Faces:
+    """The faces of a surface, as it is described."""
+    if "profile" in table:
+        return _solid_of_revolution(table["profile"], table["sides"])
+    blade = _blade(table["outline"], table.get("fold", 0))
+    if "petals" not in table:
+        return blade
+    turns = [360 * number / table["petals"] for number in range(table["petals"])]
+    if "opening" in table:
+        opened = [[_turned(_rolled(corner, 90), table["opening"]) for corner in face] for face in blade]
+        return tuple(tuple(_rolled(corner, turn) for corner in face) for turn in turns for face in opened)
+    return tuple(tuple(_turned(corner, turn) for corner in face) for turn in turns for face in blade)
+
+
+def _blade(outline: Sequence[Sequence[float]], fold: float) -> Faces:
+    """A blade: two halves on both sides of its midrib, raised by the fold.
+
+    >>> _blade([(0, 0), (1, 2), (2, 0)], 0)
+    (((0, 0.0, 0.0), (1, 2.0, 0.0), (2, 0.0, 0.0)), ((0, 0.0, 0.0), (1, -2.0, 0.0), (2, 0.0, 0.0)))
+    """
+    aside, up = math.cos(math.radians(fold)), math.sin(math.radians(fold))
+    return tuple(tuple((ahead, side * width * aside, width * up) for ahead, width in outline) for side in (1, -1))
+
+
+def _turned(corner: Corner, degrees: float) -> Corner:
+    """A corner after a turn to the left."""
+    (ahead, left, up), cos, sin = corner, math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return cos * ahead - sin * left, sin * ahead + cos * left, up
+
+
+def _rolled(corner: Corner, degrees: float) -> Corner:
+    """A corner after a roll to the right, about the direction ahead."""
+    (ahead, left, up), cos, sin = corner, math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return ahead, cos * left - sin * up, sin * left + cos * up
+
+
+def _solid_of_revolution(profile: Sequence[Sequence[float]], sides: int) -> Faces:
+    """The faces between the rings of a profile that is turned about the direction ahead; at its ends they are triangles.
+
+    >>> len(_solid_of_revolution([(0, 0), (1, 1), (2, 1), (3, 0)], 4))
+    12
+    """
+    rings = [[_rolled((ahead, out, 0.0), 360 * side / sides) for side in range(sides)] for ahead, out in profile]
+    return tuple(tuple(dict.fromkeys((here[side], there[side], there[side - 1], here[side - 1])))
+                 for here, there in pairwise(rings) for side in range(sides))
+
+
+def _rounded(faces: Faces) -> Faces:
+    """Corners with few decimals, and no negative zeros."""
+    return tuple(tuple((_few(ahead), _few(left), _few(up)) for ahead, left, up in face) for face in faces)
+
+
+def _few(number: float) -> float:
+    return round(number, DECIMALS) + 0.0
 
 
 @cache
@@ -74,7 +135,7 @@ def passed_over(unknown: Sequence[str]) -> str:
     Examples
     --------
     >>> passed_over(["~X"])
-    'no surface is called X: there are L (leaf), P (petal), B (bud), K (flower), rosette'
+    'no surface is called X: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit'
     >>> passed_over(["~"])
     'passed over, because no surface is named after it: ~'
     """

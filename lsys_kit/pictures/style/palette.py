@@ -16,7 +16,8 @@ from lsys_kit.pictures.style.labels import polar_symbols
 
 GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#28A964", "#AF7605", "#0658A0", "#B97FB3", "#B3482B", "#337CCD"
 SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
-NATURAL = {"leaf": GREEN, "petal": PURPLE, "flower": PURPLE, "rosette": PURPLE}
+NATURAL = {"leaf": GREEN, "needle": GREEN, "sepal": GREEN, "bud": GREEN, "petal": PURPLE, "flower": PURPLE,
+           "rosette": PURPLE, "fruit": VERMILION}
 """What has its natural colour, as far as there is one."""
 CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A5A2B", "#B9C0C6", "#6B7680", "#56B4E9",
           "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8")
