@@ -10,13 +10,16 @@ Curve Framing", Indiana University, Technical Report 425, 1995.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats, Integers
-from lsys_kit.geometry.solids import Singles, circle, prism_triangles
+from lsys_kit.geometry.solids import Numbers, Singles, circle, prism_triangles
+
+Flags: TypeAlias = NDArray[np.bool_]
 
 SHARPEST = np.cos(np.radians(150))
 """The cosine of the greatest angle by which a tube bends; where it would bend more, another begins."""
@@ -46,7 +49,7 @@ class Strokes(NamedTuple):
     ends: Floats
     radii: Floats
     looks: Integers
-    follows: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    follows: Flags
 
     @property
     def lengths(self) -> Floats:
@@ -60,9 +63,9 @@ class Strokes(NamedTuple):
         found: Floats = (self.ends[:, 1] - self.ends[:, 0]) / self.lengths[:, None]
         return found
 
-    def taken(self, some: Integers | np.ndarray[tuple[int], np.dtype[np.bool_]]) -> Strokes:
+    def taken(self, some: Integers | Flags) -> Strokes:
         """Some of them."""
-        return Strokes(*(column[some] for column in self))
+        return Strokes(self.ends[some], self.radii[some], self.looks[some], self.follows[some])
 
 
 class Rings(NamedTuple):
@@ -84,7 +87,7 @@ class Rings(NamedTuple):
     normals: Singles
     looks: Integers
     spans: Integers
-    open: np.ndarray[tuple[int, int], np.dtype[np.bool_]]
+    open: Flags
 
 
 def blocks(size: int) -> Iterator[slice]:
@@ -209,7 +212,7 @@ def rings(strokes: Strokes, sides: int) -> Rings:
     return Rings(vertices, normals, looks, np.stack([start_rings, end_rings], axis=1), np.stack([~follows, ~goes_on], axis=1))
 
 
-def triangles(found: Rings) -> np.ndarray[tuple[int, int], np.dtype[np.uint32]]:
+def triangles(found: Rings) -> Numbers:
     """The triangles of tubes: sides, then what closes them."""
     sides = found.vertices.shape[1]
     walls, start, end = prism_triangles(sides)
@@ -283,4 +286,5 @@ def _bent(around: Floats, ways: Floats, towards: Floats) -> tuple[Floats, Floats
     inward = inward / np.where(lengths > 0, lengths, 1.0)
     stretch = np.where(cosines >= STRETCHED - 1e-9, 1 / np.sqrt(np.clip(1 + cosines, 1e-9, 2) / 2), 1.0) - 1
     along = np.einsum("nki,ni->nk", normals, inward)
-    return normals + (stretch[:, None] * along)[:, :, None] * inward[:, None], normals
+    bent: Floats = normals + (stretch[:, None] * along)[:, :, None] * inward[:, None]
+    return bent, normals

@@ -68,7 +68,7 @@ def test_without_an_argument_it_is_the_turtles_own_step_angle_or_width():
     assert order(("F",)) == ("draw", 1, 0)
     assert order(("-",)) == ("turn", -1, 0)
     assert order(("RV",), "grogra") == ("gravitropism", 1, 0)
-    assert order((",",)) == ("set colour", 1, -1)
+    assert order((",",)) == ("step colour", 1, -1)
 
 
 def test_an_argument_of_a_command_with_plus_or_times_changes_it():

@@ -329,7 +329,14 @@ def test_grogras_widths_and_colours():
 def test_abops_widths_and_colours():
     segments = drawn("F !(2) F ! F # F [ #(5) ;(3) F ] F ' F ; F , F ,(7) F").segments
     assert segments.widths == pytest.approx([OWN, 2, 1.4, 2, 5, *[2] * 5])
-    assert segments.colours.tolist() == [OWN, OWN, OWN, OWN, 3, OWN, 1, 2, 1, 7]
+    assert segments.colours.tolist() == [16, 16, 16, 16, 3, 16, 17, 18, 17, 7]
+
+
+def test_colours_step_along_a_ramp_and_stay_at_its_ends():
+    assert drawn("F ' F " + "' " * 20 + "F ' F , F").segments.colours.tolist() == [16, 17, 31, 31, 30]
+    assert drawn(", F , F").segments.colours.tolist() == [16, 16]
+    assert drawn(";(14) ' F ' F ;(0) , F").segments.colours.tolist() == [15, 15, 0]
+    assert drawn("F ;(5) F").segments.colours.tolist() == [OWN, 5]
 
 
 def test_a_polygon_has_a_corner_at_the_end_of_each_f_and_none_at_that_of_g():
@@ -524,7 +531,7 @@ def test_lychnis_stands_in_space_with_leaves_and_flowers():
     scene = trace_in_space(derive(lychnis, 5)[-1])
     least, greatest = scene.corners
     assert greatest[1] - least[1] > 1
-    assert len(scene.polygons) == 2 * 2 + 5, "two leaves and a flower of age 4; those on the branch are of age 0"
+    assert len(scene.polygons) == 2 * 2 + 5 * 2, "two leaves and a flower of age 4; those on the branch are of age 0"
     assert scene.unknown == ()
 
 

@@ -17,14 +17,17 @@ import pytest
 
 import lsys_kit.classroom.panel
 from lsys_kit import stages, system
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.pictures.nets.parts import parts_of, steering_of
 from lsys_kit.pictures.style.palette import (
+    CHOSEN,
     INK,
     LABELLED,
     MARK_EDGE,
     PALEST,
     PAPER,
     QUIET,
+    RAMP,
     SERIES,
     STRONGEST,
     cell_fill,
@@ -99,6 +102,13 @@ def test_lines_of_any_two_symbols_can_be_told_apart(vision):
 @pytest.mark.parametrize("paper", [PAPER, DARK_PAPER])
 def test_fills_of_any_two_symbols_can_be_told_apart(paper, vision, strength):
     assert least_difference([mixed(colour, paper, strength) for colour in SERIES], vision) >= 3.2
+
+
+def test_a_ramp_gets_lighter_and_its_lines_are_seen():
+    lightness = [grey(colour) for colour in RAMP]
+    assert min(np.diff(lightness)) >= 1
+    assert min(contrast(colour, PAPER) for colour in RAMP) >= 3
+    assert CHOSEN[RAMP_START:RAMP_END + 1] == RAMP
 
 
 @FILLS

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 from typing import Literal, NamedTuple
 
+from lsys_kit.geometry.scene import OWN
 from lsys_kit.geometry.turtle.actions import ACTIONS, Effect
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem
@@ -90,6 +91,11 @@ def _settable(quantity: str) -> Command:
     return Command(f"set {quantity}", bare=f"reset {quantity}")
 
 
+def _colour_step(addend: int) -> Command:
+    """Set the colour; without an argument, to the next one or the one before."""
+    return Command("set colour", addend=addend, bare="step colour")
+
+
 _plain, _more, _times = partial(Command, argument=""), partial(Command, argument="more"), partial(Command, argument="times")
 _LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 0.0, 180, "")
 _DOWN, _OPEN = Command("gravitropism", 0.0, math.inf, ""), _plain("push")
@@ -134,8 +140,8 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("",     "Dl",   "",    "the next stroke is x wide",                            Command("set width once")),
     Row("",     "Dl+",  "",    "the next stroke is wider by x",                        _more("set width once")),
     Row("",     "Dl*",  "",    "the next stroke is x times as wide",                   _times("set width once")),
-    Row("; '",  "",     "",    "colour x, or the next one",                            Command("set colour", addend=1)),
-    Row(",",    "",     "",    "colour x, or the one before",                          Command("set colour", addend=-1)),
+    Row("; '",  "",     "",    "colour x, or the next one",                            _colour_step(1)),
+    Row(",",    "",     "",    "colour x, or the one before",                          _colour_step(-1)),
     Row("",     "P",    "",    "colour x, or that at first",                           _settable("colour")),
     Row("",     "V",    "",    "the strength of `RV` is x, or 0 as at first",          _settable("gravitropism")),
     Row("",     "V+",   "",    "the strength of `RV` is greater by x",                 _more("set gravitropism")),
@@ -191,6 +197,8 @@ COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
 
 FIRST_COLOUR = 14
 """The default colour of strokes in the numbering of GROGRA: yellow."""
+RAMP_START, RAMP_END = 16, 31
+"""The first and the last number of the colours that run from bark to leaves; those below are told apart by hue."""
 WIDTH = 0.1
 """The width of circles, discs and spheres without an argument, where no width of strokes has been set."""
 
@@ -198,6 +206,17 @@ WIDTH = 0.1
 def initial_step(system: LSystem) -> float:
     """The initial length of a step."""
     return TURTLE_DIALECTS[system.turtle].length if system.length is None else float(system.length)
+
+
+def initial_colour(system: LSystem) -> int:
+    """The initial colour of strokes: that of their symbol, or the first of the ramp if the model steps through colours.
+
+    >>> from lsys_kit.notation.read import read
+    >>> initial_colour(read("axiom: F ' F")), initial_colour(read("axiom: F ;(2) F"))
+    (16, -1)
+    """
+    stepping = any(command.bare == "step colour" and not module.arguments for command, module in commands_of(system))
+    return RAMP_START if stepping else OWN
 
 
 def commands_of(system: LSystem) -> Iterator[tuple[Command, Pattern]]:

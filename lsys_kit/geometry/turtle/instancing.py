@@ -22,7 +22,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 from lsys_kit.geometry.turtle.actions import Effect
-from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols_with
+from lsys_kit.geometry.turtle.commands import commands_of, initial_colour, initial_step, symbols_with
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
@@ -112,6 +112,7 @@ class Prototypes:
     def __init__(self, states: States, angle: float, in_plane: bool) -> None:
         self.states, self.angle = states, angle
         self._axes = [0, 2] if in_plane else [0, 1, 2]
+        self._initial_colour = initial_colour(states.system)
         self._initial_frame = initial_frame(states.system.turtle, float(states.system.heading))
         self._inverse = np.array(self._initial_frame[:3])  # of an orthonormal frame: its transpose
         self._opening, self._closing = (symbols_with(effect, states.system.turtle) for effect in (Effect.OPENS, Effect.CLOSES))
@@ -121,7 +122,9 @@ class Prototypes:
     def _turtle(self) -> SpaceTurtle:
         """A turtle at its start."""
         system = self.states.system
-        return SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
+        turtle = SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
+        turtle.begin_with_colour(self._initial_colour)
+        return turtle
 
     def of_row(self, row: Sequence[int], steps: int) -> Prototype:
         """The prototype of a row of states after a number of steps."""

@@ -14,7 +14,7 @@ from lsys_kit.derivation.core.interpretation import interpretations, modules_bet
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
-from lsys_kit.geometry.turtle.commands import WIDTH
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, WIDTH
 from lsys_kit.geometry.turtle.instructions import LARGEST, Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
 from lsys_kit.geometry.turtle.surfaces import Surface, surface_called, surfaces
@@ -65,6 +65,10 @@ class Turtle(ABC):
         self.outlines: list[Outline] = []
         self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
+
+    def begin_with_colour(self, colour: int) -> None:
+        """Take a colour, as the one that can be reset."""
+        self.colour = self.initial["colour"] = colour
 
     @abstractmethod
     def forward(self, length: float, drawn: bool) -> None:
@@ -130,6 +134,12 @@ def _bounded(what: str, value: float) -> float:
 
 def _set_colour(turtle: Turtle, instruction: Instruction) -> None:
     turtle.colour = max(0, min(LAST_COLOUR, round(instruction.factor * max(0, turtle.colour) + instruction.addend)))
+
+
+def _step_colour(turtle: Turtle, instruction: Instruction) -> None:
+    """Step through the ramp, or through the colours below it, as far as they go."""
+    first, last = (RAMP_START, RAMP_END) if turtle.colour >= RAMP_START else (0, RAMP_START - 1)
+    turtle.colour = max(first, min(last, round(turtle.colour + instruction.addend)))
 
 
 def _reset(name: str) -> Handler:
@@ -205,7 +215,7 @@ COMMON_HANDLERS: Mapping[str, Handler] = {
     "set width": _set_width, "reset width": _reset("width"), "set width once": _set_once("width", _set_width),
     "set gravitropism": _set_gravitropism, "reset gravitropism": _reset("gravitropism"),
     "set gravitropism once": _set_once("gravitropism", _set_gravitropism),
-    "set colour": _set_colour, "reset colour": _reset("colour"), "push": _push, "pop": _pop,
+    "set colour": _set_colour, "step colour": _step_colour, "reset colour": _reset("colour"), "push": _push, "pop": _pop,
     "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,
     "expect surface": _expect_surface, "draw expected surface": _draw_expected_surface, "draw surface": _draw_surface,
     "draw circle": _draw_round(CIRCLE), "draw disc": _draw_round(DISC), "draw sphere": _draw_round(SPHERE),

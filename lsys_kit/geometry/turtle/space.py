@@ -19,7 +19,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import WIDTH, initial_step
+from lsys_kit.geometry.turtle.commands import WIDTH, initial_colour, initial_step
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
@@ -254,6 +254,7 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     turn = float(system.angle) if angle is None else angle
     turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system),
                          TURTLE_DIALECTS[system.turtle].width)
+    turtle.begin_with_colour(initial_colour(system))
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))

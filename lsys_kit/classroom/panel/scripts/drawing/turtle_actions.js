@@ -9,13 +9,14 @@ export const HOLLOW = 0; // the kind of a circle; discs are 1
 export const BALL = 2; // the kind of a sphere
 const LARGEST_VALUE = 1e50;
 const LAST_COLOUR = 2 ** 31 - 1;
+const RAMP_START = 16, RAMP_END = 31; // the colours from bark to leaves
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
 const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading"];
 
-export function newTurtle(trail, { length, width }) {
-  const initial = { length, width: OWN_LOOK, colour: OWN_LOOK, gravitropism: 0 };
+export function newTurtle(trail, { length, width, colour }) {
+  const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 };
   return {
     ...initial, initial, trail, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
     tropisms: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, openPolygons: [],
@@ -96,6 +97,12 @@ function setColour(turtle, call) {
   turtle.colour = Math.max(0, Math.min(LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour)))));
 }
 
+// Through the ramp from bark to leaves, or through the colours below it, as far as they go.
+function stepColour(turtle, call) {
+  const [first, last] = turtle.colour >= RAMP_START ? [RAMP_START, RAMP_END] : [0, RAMP_START - 1];
+  turtle.colour = Math.max(first, Math.min(last, turtle.colour + call.addend));
+}
+
 const resetTo = (name) => (turtle) => {
   turtle[name] = turtle.initial[name];
 };
@@ -166,7 +173,7 @@ export function commonActions() {
     "set width": setWidth, "reset width": resetTo("width"), "set width once": setOnce("width", setWidth),
     "set gravitropism": setGravitropism, "reset gravitropism": resetTo("gravitropism"),
     "set gravitropism once": setOnce("gravitropism", setGravitropism),
-    "set colour": setColour, "reset colour": resetTo("colour"),
+    "set colour": setColour, "step colour": stepColour, "reset colour": resetTo("colour"),
     "push": openBranch, "pop": closeBranch,
     "begin polygon": beginPolygon, "record vertex": recordVertex, "end polygon": endPolygon,
     "expect surface": (turtle) => { turtle.expectsSurface = true; },
