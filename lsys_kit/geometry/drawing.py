@@ -5,6 +5,7 @@ from __future__ import annotations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.natural_colours import coloured
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
@@ -39,6 +40,10 @@ def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
     >>> print(scene_of(plant[2], 90))
     25 segments, width 6, height 9
     """
+    return coloured(_scene_of(what, angle), what.states.system)
+
+
+def _scene_of(what: Derivation | Word, angle: float | None) -> Scene:
     system = what.states.system
     turn = float(system.angle) if angle is None else angle
     mode = drawing_mode(system)

@@ -51,7 +51,7 @@ def book_of(words: Sequence[Word]) -> dict[str, Any]:
         "symbols": [[str(state), "", colour_of[state], 0] for state in numbers], "states": [[state] for state in numbers],
         "turtle": {
             "side": dialect.left, "length": initial_step(system), "width": dialect.width,
-            "colour": initial_colour(system), "heading": float(system.heading),
+            "colour": initial_colour(system), "natural": system.colours == "natural", "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"),
             "calls": [[call_of(each) for each in compiled[state]] for state in numbers],
             "surfaces": {name: surface.faces for name, surface in surfaces().items()}, "colours": CHOSEN}}

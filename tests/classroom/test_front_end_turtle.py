@@ -14,6 +14,7 @@ from playwright.sync_api import Error
 from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import ModelValueError
+from lsys_kit.geometry.natural_colours import coloured
 from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
@@ -53,7 +54,12 @@ def scene_by_kit(word, angle):
     made_by = word.states.system
     flat = drawing_mode(made_by) is DrawingMode.PLANE
     scene = place_path(trace(word), angle, float(made_by.heading)) if flat else trace_in_space(word, angle)
-    return in_units([scene], made_by)[0]
+    return in_units([coloured(scene, made_by)], made_by)[0]
+
+
+def test_natural_colours(page):
+    trees = ("&F[&F[&(30)F]]F", "F!(4)F!(1)F[+!(0)F]", "!(0)F[+F]", "F[+F;(3)F]")
+    expect_drawn(page, [[derive(read(f"colours: natural\naxiom: {tree}"), 0)[0]] for tree in trees], [25.0])
 
 
 def expect_drawn(page, derivations, angles):
@@ -115,10 +121,10 @@ def modules(dialect, *, flat):
 
 def words(dialect, *, flat=False):
     """Words of a dialect's commands."""
-    made = st.builds(lambda axiom, angle, heading, widths: LSystem(
-        tuple(axiom), (), angle=angle, heading=heading, widths=widths, turtle=dialect),
+    made = st.builds(lambda axiom, angle, heading, widths, colours: LSystem(
+        tuple(axiom), (), angle=angle, heading=heading, widths=widths, turtle=dialect, colours=colours),
         st.lists(modules(dialect, flat=flat), min_size=3, max_size=40), st.sampled_from([22.5, 60, 90, 97]),
-        st.sampled_from([90, 0, -30]), st.sampled_from(["", "pixels", "units"]))
+        st.sampled_from([90, 0, -30]), st.sampled_from(["", "pixels", "units"]), st.sampled_from(["symbols", "natural"]))
     return made.map(lambda made: derive(made, 0)[0])
 
 

@@ -16,6 +16,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.natural_colours import coloured
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
@@ -143,7 +144,8 @@ class ViewModel:
             scene = rows[-1].scene
             picture = filament_picture(derivation, rows, step, marked)
         else:
-            scene = place_path(path, turn, float(self.system.heading)) if path is not None else self._scene(derivation, turn)
+            scene = coloured(place_path(path, turn, float(self.system.heading)), self.system) if path is not None else \
+                self._scene(derivation, turn)
             [scene] = in_units([scene], self.system)
             [seen] = project([scene], (around, above))
             picture = Picture((FilamentRow(step, seen),), state_colours(derivation), None, marked,

@@ -156,6 +156,9 @@ class LSystem:
     widths
         The unit of the widths of strokes: "pixels" or "units", those of lengths; "" where that is left to the turtle. Equality
         ignores it.
+    colours
+        Whose colours strokes have: those of "symbols", or "natural" ones, from bark to leaves, by their width or branch order.
+        Equality ignores it.
     notation
         The notation in which it was read and prints itself. Equality ignores it.
     source, notes
@@ -184,6 +187,7 @@ class LSystem:
     branches: str = ANY_BRANCH
     cells: str = field(default="rectangles", compare=False)
     widths: str = field(default="", compare=False)
+    colours: str = field(default="symbols", compare=False)
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)

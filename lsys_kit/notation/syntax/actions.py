@@ -227,6 +227,9 @@ class Statements(Transformer[Any, Any]):
     def widths(self, _: Token, unit: Token) -> tuple[str, str]:
         return "widths", str(unit)
 
+    def colours(self, _: Token, source: Token) -> tuple[str, str]:
+        return "colours", str(source)
+
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))
 

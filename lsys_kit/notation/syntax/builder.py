@@ -23,7 +23,7 @@ from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Producti
 
 _SYMBOL_LISTS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are lists of symbols, and their attributes of a system."""
-_TEXT_SETTINGS = frozenset(("turtle", "cells", "branches", "widths", "field"))
+_TEXT_SETTINGS = frozenset(("turtle", "cells", "branches", "widths", "colours", "field"))
 """The settings that are words, or a field."""
 _COUNTS = {"steps": "steps", "depth": "rounds", "decomposition_depth": "rounds"}
 """The settings that are whole numbers from 0 on, and what they count."""

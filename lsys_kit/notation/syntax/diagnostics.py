@@ -40,14 +40,15 @@ from lsys_kit.notation.syntax.text.statements import ARROW
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
             "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells", "branches", "widths",
-            "field")
+            "colours", "field")
 _SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books call a keyword."""
 _CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),
             "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".'),
             "WHICH": ("branches", "kind of branch",
                       'A right context names "any" branch or the "next" one, or reads the word "flat".'),
-            "UNIT": ("widths", "unit", 'Widths of strokes are in "pixels" or "units".')}
+            "UNIT": ("widths", "unit", 'Widths of strokes are in "pixels" or "units".'),
+            "SOURCE": ("colours", "kind of colours", 'Colours of strokes are "natural" or those of "symbols".')}
 """The keywords that take one of a few words, by the token of that word; what it is called, and which there are."""
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
 
@@ -96,7 +97,7 @@ def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 def _choice(failure: ParseFailure) -> ModelSyntaxError | None:
-    """An unknown turtle, look of cells, or unit of widths."""
+    """An unknown turtle, look of cells, unit of widths, or kind of colours."""
     kind = next(iter(_CHOICES.keys() & failure.accepted), None)
     if kind is None:
         return None

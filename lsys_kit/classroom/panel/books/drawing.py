@@ -92,7 +92,7 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
     dialect = TURTLE_DIALECTS[system.turtle]
     named = {surface for row in calls for *_, surface in row if surface}
     return {"side": dialect.left, "length": initial_step(system), "width": dialect.width,
-            "colour": initial_colour(system), "heading": float(system.heading),
+            "colour": initial_colour(system), "natural": system.colours == "natural", "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"), "calls": calls,
             "surfaces": {name: [[*map(list, face)] for face in surfaces()[name].faces] for name in sorted(named)},
             "colours": [*CHOSEN],

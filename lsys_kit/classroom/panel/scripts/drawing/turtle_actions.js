@@ -15,6 +15,18 @@ const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading"];
 
+// Natural colours of the strokes for which none has been chosen: from bark to leaves, by their width, else by their branch order.
+export function colourNaturally({ colours, orders, widths }) {
+  let deepest = 0, widest = OWN_LOOK;
+  for (let i = 0; i < orders.length; i++) [deepest, widest] = [Math.max(deepest, orders[i]), Math.max(widest, widths[i])];
+  for (let i = 0; i < orders.length; i++) {
+    if (colours[i] !== OWN_LOOK) continue;
+    const wide = widest > 0 && widths[i] !== OWN_LOOK, byOrder = deepest ? orders[i] / deepest : 1;
+    const youth = wide ? 1 - Math.sqrt(widths[i] / widest) : byOrder;
+    colours[i] = RAMP_START + Math.floor((RAMP_END - RAMP_START) * youth + 0.5);
+  }
+}
+
 export function newTurtle(trail, { length, width, colour }) {
   const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 };
   return {

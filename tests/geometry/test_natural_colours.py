@@ -1,0 +1,61 @@
+"""Natural colours: bark where strokes are wide or near the stem, leaves where they are thin or far from it."""
+
+from __future__ import annotations
+
+import pytest
+
+from lsys_kit import ModelSyntaxError, derive, draw, read, write
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.scene import OWN
+from lsys_kit.pictures.style.palette import RAMP
+
+TREE = "axiom: F[&F[&F]]F"
+
+
+def colours(text, n=0):
+    return scene_of(derive(read(text), n)).segments.colours.tolist()
+
+
+@pytest.mark.parametrize("turn", ["&", "+"])
+def test_by_branch_order_from_bark_to_leaves(turn):
+    assert colours(f"colours: natural\naxiom: F[{turn}F[{turn}F]]F") == [16, 24, 31, 16]
+
+
+def test_by_width_where_it_is_set():
+    assert colours("colours: natural\naxiom: !(4)F!(1)F[!(0)F]") == [16, 24, 31]
+
+
+def test_an_unbranched_stem_is_green_and_a_chosen_colour_stays():
+    assert colours("colours: natural\naxiom: F ;(3) F") == [31, 3]
+
+
+@pytest.mark.parametrize("setting", ["", "colours: symbols\n"])
+def test_without_the_setting_colours_are_those_of_symbols(setting):
+    assert set(colours(setting + TREE)) == {OWN}
+
+
+def test_parts_that_are_drawn_once_and_copied_have_them_too():
+    tree = "colours: natural\nangle: 25\naxiom: F\nF -> F[&F]F[^F]F"
+    found = colours(tree, 6)
+    assert len(found) == 5 ** 6
+    assert {*found} == {16, 19, 21, 24, 26, 29, 31} or (min(found), max(found)) == (16, 31)
+
+
+def test_a_picture_shows_them():
+    svg = draw(read("colours: natural\naxiom: F[+F]"), 0).svg
+    assert RAMP[0].lower() in svg.lower()
+    assert RAMP[-1].lower() in svg.lower()
+
+
+def test_the_setting_is_kept_in_what_is_written():
+    system = read("colors: natural\naxiom: F")
+    assert system.colours == "natural"
+    assert read(write(system)).colours == "natural"
+    assert "colours" not in write(read("colours: symbols\naxiom: F"))
+
+
+def test_other_colours_are_an_error_that_says_which_there_are():
+    with pytest.raises(ModelSyntaxError, match=r'I do not know the kind of colours "pink"'):
+        read("colours: pink\naxiom: F")
+    with pytest.raises(ModelSyntaxError, match='There is nothing after "colours:"'):
+        read("colours:\naxiom: F")
