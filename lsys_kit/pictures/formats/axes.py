@@ -14,7 +14,7 @@ from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.painters_order import display_list
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
-from lsys_kit.pictures.style.palette import GREEN, INK, cell_fill, tinted
+from lsys_kit.pictures.style.palette import GREEN, INK, cell_fill
 from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
