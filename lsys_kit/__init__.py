@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.exercises.registry import exercises
     from lsys_kit.classroom.exercises.scores import score
     from lsys_kit.classroom.lessons.predict import predict
+    from lsys_kit.classroom.lessons.rule_finder import rule_finder
     from lsys_kit.classroom.lessons.vote import vote
     from lsys_kit.classroom.lessons.worksheet import worksheet
     from lsys_kit.classroom.link import link, linked
@@ -85,6 +86,7 @@ _HOMES = {
     "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict",
     "progress": "classroom.exercises.progress", "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
+    "rule_finder": "classroom.lessons.rule_finder",
     "score": "classroom.exercises.scores", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
     "variants": "classroom.variants", "vote": "classroom.lessons.vote", "worksheet": "classroom.lessons.worksheet",
@@ -131,6 +133,7 @@ __all__ = [
     "read",
     "read_cellwork",
     "read_map",
+    "rule_finder",
     "score",
     "stages",
     "sweep",

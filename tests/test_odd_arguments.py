@@ -61,6 +61,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "draw a cellwork": lambda: (cellwork_system("K33"), 1), "derive a cellwork": lambda: (cellwork_system("K33"), 1),
     "explain": lambda: (derive(GROWING, 1), 1),
     "infer": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
+    "rule_finder": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
     "infer from drawings": lambda: ([[(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 1, 1, 1)]],),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
     "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,

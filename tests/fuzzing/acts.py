@@ -51,6 +51,7 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "animate": (lambda system: kit.animate(system, 9), lambda film: film.gif),
         "growth": (kit.growth, repr),
         "infer": (lambda system: kit.infer(kit.derive(system, 4)), repr),
+        "rule finder": (lambda system: kit.rule_finder(kit.derive(system, 4)), repr),
         "infer from drawings": (lambda system: kit.infer([kit.draw(system, step) for step in range(4)]), repr),
         "infer contexts": (lambda system: kit.infer(kit.derive(system, 4), context=(1, 1), erasing=True), repr),
         "growth of symbols": (lambda system: kit.growth(system, **symbols(system)), repr),

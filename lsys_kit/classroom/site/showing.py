@@ -10,6 +10,7 @@ from lsys_kit.classroom.lessons.declared import declared, names
 from lsys_kit.classroom.lessons.displayed import html
 from lsys_kit.classroom.lessons.lesson import Table
 from lsys_kit.classroom.lessons.predict import Prediction
+from lsys_kit.classroom.lessons.rule_finder import RuleFinder
 from lsys_kit.classroom.lessons.settings import asked_settings
 from lsys_kit.classroom.lessons.vote import VoteBox
 from lsys_kit.classroom.lessons.worksheet import Worksheet
@@ -17,9 +18,9 @@ from lsys_kit.classroom.panel.comparison import Comparison
 from lsys_kit.classroom.panel.explorer import Explorer
 
 PART = "application/vnd.lsys-kit.page-part+json"
-"""The media type of what a page has to know of a panel, a vote, a prediction or a table: its kind, its data, its words."""
+"""The media type of what a page has to know of a panel, a vote, a prediction, a table or rules: its kind, its data, its words."""
 KINDS: Mapping[type, str] = {Explorer: "panel", Comparison: "comparison", VoteBox: "vote", Prediction: "prediction",
-                             Worksheet: "worksheet"}
+                             Worksheet: "worksheet", RuleFinder: "rules"}
 """What the script of a page calls the widgets of the kit."""
 
 

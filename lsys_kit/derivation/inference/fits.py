@@ -96,29 +96,69 @@ class Fits(Sequence[LSystem]):
 
     def __repr__(self) -> str:
         with Task("The explanation was not finished"):
-            return _explanation(self)
+            return str(explanation(self))
 
     def __str__(self) -> str:
         return repr(self)
 
 
-def _explanation(fits: Fits) -> str:
+@dataclass(frozen=True)
+class Explanation:
+    """What is said of the systems that fit.
+
+    Attributes
+    ----------
+    heading
+        How many fit, or why none does.
+    common
+        The productions that all of them have.
+    own
+        The other productions of each of the first systems; empty where one system fits, or none.
+    more
+        How many systems are not shown.
+    parting
+        The first step at which the systems have different words; None where that was not found.
+    notes
+        What the words leave open.
+    """
+
+    heading: str
+    common: tuple[Production, ...] = ()
+    own: tuple[tuple[Production, ...], ...] = ()
+    more: int = 0
+    parting: int | None = None
+    notes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        if not self.common and not self.own:
+            return self.heading
+        lines = [f"{self.heading}:"]
+        if self.common:
+            lines += [*([" all have"] if self.own else []), *_lines(self.common, "  ")]
+        for number, productions in enumerate(self.own, 1):
+            lines += [f" {number}.", *_lines(productions, "  ")]
+        return "\n".join([*lines, *([f" and {self.more} more"] if self.more > 0 else []), *self.notes])
+
+
+def explanation(fits: Fits) -> Explanation:
+    """What is said of the systems that fit.
+
+    >>> from lsys_kit.derivation.inference.infer import infer
+    >>> explained = explanation(infer(["a", "bc", "caa"]))
+    >>> explained.heading, explained.parting
+    ('2 systems fit these 3 words; they part at step 3', 3)
+    """
     if fits.refusal is not None:
-        return f"No system fits these {len(fits.words)} words. {fits.refusal}".strip()
-    common = [rule for rule in fits[0].productions if all(rule in system.productions for system in fits)]
+        return Explanation(f"No system fits these {len(fits.words)} words. {fits.refusal}".strip())
+    common = tuple(rule for rule in fits[0].productions if all(rule in system.productions for system in fits))
     if len(fits) == 1:
-        return "\n".join([f"One system fits these {len(fits.words)} words:", *_lines(common, "  "), *_unknown(fits)])
+        return Explanation(f"One system fits these {len(fits.words)} words", common, notes=tuple(_unknown(fits)))
     step = parting_step(fits[:MOST_COMPARED], len(fits.words))
     later = "as far as was looked, later words are the same" if step is None else \
         f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
-    lines = [f"{len(fits)} systems fit these {len(fits.words)} words; {later}:"]
-    if common:
-        lines += [" all have", *_lines(common, "  ")]
-    for number, system in enumerate(fits[:MOST_SHOWN], 1):
-        own = [rule for rule in system.productions if rule not in common]
-        lines += [f" {number}.", *_lines(own, "  ")]
-    more = len(fits) - MOST_SHOWN
-    return "\n".join([*lines, *([f" and {more} more"] if more > 0 else []), *_unknown(fits)])
+    own = tuple(tuple(rule for rule in system.productions if rule not in common) for system in fits[:MOST_SHOWN])
+    return Explanation(f"{len(fits)} systems fit these {len(fits.words)} words; {later}", common, own,
+                       max(0, len(fits) - MOST_SHOWN), step, tuple(_unknown(fits)))
 
 
 def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:

@@ -1,14 +1,15 @@
-// A page of the course without a kernel: its panels, votes, predictions and tables, each where its data belong.
+// A page of the course without a kernel: its panels, votes, predictions, tables and rules, each where its data belong.
 
 import { hostWith, cannot } from "./page.js";
 import { openComparison } from "./panels/compare.js";
 import { openPanel } from "./panels/panel.js";
 import { askForEntries } from "./lessons/filling.js";
+import { showRules } from "./lessons/finding.js";
 import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
 import { checked } from "./lessons/checking.js";
 
-const KINDS = { panel, comparison, vote, prediction, worksheet };
+const KINDS = { panel, comparison, vote, prediction, worksheet, rules };
 
 export function openCoursePage() {
   const { parts, books } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, books, ballots: new Map() };
@@ -72,6 +73,11 @@ function worksheet(place, data) {
   });
   place.replaceChildren();
   askForEntries({ model, el: place });
+}
+
+function rules(place, found) {
+  place.replaceChildren();
+  showRules({ model: modelOf({ found, step: 1 }, () => {}), el: place });
 }
 
 // What a widget's script asks of its model, without a kernel: `saved` is called when the page was told something.

@@ -1,0 +1,176 @@
+"""Find the rules: the words of an organism, one step more at a time, and beside them all systems that fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from os.path import commonprefix
+from typing import Any
+
+import traitlets
+
+from lsys_kit.budget import Task
+from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html
+from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.derivation.derive import derive
+from lsys_kit.derivation.inference.fits import Explanation, Fits, explanation
+from lsys_kit.derivation.inference.infer import MOST_FITS, infer
+from lsys_kit.derivation.inference.words import Row, read_words
+from lsys_kit.errors import ModelLimitError
+from lsys_kit.notation.model.modules import joined
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.pictures.style.labels import escaped
+
+MOST_CHARACTERS = 400
+"""Longer words and productions are cut off here."""
+
+
+def rule_finder(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False,
+                context: tuple[int, int] = (0, 0)) -> RuleFinder:
+    """The words of an organism up to a step that can be chosen, and beside them all systems that fit.
+
+    A slider goes from step 1 to the last. Where several systems fit, it is shown what each of them says of the step at which
+    they part.
+
+    Parameters
+    ----------
+    words
+        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words, as for `infer`.
+    constants, erasing, context
+        What systems are looked for, as for `infer`.
+
+    Raises
+    ------
+    ModelLimitError
+        The search takes too long.
+    ModelValueError
+        The words or another argument cannot be used.
+
+    Examples
+    --------
+    >>> rule_finder(["a", "bc", "caa"])
+    step 0: a
+    step 1: b c
+      One system fits these 2 words:
+        a -> b c
+      Nothing is known of what becomes of b, c: only the last word has it.
+    step 2: c a a
+      2 systems fit these 3 words; they part at step 3:
+       all have
+        a -> b c
+       1.
+        b -> c
+        c -> a a
+       2.
+        b -> c a
+        c -> a
+    """
+    kept = tuple(constants) if isinstance(constants, Iterable) else constants
+    with Task("The rules were not found"):
+        rows = read_words(words)
+        return RuleFinder(rows, [_found(rows[:count], kept, erasing, context) for count in range(2, len(rows) + 1)])
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the words up to a step tell.
+
+    Attributes
+    ----------
+    count
+        How many systems fit, as a text.
+    said
+        What is said of them.
+    next_words
+        The word of each system that is shown at the step at which they part, in parts; empty where they do not.
+    """
+
+    count: str
+    said: Explanation
+    next_words: tuple[list[str], ...] = ()
+
+
+class RuleFinder(LessonWidget):
+    """The words and the systems that `rule_finder` shows.
+
+    Attributes
+    ----------
+    step
+        The step up to which the words are shown, from 1 on.
+    """
+
+    _esm = bundled("rule_finder")
+    _css = style("lessons")
+    found = traitlets.Dict().tag(sync=True)
+    step = traitlets.Int(1).tag(sync=True)
+
+    def __init__(self, rows: Sequence[Row], steps: Sequence[Found]) -> None:
+        self._words, self._steps = [_cut(joined(map(str, row)) or "ε") for row in rows], steps
+        super().__init__(found={"words": self._words, "steps": [_data(each) for each in steps]})
+
+    @traitlets.validate("step")
+    def _within(self, proposal: Any) -> int:
+        return max(1, min(len(self._steps), proposal["value"]))
+
+    @property
+    def page_data(self) -> dict[str, Any]:
+        """What a page without a kernel has to know: what is found at every step."""
+        return dict(self.found)
+
+    def _stored(self) -> dict[str, Any]:
+        rows = "".join(f"<tr><td>{step}</td><td><code>{escaped(word)}</code></td><td>{self._fits_html(step)}</td></tr>"
+                       for step, word in enumerate(self._words))
+        head = "<thead><tr><th>step</th><th>word</th><th>systems that fit</th></tr></thead>"
+        return {"text/html": boxed_html(f"<table>{head}<tbody>{rows}</tbody></table>"), "text/plain": repr(self)}
+
+    def _fits_html(self, step: int) -> str:
+        """The systems that fit the words up to a step, for the table that is stored."""
+        if not step:
+            return ""
+        found = self._steps[step - 1]
+        common = "<br>".join(f"<code>{escaped(rule)}</code>" for rule in _texts(found.said.common))
+        own = "".join(f"<li>{'<br>'.join(f'<code>{escaped(rule)}</code>' for rule in _texts(each))}</li>" for each in found.said.own)
+        return f"<b>{found.count}</b><br>{common}" + (f"<ol>{own}</ol>" if own else "")
+
+    def __repr__(self) -> str:
+        return "\n".join(self._lines())
+
+    def _lines(self) -> Iterator[str]:
+        for step, word in enumerate(self._words):
+            yield f"step {step}: {word}"
+            if step:
+                yield from (f"  {line}" for line in str(self._steps[step - 1].said).splitlines())
+
+
+def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context: tuple[int, int]) -> Found:
+    """What some words tell; too many systems are not listed."""
+    try:
+        fits = infer(rows, constants, erasing, context)
+    except ModelLimitError as error:
+        if not isinstance(error.partial, Fits) or len(error.partial) < MOST_FITS:
+            raise
+        return Found(f"more than {MOST_FITS:,}", Explanation(str(error)))
+    said = explanation(fits)
+    return Found(str(len(fits)), said, tuple(_words_at(fits[:len(said.own)], said.parting)))
+
+
+def _words_at(systems: Sequence[LSystem], step: int | None) -> Iterator[list[str]]:
+    """The word of each system at a step, in the parts between its blanks."""
+    if step is not None:
+        yield from (str(derive(system, step)[step]).split(" ") for system in systems)
+
+
+def _data(found: Found) -> dict[str, Any]:
+    """What the script has to know of a step."""
+    same = len(commonprefix(found.next_words))
+    return {"count": found.count, "heading": found.said.heading, "common": _texts(found.said.common),
+            "systems": [_texts(each) for each in found.said.own], "more": found.said.more, "parting": found.said.parting,
+            "words": [[" ".join([*word[:same], ""]), _cut(" ".join(word[same:]))] for word in found.next_words], "notes": [*found.said.notes]}
+
+
+def _texts(productions: Iterable[object]) -> list[str]:
+    return [_cut(str(production)) for production in productions]
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= MOST_CHARACTERS else f"{text[:MOST_CHARACTERS]} ..."
