@@ -45,7 +45,8 @@ def answer_predictions(notebook: OpenNotebook) -> None:
             asked.get_by_role("textbox").fill("21")
             asked.get_by_role("button", name="Show", exact=True).click()
             expect(asked.get_by_role("status")).to_have_text("You said: 21")
-        expect(notebook.output(number).locator(".widget-html, .widget-htmlmath, .lsys-panel, .lsys-found").first).to_be_visible()
+        answers = notebook.output(number).locator(".widget-html, .widget-htmlmath, .lsys-panel, .lsys-found")
+        expect(answers.first).to_be_visible()
 
 
 def cast_votes(notebook: OpenNotebook) -> None:

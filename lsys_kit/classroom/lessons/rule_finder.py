@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from os.path import commonprefix
+from itertools import takewhile
 from typing import Any
 
 import traitlets
@@ -110,7 +110,7 @@ class RuleFinder(LessonWidget):
 
     @traitlets.validate("step")
     def _within(self, proposal: Any) -> int:
-        return max(1, min(len(self._steps), proposal["value"]))
+        return max(1, min(len(self._steps), int(proposal["value"])))
 
     @property
     def page_data(self) -> dict[str, Any]:
@@ -128,9 +128,8 @@ class RuleFinder(LessonWidget):
         if not step:
             return ""
         found = self._steps[step - 1]
-        common = "<br>".join(f"<code>{escaped(rule)}</code>" for rule in _texts(found.said.common))
-        own = "".join(f"<li>{'<br>'.join(f'<code>{escaped(rule)}</code>' for rule in _texts(each))}</li>" for each in found.said.own)
-        return f"<b>{found.count}</b><br>{common}" + (f"<ol>{own}</ol>" if own else "")
+        own = "".join(f"<li>{_rules_html(each)}</li>" for each in found.said.own)
+        return f"<b>{found.count}</b><br>{_rules_html(found.said.common)}" + (f"<ol>{own}</ol>" if own else "")
 
     def __repr__(self) -> str:
         return "\n".join(self._lines())
@@ -162,10 +161,15 @@ def _words_at(systems: Sequence[LSystem], step: int | None) -> Iterator[list[str
 
 def _data(found: Found) -> dict[str, Any]:
     """What the script has to know of a step."""
-    same = len(commonprefix(found.next_words))
+    same = sum(1 for _ in takewhile(lambda column: len({*column}) == 1, zip(*found.next_words, strict=False)))
+    words = [[" ".join([*word[:same], ""]), _cut(" ".join(word[same:]))] for word in found.next_words]
     return {"count": found.count, "heading": found.said.heading, "common": _texts(found.said.common),
             "systems": [_texts(each) for each in found.said.own], "more": found.said.more, "parting": found.said.parting,
-            "words": [[" ".join([*word[:same], ""]), _cut(" ".join(word[same:]))] for word in found.next_words], "notes": [*found.said.notes]}
+            "words": words, "notes": [*found.said.notes]}
+
+
+def _rules_html(productions: Iterable[object]) -> str:
+    return "<br>".join(f"<code>{escaped(rule)}</code>" for rule in _texts(productions))
 
 
 def _texts(productions: Iterable[object]) -> list[str]:
