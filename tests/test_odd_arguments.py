@@ -123,7 +123,7 @@ def arguments(name: str) -> list[str]:
     """The arguments of a public function."""
     parameters = inspect.signature(getattr(lsys_kit, name.split()[0])).parameters.values()
     named = [each.name for each in parameters if each.kind is not inspect.Parameter.VAR_KEYWORD]
-    other = name.split()[0] in ("continuity", "infer")
+    other = name.split()[0] in ("continuity", "infer", "rule_finder")
     constants = ["c"] if any(each.name == "constants" for each in parameters) and not other else []
     return [*dict.fromkeys([*named, *CHOICES.get(name, ()), *constants])]
 
