@@ -13,7 +13,7 @@ from lsys_kit.budget import Task
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.inference.fits import Explanation, Fits, explanation
+from lsys_kit.derivation.inference.fits import Explanation, explanation
 from lsys_kit.derivation.inference.infer import MOST_FITS, infer
 from lsys_kit.derivation.inference.words import Row, read_words
 from lsys_kit.errors import ModelLimitError
@@ -68,7 +68,7 @@ def rule_finder(words: Iterable[object], constants: Iterable[str] = ("+", "-"), 
     kept = tuple(constants) if isinstance(constants, Iterable) else constants
     with Task("The rules were not found"):
         rows = read_words(words)
-        return RuleFinder(rows, [_found(rows[:count], kept, erasing, context) for count in range(2, len(rows) + 1)])
+        return RuleFinder(rows, [*_all_found(rows, kept, erasing, context)])
 
 
 @dataclass(frozen=True)
@@ -141,12 +141,23 @@ class RuleFinder(LessonWidget):
                 yield from (f"  {line}" for line in str(self._steps[step - 1].said).splitlines())
 
 
+def _all_found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context: tuple[int, int]) -> Iterator[Found]:
+    """What the words up to each step tell, from step 1 on; where none fits some words, none fits more."""
+    none = 0
+    for step in range(1, len(rows)):
+        if none:
+            yield Found("0", Explanation(f"No system fits these {step + 1} words, since none fits those up to step {none}."))
+            continue
+        yield (found := _found(rows[:step + 1], constants, erasing, context))
+        none = step if found.count == "0" else 0
+
+
 def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context: tuple[int, int]) -> Found:
     """What some words tell; too many systems are not listed."""
     try:
         fits = infer(rows, constants, erasing, context)
     except ModelLimitError as error:
-        if not isinstance(error.partial, Fits) or len(error.partial) < MOST_FITS:
+        if error.limit != MOST_FITS:
             raise
         return Found(f"more than {MOST_FITS:,}", Explanation(str(error)))
     said = explanation(fits)
