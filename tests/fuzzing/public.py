@@ -107,8 +107,8 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
 FUNCTIONS = (
     "animate", "book_systems", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy",
     "ensemble", "exercises", "explain", "explore", "figure", "growth", "lineage", "link", "linked", "map_system",
-    "map_systems", "plot", "pnml", "practice", "predict", "progress", "qr_code", "read", "read_cellwork", "read_map", "rule_finder",
-    "score", "stages", "sweep", "system", "systems", "timed", "variants", "vote", "worksheet", "write",
+    "map_systems", "plot", "pnml", "practice", "predict", "progress", "qr_code", "read", "read_cellwork", "read_map",
+    "rule_finder", "score", "stages", "sweep", "system", "systems", "timed", "variants", "vote", "worksheet", "write",
 )
 """The public functions; `limits` is about each of them."""
 
