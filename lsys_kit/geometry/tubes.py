@@ -242,8 +242,9 @@ def _across(ways: Floats) -> Floats:
     """A unit vector at right angles to each direction."""
     aside = np.zeros_like(ways)
     np.put_along_axis(aside, np.abs(ways).argmin(axis=1)[:, None], 1.0, axis=1)
-    found: Floats = np.cross(ways, aside)
-    return found / np.linalg.norm(found, axis=1)[:, None]
+    normals = np.cross(ways, aside)
+    found: Floats = normals / np.linalg.norm(normals, axis=1)[:, None]
+    return found
 
 
 def _rotations(a: Floats, b: Floats) -> Floats:

@@ -27,9 +27,12 @@ from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.raster import turtle_png
+from lsys_kit.pictures.formats.sheet import Sheet
 from lsys_kit.pictures.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.nets.diagram import drawn_stages
-from lsys_kit.pictures.nets.parts import positions_in
+from lsys_kit.pictures.nets.painting import paint_stages
+from lsys_kit.pictures.nets.parts import parts_of, positions_in, steering_of
+from lsys_kit.pictures.sizes import enlargement, final_size
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, resized, turtle_svg
 
 if TYPE_CHECKING:
@@ -162,15 +165,28 @@ class NetPicture(SVGPicture):
         with Task("The picture was not drawn"):
             return resized(drawn_stages(self.net, self.tokens, positions=self.positions), self.pixels)
 
+    @cached_property
+    def png(self) -> bytes:
+        """The picture as PNG."""
+        with Task("The picture was not drawn"):
+            parts = parts_of(self.net, self.positions, steering_of(self.net.system))
+            tokens = (0,) * len(self.net.places) if self.tokens is None else self.tokens
+            width, height = final_size(parts.width, parts.height, self.pixels)
+            factor = enlargement(parts.width, parts.height, self.pixels)
+            sheet = Sheet(width, height)
+            left, top = (width - factor * parts.width) / 2, (height - factor * parts.height) / 2
+            paint_stages(sheet.part(left, top, factor), parts, tokens)
+            return sheet.png
+
     def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg file, or the net to a .pnml file for Petri-net tools (see `pnml`).
+        """Write the picture to an .svg or .png file, or the net to a .pnml file for Petri-net tools (see `pnml`).
 
         Raises
         ------
         ModelFileError
             The extension is unknown, or the file cannot be written.
         """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg),
+        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png),
                              ".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))})
 
     def __repr__(self) -> str:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from itertools import combinations, product
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lsys_kit import ModelValueError, derive, draw, read, stages, system, systems, timed
+from lsys_kit import ModelLimitError, ModelValueError, derive, draw, limits, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.pictures.nets import diagram, parts
 from lsys_kit.pictures.nets.captions import short, width_of
@@ -304,3 +305,17 @@ def test_what_no_bar_shows_is_written_below() -> None:
 def test_a_number_that_depends_on_a_value_stands_at_its_arc() -> None:
     net = stages(read("axiom: A(0)\nA(t) -> repeat(t) <F F> repeat(t-1) <G> A(t+1)"))
     assert [t.text for t in svg_of(net).iter(f"{SVG}text") if t.get("class") == "note"] == ["2 t", "(t - 1)"]
+
+
+def test_a_stage_diagram_is_kept_as_png_in_any_size(tmp_path: Path) -> None:
+    from PIL import Image
+
+    net = stages(system("J4"))
+    for size, wanted in ((None, None), (900, 900), ((500, 300), 500)):
+        path = tmp_path / f"{wanted}.png"
+        draw(net, tokens=derive(system("J4"), 6)[-1], size=size).save(path)
+        image = Image.open(path)
+        assert image.width == (wanted or float(svg_of(net).attrib["width"]))
+        assert len(image.getcolors(image.width * image.height)) > 50
+    with limits(bytes=10_000), pytest.raises(ModelLimitError, match="not drawn"):
+        _ = draw(net).png

@@ -11,6 +11,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self, TypeAlias
 
+from lsys_kit.budget import check_bytes
 from lsys_kit.pictures.formats.lettering import advance, curve, glyph
 from lsys_kit.pictures.formats.raster import FINE
 from lsys_kit.pictures.style.palette import INK, PAPER
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 Point: TypeAlias = tuple[float, float]
+PIXEL_BYTES = 3 * (FINE ** 2 + 1)
+"""What a pixel takes while a sheet is painted and reduced."""
 SUBSCRIPT, LOWERED = 0.7, 0.21
 """The size of a subscript and how far it is lowered, to the size of the text."""
 _PATH_COMMAND = re.compile(r"([MLQZ])([^MLQZ]*)")
@@ -36,6 +39,7 @@ class Sheet:
     def __init__(self, width: int, height: int) -> None:
         from PIL import Image, ImageDraw
 
+        check_bytes(width * height * PIXEL_BYTES, lambda: "The picture was not drawn")
         self._size, self._left, self._top, self._unit = (width, height), 0.0, 0.0, float(FINE)
         self._image = Image.new("RGB", (width * FINE, height * FINE), PAPER)
         self._pen = ImageDraw.Draw(self._image)
