@@ -19,7 +19,7 @@ def coloured(scene: Scene, system: LSystem) -> Scene:
     >>> from lsys_kit.notation.read import read
     >>> tree = read("colours: natural\\naxiom: F[&F[&F]]")
     >>> coloured(trace_in_space(derive(tree, 0)[0]), tree).segments.colours.tolist()
-    [16, 24, 31]
+    [16, 20, 23]
     """
     if system.colours != "natural":
         return scene

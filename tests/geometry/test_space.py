@@ -333,7 +333,7 @@ def test_abops_widths_and_colours():
 
 
 def test_colours_step_along_a_ramp_and_stay_at_its_ends():
-    assert drawn("F ' F " + "' " * 20 + "F ' F , F").segments.colours.tolist() == [16, 17, 31, 31, 30]
+    assert drawn("F ' F " + "' " * 20 + "F ' F , F").segments.colours.tolist() == [16, 17, 23, 23, 22]
     assert drawn(", F , F").segments.colours.tolist() == [16, 16]
     assert drawn(";(14) ' F ' F ;(0) , F").segments.colours.tolist() == [15, 15, 0]
     assert drawn("F ;(5) F").segments.colours.tolist() == [OWN, 5]

@@ -19,8 +19,7 @@ SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
 NATURAL = {"leaf": GREEN, "needle": GREEN, "sepal": GREEN, "bud": GREEN, "petal": PURPLE, "flower": PURPLE,
            "rosette": PURPLE, "fruit": VERMILION}
 """What has its natural colour, as far as there is one."""
-RAMP = ("#5A3A24", "#5B3F25", "#5B4526", "#5A4B28", "#58512A", "#55572D", "#525D30", "#4F6434", "#4B6B38", "#48723C",
-        "#447A41", "#408246", "#3B8B4C", "#359452", "#2F9E5A", "#28A964")
+RAMP = ("#5A3A24", "#5B4626", "#59522A", "#54602F", "#4D6F38", "#448043", "#399351", "#28A964")
 """The colours through which `'` steps: from bark to leaves, each lighter than the one before."""
 CHOSEN = ("#000000", "#0072B2", "#009E73", "#3BA7A0", "#C2452D", "#9C5FA3", "#8A5A2B", "#B9C0C6", "#6B7680", "#56B4E9",
           "#6CBF5F", "#7FD1CB", "#E8806B", "#CC79A7", "#D9A400", "#DDE3E8", *RAMP)
