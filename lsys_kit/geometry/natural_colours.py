@@ -6,13 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, initial_colour
 from lsys_kit.notation.model.system import LSystem
 
 
 def coloured(scene: Scene, system: LSystem) -> Scene:
     """A scene of a system, in which strokes without a chosen colour have natural ones if the system says so.
+
+    Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
@@ -21,8 +23,28 @@ def coloured(scene: Scene, system: LSystem) -> Scene:
     >>> coloured(trace_in_space(derive(tree, 0)[0]), tree).segments.colours.tolist()
     [16, 20, 23]
     """
-    if system.colours != "natural":
-        return scene
+    if initial_colour(system) == RAMP_START:
+        return _stretched(scene)
+    return _by_width_or_order(scene) if system.colours == "natural" else scene
+
+
+def _stretched(scene: Scene) -> Scene:
+    """A scene whose colours of the ramp reach its end."""
+    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
+    most = max(int(colours.max(initial=RAMP_START)) for colours in (segments.colours, polygons.colours, discs.colours))
+    stretch = (RAMP_END - RAMP_START) / max(min(RAMP_END, most) - RAMP_START, 1)
+    return replace(scene, segments=replace(segments, colours=_along_ramp(segments.colours, stretch)),
+                   polygons=replace(polygons, colours=_along_ramp(polygons.colours, stretch)),
+                   discs=replace(discs, colours=_along_ramp(discs.colours, stretch)))
+
+
+def _along_ramp(colours: Integers, stretch: float) -> Integers:
+    there = (colours >= RAMP_START) & (colours <= RAMP_END)
+    return np.where(there, RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64), colours)
+
+
+def _by_width_or_order(scene: Scene) -> Scene:
+    """A scene in which strokes for which the turtle has chosen no colour have natural ones."""
     segments = scene.segments
     numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * _youth(segments) + 0.5).astype(np.int64)
     return replace(scene, segments=replace(segments, colours=np.where(segments.colours == OWN, numbers, segments.colours)))

@@ -58,7 +58,7 @@ def scene_by_kit(word, angle):
 
 
 def test_natural_colours(page):
-    trees = ("&F[&F[&(30)F]]F", "F!(4)F!(1)F[+!(0)F]", "!(0)F[+F]", "F[+F;(3)F]")
+    trees = ("&F[&F[&(30)F]]F", "F!(4)F!(1)F[+!(0)F]", "!(0)F[+F]", "F[+F;(3)F]", "F[' ~L]' F ' @O(2)", "F ; F ;(30) F")
     expect_drawn(page, [[derive(read(f"colours: natural\naxiom: {tree}"), 0)[0]] for tree in trees], [25.0])
 
 

@@ -59,3 +59,11 @@ def test_other_colours_are_an_error_that_says_which_there_are():
         read("colours: pink\naxiom: F")
     with pytest.raises(ModelSyntaxError, match='There is nothing after "colours:"'):
         read("colours:\naxiom: F")
+
+
+def test_the_farthest_step_that_is_drawn_is_the_end_of_the_ramp():
+    assert colours("axiom: F ' F") == [16, 23]
+    assert colours("axiom: F ' F ' F ;(3) F") == [16, 20, 23, 3]
+    leaf = scene_of(derive(read("axiom: F [' {f+f+f}]"), 0))
+    assert (leaf.segments.colours.tolist(), leaf.polygons.colours.tolist()) == ([16], [23])
+    assert colours("axiom: F" + " ' F" * 9) == [16, 17, 18, 19, 20, 21, 22, 23, 23, 23]

@@ -15,6 +15,16 @@ const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading"];
 
+// The colours of the ramp, stretched so that the farthest that is drawn is its end.
+export function stretchRamp(...groups) {
+  const inRamp = (colour) => colour >= RAMP_START && colour <= RAMP_END;
+  const farthest = groups.reduce((most, { colours }) => colours.reduce((one, other) => Math.max(one, other), most), RAMP_START);
+  const stretch = (RAMP_END - RAMP_START) / Math.max(1, Math.min(RAMP_END, farthest) - RAMP_START);
+  for (const { colours } of groups)
+    for (let i = 0; i < colours.length; i++)
+      if (inRamp(colours[i])) colours[i] = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
+}
+
 // Natural colours of the strokes for which none has been chosen: from bark to leaves, by their width, else by their branch order.
 export function colourNaturally({ colours, orders, widths }) {
   let deepest = 0, widest = OWN_LOOK;
