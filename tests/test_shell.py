@@ -408,7 +408,7 @@ def test_stages_tells_how_long_cells_live(shell, tmp_path):
 
 def test_a_picture_goes_nowhere_else(shell, tmp_path):
     refused(shell("draw", "K5", "-n", "2", "-o", "out.bmp"), ".svg, .png, .pdf, .glb or .obj", ".gif")
-    refused(shell("stages", "P4", "-o", "out.png"), ".svg")
+    refused(shell("stages", "P4", "-o", "out.bmp"), ".svg", ".png", ".pnml")
     refused(shell("stages", "P4", "-o", str(tmp_path / "no" / "out.svg")), "cannot be written", "No such file")
 
 

@@ -15,6 +15,7 @@ import pytest
 import sympy
 
 from lsys_kit import check, derive, exercises, read
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
@@ -110,7 +111,8 @@ def test_no_reply_gives_the_solution_away(name):
 # What is said of commas and units
 
 
-def test_a_comma_that_may_be_either_is_asked_about(tmp_path):
+def test_a_comma_that_may_be_either_is_asked_about(tmp_path, monkeypatch):
+    monkeypatch.setattr(registry, "_added", {})
     (tmp_path / "t.toml").write_text(
         'title = "T"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\nid = "comma.1"\ntitle = "t"\n'
         'kind = "number"\nquestion = "q"\nexplanation = "e"\nhints = ["1", "2", "3"]\nobjective = 1\nsolution = "1234.5"\n'
