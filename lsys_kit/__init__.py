@@ -68,6 +68,7 @@ if TYPE_CHECKING:
     from lsys_kit.pictures.films import animate
     from lsys_kit.pictures.hierarchy import draw_hierarchy
     from lsys_kit.pictures.qr_codes import qr_code
+    from lsys_kit.translation import language
     from lsys_kit.worlds.derive import derive
 
 _HOMES = {
@@ -80,7 +81,7 @@ _HOMES = {
     "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
     "exercises": "classroom.exercises.registry",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
-    "growth": "derivation.growth.growth", "infer": "geometry.inference.infer", "limits": "budget",
+    "growth": "derivation.growth.growth", "infer": "geometry.inference.infer", "language": "translation", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict",
@@ -118,6 +119,7 @@ __all__ = [
     "figure",
     "growth",
     "infer",
+    "language",
     "limits",
     "lineage",
     "link",

@@ -19,6 +19,7 @@ from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.scores import keep_score
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, require
+from lsys_kit.translation import gettext
 
 BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3, "rules": 50}
 """The limits for an answer."""
@@ -78,18 +79,19 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
     require(solution, bool, 'True or False for "solution"')
     hints = _hints(asked, hint, call)
     if _untouched(asked, answer):
-        after = " Hints and the solution are shown after a try." if solution or hints else ""
-        return Verdict("Not answered yet", f"Replace the ... with your {ANSWER_KINDS[asked.kind].what}.{after}")
+        missing = gettext("Replace the ... with your {answer}.", answer=gettext(ANSWER_KINDS[asked.kind].what))
+        after = gettext("Hints and the solution are shown after a try.") if solution or hints else ""
+        return Verdict("Not answered yet", f"{missing} {after}".rstrip())
     _prepare(asked)
     try:
-        with limits(**_budget()), Task("It was not checked"):
+        with limits(**_budget()), Task(gettext("It was not checked")):
             verdict, tried = _judged(asked, answer)
     except ModelLimitError as grown:
-        return Verdict("Not yet", f"Your answer is too large. {grown.message}.")
+        return Verdict("Not yet", gettext("Your answer is too large. {reason}.", reason=grown.message))
     except LSystemError as mistake:
         return Verdict("Not readable yet", str(mistake))
     if (hints or solution) and not tried:
-        return _with(verdict, "Hints and the solution are shown after a try: an answer that could be meant.")
+        return _with(verdict, gettext("Hints and the solution are shown after a try: an answer that could be meant."))
     return _with(verdict, "\n".join([*hints, *([_solution(asked)] if solution else [])]))
 
 
@@ -120,7 +122,8 @@ def _untouched(exercise: Exercise, answer: object) -> bool:
 def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     if isinstance(answer, str) and len(answer) > MOST_ANSWER_CHARACTERS:
         raise ModelLimitError(
-            f"It has {len(answer):,} characters; the limit is {MOST_ANSWER_CHARACTERS:,}", limit=MOST_ANSWER_CHARACTERS
+            gettext("It has {number} characters; the limit is {most}", number=f"{len(answer):,}", most=f"{MOST_ANSWER_CHARACTERS:,}"),
+            limit=MOST_ANSWER_CHARACTERS,
         )
     return judged(exercise, answer)
 
@@ -129,15 +132,16 @@ def _hints(exercise: Exercise, number: object, call: str) -> list[str]:
     """The hints up to one, as lines."""
     most = len(exercise.hints)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number <= most:
-        raise ModelValueError(f"Exercise {exercise.id} has the hints 1 to {most}")
-    shown = [f"Hint {at} of {most}: {hint}" for at, hint in enumerate(exercise.hints[:number], 1)]
-    more = [f"One more: {call}, hint={number + 1})."] if 0 < number < most else []
+        raise ModelValueError(gettext("Exercise {id} has the hints 1 to {most}", id=exercise.id, most=most))
+    shown = [gettext("Hint {number} of {most}: {hint}", number=at, most=most, hint=hint)
+             for at, hint in enumerate(exercise.hints[:number], 1)]
+    more = [gettext("One more: {call}.", call=f"{call}, hint={number + 1})")] if 0 < number < most else []
     return [*shown, *more]
 
 
 def _solution(exercise: Exercise) -> str:
     quoted = "\n".join(f"  {line}" for line in exercise.solution.strip().splitlines())
-    return f"The solution:\n{quoted}\n{exercise.explanation}"
+    return f"{gettext('The solution:')}\n{quoted}\n{exercise.explanation}"
 
 
 def _with(verdict: Verdict, more: str) -> Verdict:

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any, TypeAlias
 
 from lsys_kit.budget import limits
@@ -17,6 +17,7 @@ from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS, Misconception
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError
+from lsys_kit.translation import gettext
 
 NEAR, NEAR_UNKNOWN, RECOGNISED, MOST_UNKNOWN, READABLE = 0.6, 0.5, 0.4, 0.3, 0.05
 """Scores: nearly right and recognised; right but for one thing; recognised; otherwise by how much is right; and not at all."""
@@ -188,15 +189,23 @@ def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
     others = {wrong.misconception.name: wrong.misconception for wrong in fitting if wrong.misconception}
     if own is not None:
         others.pop(own.misconception.name if own.misconception else "", None)
-        asked = f" Or did you {_any_of(list(others.values()))}?" if others else ""
-        return f"{own.says.strip()}{asked}"
+        asked = gettext("Or did you {do}?", do=_any_of(list(others.values()))) if others else ""
+        return f"{own.says.strip()} {asked}".rstrip()
     if len(others) == 1:
         only = next(iter(others.values()))
         if found.likeness >= MOST_RIGHT and found.at_a_place and not only.near:
-            return f"Did you {only.do}? {found.message}"
-        return f"That is what comes out if you {only.do}. {only.but}"
-    return f"Did you {_any_of(list(others.values()))}?"
+            return f"{_asked([only])} {found.message}"
+        return gettext("That is what comes out if you {do}. {but}", do=gettext(only.do), but=gettext(only.but))
+    return _asked(list(others.values()))
+
+
+def _asked(several: Sequence[Misconception]) -> str:
+    return gettext("Did you {do}?", do=_any_of(several))
 
 
 def _any_of(several: Sequence[Misconception]) -> str:
-    return ", or ".join(misconception.do for misconception in several[:MOST_ASKED])
+    """What several misconceptions do, as a sentence goes on with it."""
+    return reduce(
+        lambda one, other: gettext("{one}, or {other}", one=one, other=other),
+        (gettext(misconception.do) for misconception in several[:MOST_ASKED]),
+    )

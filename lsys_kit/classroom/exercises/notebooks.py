@@ -20,8 +20,10 @@ from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.progress import Progress, progress_of
 from lsys_kit.classroom.exercises.record import Record
 from lsys_kit.classroom.exercises.registry import exercises
+from lsys_kit.classroom.exercises.translated import translated_lesson
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
+from lsys_kit.translation import gettext
 
 NotebookCell: TypeAlias = dict[str, Any]
 
@@ -69,7 +71,7 @@ def write_notebooks(folder: str | Path, questions: str | Path = QUESTIONS) -> li
     if own:
         exercises(own)
     paths = []
-    for lesson in questions_in(Path(questions)).lessons:
+    for lesson in map(translated_lesson, questions_in(Path(questions)).lessons):
         paths.append(Path(folder) / f"{lesson.name}.ipynb")
         replace_file(paths[-1], exercise_notebook(lesson, own).encode())
     return paths
@@ -81,24 +83,30 @@ def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     yield _code("import", f"from lsys_kit import {words}{added}")
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
-    yield _markdown("summary", f"## Summary\n\n{lesson.summary}\n\n[Back to the lesson](../notebooks/{lesson.name}.ipynb)")
-    yield _code("progress", f'progress("{lesson.name}")   # progress() shows all lessons', progress_of(Record(), lesson.name))
-    yield _markdown("marks", _MARKS)
+    yield _markdown("summary", f"## {gettext('Summary')}\n\n{lesson.summary}\n\n"
+                    f"[{gettext('Back to the lesson')}](../notebooks/{lesson.name}.ipynb)")
+    all_lessons = gettext("progress() shows all lessons")
+    yield _code("progress", f'progress("{lesson.name}")   # {all_lessons}', progress_of(Record(), lesson.name))
+    yield _markdown("marks", gettext(_MARKS))
     yield from map(_score_cell, lesson.exercises)
 
 
 def _introduction(lesson: Lesson) -> str:
     objectives = "\n".join(f"- {objective}" for objective in lesson.objectives)
-    return (f"# Exercises: {lesson.title}\n\n{lesson.introduction} They go with the lesson "
-            f"[{lesson.title}](../notebooks/{lesson.name}.ipynb).\n\n**After these exercises you can**\n\n{objectives}\n\n"
-            f"{_HOW.format(id=lesson.exercises[0].id)}")
+    goes_with = gettext("They go with the lesson {lesson}.", lesson=f"[{lesson.title}](../notebooks/{lesson.name}.ipynb)")
+    return (f"# {gettext('Exercises: {title}', title=lesson.title)}\n\n{lesson.introduction} {goes_with}\n\n"
+            f"**{gettext('After these exercises you can')}**\n\n{objectives}\n\n{gettext(_HOW, id=lesson.exercises[0].id)}")
 
 
 def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
     name = f"exercise-{exercise.id.replace('.', '-')}"
     yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}{listing(exercise)}")
     yield _code(f"{name}-answer", f'answer = {_template(exercise)}\ncheck("{exercise.id}", answer)', check(exercise.id))
-    yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # hints 1 to {len(exercise.hints)}')
+    yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # {_hints(exercise)}')
+
+
+def _hints(exercise: Exercise) -> str:
+    return gettext("hints 1 to {number}", number=len(exercise.hints))
 
 
 def _score_cell(exercise: Exercise) -> NotebookCell:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, Questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
+from lsys_kit.classroom.exercises.translated import translated, translated_lesson
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, require
 from lsys_kit.notation.analysis.checks import suggestion
 
@@ -22,7 +23,7 @@ def kit_questions() -> Questions:
 
 def lessons() -> tuple[Lesson, ...]:
     """The lessons of the kit that have exercises, in their order."""
-    return kit_questions().lessons
+    return tuple(map(translated_lesson, kit_questions().lessons))
 
 
 def all_lessons() -> tuple[Lesson, ...]:
@@ -58,7 +59,7 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
     [3, 3]
     """
     if folder is None:
-        return ExerciseList(exercise for found in _all_questions() for _, _, exercise in found.exercises)
+        return ExerciseList(translated(exercise) for found in _all_questions() for _, _, exercise in found.exercises)
     require(folder, (str, Path), "The name of a folder")
     path = Path(folder).absolute()
     found = _added[path] = questions_in(path)
@@ -66,7 +67,7 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
         raise ModelFileError(
             f"{len(found.problems)} mistakes: {found.problems[0]}", hint="lsys-kit exercises check FOLDER lists all of them."
         )
-    return ExerciseList(exercise for _, _, exercise in found.exercises)
+    return ExerciseList(translated(exercise) for _, _, exercise in found.exercises)
 
 
 def _all_questions() -> Iterator[Questions]:
@@ -85,7 +86,7 @@ def exercise_of(id: str) -> Exercise:
     wanted = id.strip()
     found = [exercise for questions in _all_questions() for _, _, exercise in questions.exercises if exercise.id == wanted]
     if len(found) == 1:
-        return found[0]
+        return translated(found[0])
     problem = next(
         (problem for questions in _all_questions() for problem in questions.problems if problem.exercise == wanted), None
     )

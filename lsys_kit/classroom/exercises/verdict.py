@@ -6,8 +6,9 @@ from collections.abc import Mapping
 
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
+from lsys_kit.translation import gettext
 
-_SIGNS_AND_COLOURS: Mapping[str, tuple[str, str]] = {
+SIGNS_AND_COLOURS: Mapping[str, tuple[str, str]] = {
     "Correct": ("✓", GREEN),
     "Almost": ("≈", ORANGE),
     "Not yet": ("✗", ORANGE),
@@ -29,7 +30,7 @@ class Verdict(float):
     Attributes
     ----------
     said
-        "Correct", "Almost", "Not yet", "Not readable yet", "Not answered yet" or "Hint".
+        "Correct", "Almost", "Not yet", "Not readable yet", "Not answered yet" or "Hint"; displayed in the chosen language.
     message
         The reply to the answer; lines that begin with two blanks quote it.
 
@@ -52,16 +53,16 @@ class Verdict(float):
         return verdict
 
     def __repr__(self) -> str:
-        return f"{self.said}. {self.message}".rstrip()
+        return f"{gettext(self.said)}. {self.message}".rstrip()
 
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
         """The box: a sign, a word and the message, all text escaped."""
-        sign, colour = _SIGNS_AND_COLOURS[self.said]
+        sign, colour = SIGNS_AND_COLOURS[self.said]
         return (f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
                 'padding:6px 12px">'
-                f'<span aria-hidden="true">{sign}</span> <b>{escaped(self.said)}.</b> {_html(self.message)}</div>')
+                f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}</div>')
 
 
 def _html(message: str) -> str:

@@ -1,0 +1,100 @@
+"""Texts in other languages, by gettext: the English text is the id of its translation, and stands where there is none.
+
+A language is a folder `locale/LANGUAGE/LC_MESSAGES` with a catalogue `lsys_kit.po`, and the same compiled, `lsys_kit.mo`.
+`python -m tests.messages` renews them all from the texts of the kit; `python -m tests.messages fr` begins another language.
+The language is chosen by `language`, or by the environment variable LSYS_KIT_LANGUAGE, and never taken from the system, so that
+what is displayed is the same on every machine.
+"""
+
+from __future__ import annotations
+
+import os
+from functools import cache
+from gettext import GNUTranslations, NullTranslations
+from pathlib import Path
+
+from lsys_kit.errors import ModelNameError, quotable, shown
+
+LOCALE = Path(__file__).parent / "locale"
+"""The folder of the catalogues."""
+ENGLISH = "en"
+VARIABLE = "LSYS_KIT_LANGUAGE"
+"""The environment variable that chooses a language."""
+
+_chosen: list[str] = []
+
+
+def language(name: str | None = None) -> str:
+    """The language in which exercises are asked and answers are replied to; with a name, choose it.
+
+    Parameters
+    ----------
+    name
+        Its code: "en" for English, which is chosen at the beginning, or "de" for German. A code with a country, as "de_AT",
+        is taken for its language. A text without a translation is shown in English.
+
+    Returns
+    -------
+    str
+        The code of the language that is chosen now.
+
+    Raises
+    ------
+    ModelNameError
+        There is no translation into this language.
+
+    Examples
+    --------
+    >>> from lsys_kit import check
+    >>> language("de")
+    'de'
+    >>> check("1.1", "bl ar bl ar ar")
+    Richtig.
+    >>> language("en")
+    'en'
+    """
+    if name is not None:
+        _chosen[:] = [_known(name)]
+    if not _chosen:
+        _chosen[:] = [_known(os.environ.get(VARIABLE) or ENGLISH)]
+    return _chosen[0]
+
+
+def languages() -> tuple[str, ...]:
+    """The codes of the languages that there are."""
+    return ENGLISH, *sorted(path.parent.parent.name for path in LOCALE.glob("*/LC_MESSAGES/lsys_kit.mo"))
+
+
+def _known(name: object) -> str:
+    code = name.strip().replace("-", "_").partition("_")[0].lower() if isinstance(name, str) else None
+    if code in languages():
+        return code
+    wanted = f'"{quotable(name)}"' if isinstance(name, str) else shown(name)
+    raise ModelNameError(f"There is no language {wanted}", hint=f"Languages are: {', '.join(languages())}.")
+
+
+@cache
+def _catalogue(code: str) -> NullTranslations:
+    if code == ENGLISH:
+        return NullTranslations()
+    with (LOCALE / code / "LC_MESSAGES" / "lsys_kit.mo").open("rb") as file:
+        return GNUTranslations(file)
+
+
+def gettext(message: str, /, **values: object) -> str:
+    """A text in the chosen language, with values in the place of its names in braces; without values as it is.
+
+    >>> gettext("You have {number} words", number=3)
+    'You have 3 words'
+    """
+    found = _catalogue(language()).gettext(message) if message else message
+    return found.format(**values) if values else found
+
+
+def ngettext(singular: str, plural: str, number: int, /, **values: object) -> str:
+    """A text whose form depends on a number, which it has by the name `number`.
+
+    >>> ngettext("{number} place", "{number} places", 1), ngettext("{number} place", "{number} places", 2)
+    ('1 place', '2 places')
+    """
+    return _catalogue(language()).ngettext(singular, plural, number).format(number=number, **values)

@@ -1,0 +1,147 @@
+"""The catalogues of translated texts, renewed from the texts of the kit.
+
+    python -m tests.messages          # renews lsys_kit/locale/lsys_kit.pot, and each language's .po and .mo
+    python -m tests.messages fr       # begins another language, or renews this one alone
+
+A translator fills in the `msgstr` of a .po file, with an editor of one's choice, and runs it again. What is translated: the
+constant texts that stand in calls of `gettext` and `ngettext`, those of the tables of misconceptions, kinds of answers and
+topics, and what a student reads in the files of exercises. A test finds what is missing.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import string
+import sys
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+
+from babel.messages.catalog import Catalog, Message
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po, write_po
+
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
+from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
+from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.practice.practice import TOPICS
+from lsys_kit.classroom.exercises.translated import texts
+from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
+from lsys_kit.translation import LOCALE
+
+PACKAGE = LOCALE.parent
+TEMPLATE = LOCALE / "lsys_kit.pot"
+_UNDATED = datetime(2000, 1, 1, tzinfo=UTC)
+"""Catalogues have no date, so that they change with their texts alone."""
+
+
+def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
+    """Each text that is translated, or the two forms of one with a number, and where it stands."""
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for message in _in_calls(ast.parse(path.read_text(encoding="utf-8"))):
+            yield message, path.relative_to(PACKAGE.parent).as_posix()
+    for name, text in _in_tables():
+        yield text, f"{name} (table)"
+    for lesson in questions_in(QUESTIONS).lessons:
+        for text in texts(lesson):
+            if text:
+                yield text, f"lsys_kit/classroom/exercises/questions/{lesson.name}.toml"
+
+
+def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
+    constants = {target.id: node.value for node in module.body if isinstance(node, ast.Assign)
+                 for target in node.targets if isinstance(target, ast.Name)}
+    for node in ast.walk(module):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("gettext", "ngettext"):
+            count = 1 if node.func.id == "gettext" else 2
+            given = [constants.get(each.id, each) if isinstance(each, ast.Name) else each for each in node.args[:count]]
+            found = [each.value for each in given if isinstance(each, ast.Constant)]
+            if len(found) == count:
+                yield found[0] if count == 1 else (found[0], found[1])
+
+
+def _in_tables() -> Iterator[tuple[str, str]]:
+    yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
+    yield from (("kinds", kind.what) for kind in ANSWER_KINDS.values())
+    yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
+    yield from (("practice", topic.title) for topic in TOPICS.values())
+
+
+def template() -> Catalog:
+    """All texts, each once, with the files that it stands in."""
+    catalogue = Catalog(project="lsys_kit", header_comment="# The texts of lsys_kit. Made by: python -m tests.messages",
+                        creation_date=_UNDATED, revision_date=_UNDATED, charset="utf-8")
+    for message, place in messages():
+        catalogue.add(message, auto_comments=[place])
+    return catalogue
+
+
+def renewed(code: str) -> Catalog:
+    """The catalogue of a language with the texts of today; what is translated stays, what is gone goes."""
+    path = po_file(code)
+    found = Catalog(locale=code)
+    if path.exists():
+        with path.open("rb") as file:
+            found = read_po(file, locale=code)
+    catalogue = Catalog(locale=code, project="lsys_kit", header_comment="# The texts of lsys_kit, translated.",
+                        creation_date=_UNDATED, revision_date=_UNDATED, charset="utf-8", fuzzy=False)
+    for message in template():
+        if message.id:
+            known = found.get(message.id if isinstance(message.id, str) else message.id[0])
+            catalogue.add(message.id, known.string if known else None, auto_comments=message.auto_comments)
+    return catalogue
+
+
+def po_file(code: str) -> Path:
+    """The catalogue that a translator edits."""
+    return LOCALE / code / "LC_MESSAGES" / "lsys_kit.po"
+
+
+def po_text(catalogue: Catalog) -> bytes:
+    """A catalogue as its file has it."""
+    file = io.BytesIO()
+    write_po(file, catalogue, width=120)
+    return re.sub(rb'"(Generated-By|POT-Creation-Date|PO-Revision-Date|Report-Msgid-Bugs-To|Last-Translator|Language-Team):.*\n', b"", file.getvalue())
+
+
+def mo_bytes(catalogue: Catalog) -> bytes:
+    """A catalogue compiled."""
+    file = io.BytesIO()
+    write_mo(file, catalogue)
+    return file.getvalue()
+
+
+def is_translated(message: Message) -> bool:
+    """Whether a text has its translation, in all of its forms."""
+    return bool(message.string) and all((message.string,) if isinstance(message.string, str) else message.string)
+
+
+def placeholders(text: str) -> list[str]:
+    """The names in braces in a text, in alphabetical order.
+
+    >>> placeholders("{number} of {most}")
+    ['most', 'number']
+    """
+    return sorted(name for _, name, _, _ in string.Formatter().parse(text) if name is not None)
+
+
+def codes() -> list[str]:
+    """The languages there are."""
+    return sorted(path.name for path in LOCALE.iterdir() if path.is_dir())
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+
+
+if __name__ == "__main__":
+    _write(TEMPLATE, po_text(template()))
+    for code in sys.argv[1:] or codes():
+        catalogue = renewed(code)
+        _write(po_file(code), po_text(catalogue))
+        _write(po_file(code).with_suffix(".mo"), mo_bytes(catalogue))
+        missing = sum(not is_translated(each) for each in catalogue if each.id)
+        print(f"{code}: {len(catalogue)} texts, {missing} not translated")
