@@ -28,7 +28,7 @@ def lessons() -> tuple[Lesson, ...]:
 
 def all_lessons() -> tuple[Lesson, ...]:
     """The lessons of the kit and of the folders that were added."""
-    return tuple(lesson for questions in _all_questions() for lesson in questions.lessons)
+    return tuple(translated_lesson(lesson) for questions in _all_questions() for lesson in questions.lessons)
 
 
 class ExerciseList(tuple[Exercise, ...]):
