@@ -35,6 +35,9 @@ PACKAGE = LOCALE.parent
 TEMPLATE = LOCALE / "lsys_kit.pot"
 _UNDATED = datetime(2000, 1, 1, tzinfo=UTC)
 """Catalogues have no date, so that they change with their texts alone."""
+_CHANGING = re.compile(
+    rb'"(Generated-By|(POT-Creation|PO-Revision)-Date|Report-Msgid-Bugs-To|Last-Translator|Language-Team):.*\n')
+"""Lines of a catalogue's head that say nothing of its texts."""
 
 
 def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
@@ -103,7 +106,7 @@ def po_text(catalogue: Catalog) -> bytes:
     """A catalogue as its file has it."""
     file = io.BytesIO()
     write_po(file, catalogue, width=120)
-    return re.sub(rb'"(Generated-By|POT-Creation-Date|PO-Revision-Date|Report-Msgid-Bugs-To|Last-Translator|Language-Team):.*\n', b"", file.getvalue())
+    return _CHANGING.sub(b"", file.getvalue())
 
 
 def mo_bytes(catalogue: Catalog) -> bytes:

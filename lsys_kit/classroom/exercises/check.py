@@ -122,7 +122,9 @@ def _untouched(exercise: Exercise, answer: object) -> bool:
 def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     if isinstance(answer, str) and len(answer) > MOST_ANSWER_CHARACTERS:
         raise ModelLimitError(
-            gettext("It has {number} characters; the limit is {most}", number=f"{len(answer):,}", most=f"{MOST_ANSWER_CHARACTERS:,}"),
+            gettext(
+                "It has {number} characters; the limit is {most}", number=f"{len(answer):,}", most=f"{MOST_ANSWER_CHARACTERS:,}"
+            ),
             limit=MOST_ANSWER_CHARACTERS,
         )
     return judged(exercise, answer)

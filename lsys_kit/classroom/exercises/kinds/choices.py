@@ -11,6 +11,7 @@ from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.typed.number_words import with_digits
 from lsys_kit.classroom.exercises.typed.text import keyboard_text, quoted, text_answer, unquoted
 from lsys_kit.errors import ModelNameError, ModelValueError, whole_number
+from lsys_kit.translation import gettext
 
 # One of some options
 
@@ -56,7 +57,7 @@ def _plain(text: str) -> str:
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:
-    text = " ".join(text_answer(answer, "An option", '"A"').split())
+    text = " ".join(text_answer(answer, gettext("An option"), '"A"').split())
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
     named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)
@@ -67,7 +68,10 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
         meant = [letter for letter in _with_part(texts, _plain(both[2])) if letter == both[1].upper()]
     meant = meant or _with_part(texts, _plain(text)) or _named_in(texts, text)
     if len(meant) != 1:
-        raise ModelNameError(f'"{quoted(text)}" is none of the options', hint=f"Choose one of: {', '.join(known)}.")
+        raise ModelNameError(
+            gettext('"{text}" is none of the options', text=quoted(text)),
+            hint=gettext("Choose one of: {options}.", options=", ".join(known)),
+        )
     return meant[0]
 
 
@@ -89,7 +93,7 @@ def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
 
 def _choice_difference(exercise: Exercise, own: str, _: str) -> Difference:
     says = exercise.options[letters(exercise).index(own)].says
-    return Difference(says or exercise.otherwise or f"{own} is not the right one.")
+    return Difference(says or exercise.otherwise or gettext("{answer} is not the right one.", answer=own))
 
 
 CHOICE = AnswerKind(
@@ -115,19 +119,21 @@ def _read_symbol(exercise: Exercise, answer: object) -> tuple[str, int]:
     text = (
         str(answer).strip().strip("\"'`")
         if isinstance(answer, int) and not isinstance(answer, bool)
-        else text_answer(answer, "A symbol", '"["').strip().strip("\"'`")
+        else text_answer(answer, gettext("A symbol"), '"["').strip().strip("\"'`")
     )
     text = re.sub(r"^(position|symbol|no\.?|number)\s+", "", text, flags=re.IGNORECASE)
     if text.isascii() and text.isdigit() and text not in units:
         if not units or not 1 <= int(text[:9]) <= len(units):
             raise ModelValueError(
-                f"The word has the positions 1 to {len(units)}" if units else "A symbol is needed, not a number"
+                gettext("The word has the positions 1 to {last}", last=len(units))
+                if units
+                else gettext("A symbol is needed, not a number")
             )
         return units[int(text) - 1], int(text)
     if units and text not in units and exercise.symbols and text not in exercise.symbols:
-        raise ModelNameError(f'The symbol "{quoted(text)}" does not occur in the question')
+        raise ModelNameError(gettext('The symbol "{symbol}" does not occur in the question', symbol=quoted(text)))
     if not text or len(text.split()) > 1 or (len(text) > 1 and all(len(unit) == 1 for unit in units)):
-        raise ModelValueError("One symbol is needed, or its position")
+        raise ModelValueError(gettext("One symbol is needed, or its position"))
     return text, units.index(text) + 1 if units.count(text) == 1 else 0
 
 
@@ -137,8 +143,8 @@ def _same_symbol(_: Exercise, own: tuple[str, int], wanted: tuple[str, int]) -> 
 
 def _symbol_difference(exercise: Exercise, own: tuple[str, int], wanted: tuple[str, int]) -> Difference:
     if own[0] == wanted[0] and not own[1]:
-        return Difference("It occurs several times: give its position, counted from 1.", 1, True)
-    return Difference(exercise.otherwise or f"{own[0]} is not the one that is asked for.")
+        return Difference(gettext("It occurs several times: give its position, counted from 1."), 1, True)
+    return Difference(exercise.otherwise or gettext("{answer} is not the one that is asked for.", answer=own[0]))
 
 
 SYMBOL = AnswerKind(
@@ -149,7 +155,9 @@ SYMBOL = AnswerKind(
 # One line
 
 
-_LINE_NUMBER = re.compile(r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l)\b\W*|l)*(\d{1,8})(?:\W+line)?\W*$", re.IGNORECASE)
+_LINE_NUMBER = re.compile(
+    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?\W*$", re.IGNORECASE
+)
 
 
 def _unspaced(text: str) -> str:
@@ -165,16 +173,19 @@ def _read_line(exercise: Exercise, answer: object) -> int:
             return same[0]
         number = _LINE_NUMBER.match(with_digits(keyboard_text(text)))
         if not number:
-            raise ModelValueError(f'"{quoted(text)}" is no line of the program', hint=f"Give a number from 1 to {len(lines)}.")
+            raise ModelValueError(
+                gettext('"{text}" is no line of the program', text=quoted(text)),
+                hint=gettext("Give a number from 1 to {last}.", last=len(lines)),
+            )
         answer = int(number[1])
-    found = whole_number(answer, "The number of a line")
+    found = whole_number(answer, gettext("The number of a line"))
     if not 1 <= found <= len(lines):
-        raise ModelValueError(f"The program has the lines 1 to {len(lines)}")
+        raise ModelValueError(gettext("The program has the lines 1 to {last}", last=len(lines)))
     return found
 
 
 def _line_difference(exercise: Exercise, own: int, _: int) -> Difference:
-    return Difference(f"It is not line {own}. {exercise.otherwise}".strip())
+    return Difference(f"{gettext('It is not line {number}.', number=own)} {exercise.otherwise}".strip())
 
 
 LINE = AnswerKind("line, as its number", _read_line, lambda _, a, b: a == b, _line_difference, lambda *_: True)

@@ -22,6 +22,7 @@ from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
+from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
 _SYSTEM = re.compile(r"->|=|:|→|#")
@@ -47,7 +48,13 @@ class Drawn:
         """The strokes as they are drawn, in order: shape (n, 4) or (n, 6)."""
         ends = scene_of(self.derivation).segments.ends
         if len(ends) > MOST_STROKES:
-            raise ModelValueError(f"The drawing has {len(ends):,} strokes; up to {MOST_STROKES:,} are compared")
+            raise ModelValueError(
+                gettext(
+                    "The drawing has {number} strokes; up to {most} are compared",
+                    number=f"{len(ends):,}",
+                    most=f"{MOST_STROKES:,}",
+                )
+            )
         return ends
 
 
@@ -113,24 +120,33 @@ def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
 def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
-        return Difference("Nothing is drawn. Which symbols draw a stroke?")
+        return Difference(gettext("Nothing is drawn. Which symbols draw a stroke?"))
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
     if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
         return Difference(_stroke_by_stroke(mine, wanted), likeness)
-    return Difference("Draw it beside the picture: at which stroke does the turtle turn otherwise?", likeness)
+    return Difference(gettext("Draw it beside the picture: at which stroke does the turtle turn otherwise?"), likeness)
 
 
 def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     """Where a drawing first leaves the right one, if both begin with the same stroke."""
     fitting = strokes_that_fit(mine.ends, wanted.ends)
     if fitting < len(mine.ends):
-        so_far = "" if fitting < 2 else f"Your first {fitting} strokes are right, if you begin at the same place. "
-        begun = "If your first stroke is right, stroke" if fitting < 2 else "Stroke"
-        return f"{so_far}{begun} {fitting + 1} is where none should be: look at the signs and brackets before it."
+        if fitting < 2:
+            return gettext(
+                "If your first stroke is right, stroke {number} is where none should be: look at the signs and brackets "
+                "before it.",
+                number=fitting + 1,
+            )
+        return gettext(
+            "Your first {fitting} strokes are right, if you begin at the same place. Stroke {number} is where none should be: "
+            "look at the signs and brackets before it.",
+            fitting=fitting,
+            number=fitting + 1,
+        )
     missing = strokes_that_fit(wanted.ends, mine.ends)
     if missing < len(wanted.ends):
-        return "All strokes that you draw lie in the picture, but it has more of them. Which part is missing?"
-    return "Drawn from the same place it covers the picture, but with other strokes."
+        return gettext("All strokes that you draw lie in the picture, but it has more of them. Which part is missing?")
+    return gettext("Drawn from the same place it covers the picture, but with other strokes.")
 
 
 DRAWING = AnswerKind(

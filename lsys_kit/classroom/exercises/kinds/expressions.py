@@ -18,6 +18,7 @@ from lsys_kit.notation.model.arithmetic import shortest_decimal
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, expression_type, names_in
 from lsys_kit.notation.read import checked_expression, read_expression
 from lsys_kit.notation.syntax.wording import reporting
+from lsys_kit.translation import gettext
 
 
 def _read(exercise: Exercise, answer: object) -> Expression:
@@ -27,7 +28,7 @@ def _read(exercise: Exercise, answer: object) -> Expression:
             answer = str(answer)
         else:
             return _checked(exercise, from_sympy(answer), wanted)
-    text = text_answer(answer, "An expression", '"t + 1"')
+    text = text_answer(answer, gettext("An expression"), '"t + 1"')
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:
@@ -58,7 +59,7 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
     import sympy
 
     if not isinstance(formula, sympy.Basic) or depth > 50:
-        raise ModelValueError(f'An expression must be a text such as "t + 1", not {type(formula).__name__}')
+        raise ModelValueError(gettext('An expression must be a text such as "t + 1", not {kind}', kind=type(formula).__name__))
     if isinstance(formula, sympy.Symbol):
         return Name(str(formula.name))
     if isinstance(formula, sympy.Rational):
@@ -68,7 +69,7 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
         return Number(shortest_decimal(float(formula)))
     operator = _operators().get(type(formula))
     if operator is None or not formula.args:
-        raise ModelValueError(f"The kit's expressions have no {type(formula).__name__}")
+        raise ModelValueError(gettext("The kit's expressions have no {name}", name=type(formula).__name__))
     operands = [from_sympy(argument, depth + 1) for argument in formula.args]
     return operator(operands)
 
@@ -131,12 +132,16 @@ def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Di
     right = sum(differing_values(own, solution, [case]) is None for case in cases)
     message = differing_values(own, solution, cases)
     if message is None:
-        return Difference("For the numbers of the question it is right, but not for all others: it is another formula.", 1)
+        return Difference(
+            gettext("For the numbers of the question it is right, but not for all others: it is another formula."), 1
+        )
     return Difference(message, right / len(cases))
 
 
 def _praise(_: Exercise, own: Expression, solution: Expression) -> str:
-    return "It is so whatever the values." if proved_equal(own, solution) else "It is so for all the values in question."
+    if proved_equal(own, solution):
+        return gettext("It is so whatever the values.")
+    return gettext("It is so for all the values in question.")
 
 
 EXPRESSION = AnswerKind(

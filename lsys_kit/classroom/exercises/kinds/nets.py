@@ -15,6 +15,7 @@ from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.translation import gettext, ngettext
 
 MOST_TRANSITIONS = 60
 """The most transitions of a net that is compared."""
@@ -67,7 +68,9 @@ def read_net(text: str) -> Net:
     start: Counter[str] | None = None
     lines = [line for part in _BETWEEN.split(text) for line in _single(part) if not line.startswith("besides:")]
     if len(lines) > MOST_TRANSITIONS:
-        raise ModelLimitError(f"The net has more than {MOST_TRANSITIONS} transitions", limit=MOST_TRANSITIONS)
+        raise ModelLimitError(
+            gettext("The net has more than {most} transitions", most=MOST_TRANSITIONS), limit=MOST_TRANSITIONS
+        )
     for line in lines:
         marked, found = _START.match(line), _LINE.match(line)
         if marked:
@@ -78,7 +81,9 @@ def read_net(text: str) -> Net:
             )
         else:
             at = text.find(line)
-            raise ModelSyntaxError("This is no transition", text, at, at + len(line), "Write it as: A -> B + 2 C.")
+            raise ModelSyntaxError(
+                gettext("This is no transition"), text, at, at + len(line), gettext("Write it as: A -> B + 2 C.")
+            )
     return Net(tuple(firings), None if start is None else _sorted(start))
 
 
@@ -102,7 +107,13 @@ def _counted(made: str, text: str) -> Counter[str]:
         read = list(_PART.finditer(part))
         if "".join(each[0] for each in read) != part or not read or _ARROW.search(part):
             at = max(text.find(part), 0)
-            raise ModelSyntaxError(f'"{quoted(part)}" is no place', text, at, at + len(part), "Write it as: A -> B + 2 C.")
+            raise ModelSyntaxError(
+                gettext('"{text}" is no place', text=quoted(part)),
+                text,
+                at,
+                at + len(part),
+                gettext("Write it as: A -> B + 2 C."),
+            )
         for each in read:
             found[each["place"]] += int(each["copies"][:6] or 1)
     return found
@@ -118,7 +129,7 @@ def _read(exercise: Exercise, answer: object) -> Net:
         answer = stages(answer)
     if isinstance(answer, Stages):
         return net_of(answer, with_start)
-    return read_net(text_answer(answer, "A net", '"A -> B + 2 C"'))
+    return read_net(text_answer(answer, gettext("A net"), '"A -> B + 2 C"'))
 
 
 def isomorphic(mine: Net, wanted: Net) -> bool:
@@ -162,26 +173,52 @@ def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
     own, other = len(set(_places(mine))), len(set(_places(wanted)))
     if own != other:
         return Difference(
-            f"Your net has {own} places, which is too {'many' if own > other else 'few'}: each stage has one place.",
+            ngettext(
+                "Your net has {number} place, which is too many: each stage has one place.",
+                "Your net has {number} places, which is too many: each stage has one place.",
+                own,
+            )
+            if own > other
+            else ngettext(
+                "Your net has {number} place, which is too few: each stage has one place.",
+                "Your net has {number} places, which is too few: each stage has one place.",
+                own,
+            ),
             likeness,
             near,
         )
     if len(mine.firings) != len(wanted.firings):
         return Difference(
-            f"Your net has {len(mine.firings)} transitions, which is too "
-            f"{'many' if len(mine.firings) > len(wanted.firings) else 'few'}.",
+            ngettext(
+                "Your net has {number} transition, which is too many.",
+                "Your net has {number} transitions, which is too many.",
+                len(mine.firings),
+            )
+            if len(mine.firings) > len(wanted.firings)
+            else ngettext(
+                "Your net has {number} transition, which is too few.",
+                "Your net has {number} transitions, which is too few.",
+                len(mine.firings),
+            ),
             likeness,
             near,
         )
     if wanted.start is not None and isomorphic(Net(mine.firings), Net(wanted.firings)):
         return Difference(
-            "The places and transitions are right; look at the tokens with which it starts (a line that begins with start:).",
+            gettext(
+                "The places and transitions are right; look at the tokens with which it starts (a line that begins with "
+                "start:)."
+            ),
             1,
             True,
         )
     odd = next((firing for firing in mine.firings if firing not in wanted.firings), mine.firings[0])
     return Difference(
-        f"Look at the transition that empties {odd.place}: into which places does it put tokens, and how many?", likeness, near
+        gettext(
+            "Look at the transition that empties {place}: into which places does it put tokens, and how many?", place=odd.place
+        ),
+        likeness,
+        near,
     )
 
 

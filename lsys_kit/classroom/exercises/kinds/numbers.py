@@ -17,6 +17,7 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quota
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Function, function_of
 from lsys_kit.notation.read import checked_expression
+from lsys_kit.translation import gettext, ngettext
 
 FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
@@ -24,13 +25,15 @@ MOST_APART = 10
 """How many times too large or too small a number may be that counts as a try."""
 _FILLING_WORDS = (
     "a an about after again all also altogether answer approx approximately are around at be ca circa exactly follow for has "
-    "have i in is it its length long my number of on roughly so that the then there they this thus together total we you"
+    "have i in is it its length long my number of on roughly so that the then there they this thus together total we you "
+    "also antwort das der die ein eine er es etwa genau gibt hat ich insgesamt ist man nach rund sie sind ungefähr zusammen"
 )
 _FILLING = frozenset(_FILLING_WORDS.split())
 """Words that may stand around any number."""
 _DOUBTFUL_WORDS = (
     "above almost below between but either except fewer least less maybe more most never nor not or over than under "
-    "until without"
+    "until without außer bis fast höchstens kaum kein keine knapp mehr mindestens nicht oder ohne unter vielleicht weniger "
+    "zwischen über"
 )
 _DOUBTFUL = frozenset(_DOUBTFUL_WORDS.split())
 """Words by which it is another number, or none."""
@@ -38,7 +41,7 @@ _DOUBTFUL = frozenset(_DOUBTFUL_WORDS.split())
 
 def _words_of(exercise: Exercise) -> frozenset[str]:
     """The words of a question, without the s of several."""
-    text = f"{exercise.question} {exercise.unit} {' '.join(exercise.symbols)}".lower()
+    text = f"{exercise.question} {exercise.unit} {gettext(exercise.unit)} {' '.join(exercise.symbols)}".lower()
     return frozenset(word.removesuffix("s") for word in re.findall(r"[^\W\d_]+|[°%]", text))
 
 
@@ -57,7 +60,7 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     found = typed_number(answer, _asks_for_decimals(exercise, answer))
     odd = next((word for word in (*found.before, *found.after) if word.lower() in _DOUBTFUL), "")
     if odd:
-        raise ModelValueError("One number is needed", hint='Write it alone, as in "21".')
+        raise ModelValueError(gettext("One number is needed"), hint=gettext('Write it alone, as in "21".'))
     unit = next((word for word in found.after[:1] if word.lower() in UNITS), "")
     odd = next((word for word in (*found.before, *found.after) if word != unit and not _is_in_place(exercise, word)), "")
     if odd:
@@ -82,8 +85,10 @@ def _in_the_unit(exercise: Exercise, number: Value, unit: str) -> Value:
 
 def _other_unit(exercise: Exercise, word: str) -> ModelNameError:
     return ModelNameError(
-        f'"{quotable(word)}" is not the unit that the question asks for',
-        hint=f"Its unit is: {exercise.unit}." if exercise.unit else "Write the number alone.",
+        gettext('"{unit}" is not the unit that the question asks for', unit=quotable(word)),
+        hint=gettext("Its unit is: {unit}.", unit=gettext(exercise.unit))
+        if exercise.unit
+        else gettext("Write the number alone."),
     )
 
 
@@ -93,7 +98,8 @@ def _asks_for_decimals(exercise: Exercise, answer: object) -> bool:
     decimals = bool(exercise.tolerance or point) and exercise.kind == "number"
     if decimals and isinstance(answer, str) and whole.isdigit() and len(whole) > 3 and re.search(r"\d,\d{3}(?!\d)", answer):
         raise ModelValueError(
-            f'The comma in "{quoted(answer)}" may stand before decimals or between thousands', hint="Write a point, or nothing."
+            gettext('The comma in "{answer}" may stand before decimals or between thousands', answer=quoted(answer)),
+            hint=gettext("Write a point, or nothing."),
         )
     return decimals
 
@@ -122,16 +128,21 @@ def same_number(exercise: Exercise, own: Value, wanted: Value) -> bool:
 
 def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Difference:
     shown = f"{number:.10g}" if isinstance(number, float) else number_text(number)
-    measured = f" {exercise.unit}" if exercise.unit.lower() in UNITS else ""
-    said = f"{shown}{measured} is not the number that is asked for."
+    measured = f" {gettext(exercise.unit)}" if exercise.unit.lower() in UNITS else ""
+    said = gettext("{number} is not the number that is asked for.", number=f"{shown}{measured}")
     if "contrary" in exercise.expects and not 0 <= number <= 1:
-        return Difference(f"{said} A probability lies between 0 and 1.")
+        return Difference(f"{said} {gettext('A probability lies between 0 and 1.')}")
     counted = (exercise.unit and exercise.unit.lower() not in UNITS) or what_is_asked(exercise)
     if counted and isinstance(solution, int) and (number != int(number) or number < 0):
-        return Difference(f"{said} What is counted is a whole number{', and not less than 0' if number < 0 else ''}.")
+        whole = (
+            gettext("What is counted is a whole number, and not less than 0.")
+            if number < 0
+            else gettext("What is counted is a whole number.")
+        )
+        return Difference(f"{said} {whole}")
     close = bool(exercise.tolerance) and _distance(number, solution) <= 3 * exercise.tolerance
     if close:
-        return Difference(f"{said} It is close: was something rounded on the way?", 1, True)
+        return Difference(f"{said} {gettext('It is close: was something rounded on the way?')}", 1, True)
     return Difference(f"{said} {with_values(exercise.otherwise, number) or _try_small(exercise)}".rstrip())
 
 
@@ -141,7 +152,7 @@ def with_values(text: str, number: Value) -> str:
     >>> with_values("Twice that is {2*answer}. Its root is {sqrt(answer)}. And now?", -3)
     'Twice that is -6. And now?'
     """
-    sentences = re.split(r"(?<=[.?!])\s+(?=[A-Z])", text)
+    sentences = re.split(r"(?<=[.?!])\s+(?=[A-ZÄÖÜ])", text)
     return " ".join(filter(None, (_with_values(sentence, number) for sentence in sentences)))
 
 
@@ -167,7 +178,7 @@ def _try_small(exercise: Exercise) -> str:
     if what_is_asked(exercise) not in ("length", "count", "strokes") or exercise.steps < 4:
         return ""
     values = right_history(exercise).values(exercise, 2)
-    return f"Try your way on step 2: does it give {values[2]} there?"
+    return gettext("Try your way on step 2: does it give {number} there?", number=values[2])
 
 
 def _honest_number(_: Exercise, number: Value, solution: Value) -> bool:
@@ -184,7 +195,7 @@ NUMBER = AnswerKind("number", _read_number, same_number, _number_difference, _ho
 
 
 def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
-    found = [part for part in parts(answer, "Numbers") if not _is_a_word_in_place(exercise, part)]
+    found = [part for part in parts(answer, gettext("Numbers")) if not _is_a_word_in_place(exercise, part)]
     return tuple(_read_number(exercise, part) for part in found)
 
 
@@ -206,22 +217,36 @@ def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tupl
         min(len(own), len(solution)),
     )
     likeness = at / max(len(own), len(solution), 1)
-    numbers = "1 number" if len(own) == 1 else f"{len(own)} numbers"
-    count = "" if len(own) == len(solution) else f"You have {numbers}, and {len(solution)} are asked for. "
+    count = "" if len(own) == len(solution) else _count(len(own), len(solution))
     if at == min(len(own), len(solution)):
-        return Difference(f"{count}As far as both go they agree.", likeness, one_apart(own, solution))
-    so_far = f"The first {at} are right. " if at > 1 else ""
-    return Difference(
-        f"{count}{so_far}Look at number {at + 1}{_step_of(exercise, at)}: you have {number_text(own[at])}.",
-        likeness,
-        one_apart(own, solution),
+        agree = gettext("As far as both go they agree.")
+        return Difference(f"{count} {agree}".lstrip(), likeness, one_apart(own, solution))
+    so_far = gettext("The first {number} are right.", number=at) if at > 1 else ""
+    said = " ".join(filter(None, (count, so_far, _look_at(exercise, at, number_text(own[at])))))
+    return Difference(said, likeness, one_apart(own, solution))
+
+
+def _count(own: int, asked: int) -> str:
+    return ngettext(
+        "You have {number} number, and {asked} are asked for.",
+        "You have {number} numbers, and {asked} are asked for.",
+        own,
+        asked=asked,
     )
 
 
-def _step_of(exercise: Exercise, at: int) -> str:
+def _look_at(exercise: Exercise, at: int, own: str) -> str:
+    """Where the first wrong number of a table stands."""
+    step = _step_of(exercise, at)
+    if step is None:
+        return gettext("Look at number {at}: you have {number}.", at=at + 1, number=own)
+    return gettext("Look at number {at}, that of step {step}: you have {number}.", at=at + 1, step=step, number=own)
+
+
+def _step_of(exercise: Exercise, at: int) -> int | None:
     if what_is_asked(exercise) in ("lengths", "counts") and not exercise.symbols and at < len(asked_steps(exercise)):
-        return f", that of step {asked_steps(exercise)[at]}"
-    return ""
+        return asked_steps(exercise)[at]
+    return None
 
 
 TABLE = AnswerKind(

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, to_sympy
+from lsys_kit.translation import gettext
 
 Valuations: TypeAlias = Mapping[str, Value]
 """A value for each name."""
@@ -27,9 +28,20 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valua
     for case in cases:
         own, right = _value_or_reason(mine, case), _value_or_reason(wanted, case)
         if not _equal_values(own, right):
-            where = " and ".join(f"{name} = {number_text(value)}" for name, value in case.items())
-            gives = own if isinstance(own, str) else f"gives {_value_text(own)}"
-            return f"With {where} your expression {gives}, and it should give {_value_text(right)}."
+            where = gettext(" and ").join(f"{name} = {number_text(value)}" for name, value in case.items())
+            if isinstance(own, str):
+                return gettext(
+                    "With {values} your expression has no value ({reason}), and it should give {right}.",
+                    values=where,
+                    reason=own,
+                    right=_value_text(right),
+                )
+            return gettext(
+                "With {values} your expression gives {own}, and it should give {right}.",
+                values=where,
+                own=_value_text(own),
+                right=_value_text(right),
+            )
     return None
 
 
@@ -39,7 +51,7 @@ def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
         run = function_of(expression, {name: i for i, name in enumerate(case)})
         return run(tuple(case.values()))  # type: ignore[no-any-return]
     except (ArithmeticError, ValueError) as fault:
-        return f"has no value ({reason_of(fault)})"
+        return reason_of(fault)
 
 
 def _equal_values(own: Value | str, right: Value | str) -> bool:

@@ -20,6 +20,7 @@ from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_word
+from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
 MOST_MODULES = 300
@@ -92,7 +93,7 @@ def _parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | No
         own_word = [names.own(module) for module in word]
         found = _words_parting(beginning_with(mine, own_word), beginning_with(wanted, word), names, min(exercise.steps, 5))
         if found is not None:
-            return Parting(found.step, found.position, setting=f"the axiom {probe}")
+            return Parting(found.step, found.position, setting=gettext("the axiom {word}", word=probe))
     return None
 
 

@@ -33,6 +33,7 @@ from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read
+from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
 _AXIOM_LINE = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
@@ -45,7 +46,7 @@ MOST_QUOTED = 200
 def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if isinstance(answer, LSystem):
         return SystemAnswer(answer, answer, answer)
-    text = text_answer(answer, "A system", '"axiom: a"')
+    text = text_answer(answer, gettext("A system"), '"axiom: a"')
     known = f"{exercise.given}\n{exercise.solution}"
     return read_typed(text, lambda typed: _read_text(exercise, typed), known)
 
@@ -62,7 +63,9 @@ def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
     if not own:
-        raise ModelValueError("There is no production here that the question does not give", hint="Write it as: A -> B.")
+        raise ModelValueError(
+            gettext("There is no production here that the question does not give"), hint=gettext("Write it as: A -> B.")
+        )
     return completed(exercise, replace(together, productions=tuple(own)))
 
 
@@ -90,49 +93,75 @@ def _difference_in_writing(exercise: Exercise, mine: SystemAnswer, wanted: Syste
     never = unused(mine.own)
     if never is not None:
         return Difference(
-            f"One of your productions is never used, because one before it always applies:{_typed(never, mine)}", 1, True
+            gettext("One of your productions is never used, because one before it always applies:") + _typed(never, mine),
+            1,
+            True,
         )
-    return Difference("The words are right, but not the angle, by which the drawing changes.", 1, True)
+    return Difference(gettext("The words are right, but not the angle, by which the drawing changes."), 1, True)
 
 
 def _hijacking(found: Parting, mine: SystemAnswer) -> str:
-    before = f"the {found.module}" if found.module is not None else _module_before(found, mine.front)
-    return (
+    return gettext(
         "Your production works only where it stands behind those that are given: by itself it applies to other modules too, "
-        f"such as {before}. To which ones should it apply? Let its condition say so."
+        "such as {module}. To which ones should it apply? Let its condition say so.",
+        module=_named(found.module) if found.module is not None else _module_before(found, mine.front),
     )
+
+
+def _named(module: Module) -> str:
+    return gettext("the {module}", module=module)
 
 
 def _module_before(found: Parting, system: LSystem) -> str:
     if found.step == 0:
-        return "the axiom"
+        return gettext("the axiom")
     derivation = derive(system, found.step)
     parents = derivation.origins(found.step).parents
     before = derivation[found.step - 1]
-    return f"the {before[parents[found.position]] if found.position < len(parents) else before[len(before) - 1]}"
+    return _named(before[parents[found.position]] if found.position < len(parents) else before[len(before) - 1])
 
 
 def _in_words(found: Parting, mine: SystemAnswer, system: LSystem, wanted: LSystem) -> str:
-    besides = f" (with {found.setting})" if found.setting else ""
-    so_far = f"Up to step {found.step - 1} your words are right. " if found.step > 1 and not besides else ""
+    besides = " " + gettext("(with {setting})", setting=found.setting) if found.setting else ""
+    so_far = ""
+    if found.step > 1 and not besides:
+        so_far = gettext("Up to step {step} your words are right.", step=found.step - 1) + " "
     if found.module is not None:
         cause = _decomposition_for(found.module, mine, system, wanted) or _production_for(found.module, mine, system)
-        return f"{so_far}Of {found.module} something else should become{besides}. {cause}".strip()
+        said = gettext("Of {module} something else should become{besides}.", module=found.module, besides=besides)
+        return f"{so_far}{said} {cause}".strip()
     if found.step == 0:
-        return "Look at your axiom: it is not yet the word with which the development begins."
+        return gettext("Look at your axiom: it is not yet the word with which the development begins.")
     derivation = derive(system, found.step)
     if besides:
-        return f"From another start it goes wrong at step {found.step}, position {found.position + 1}{besides}."
+        return gettext(
+            "From another start it goes wrong at step {step}, position {position}{besides}.",
+            step=found.step,
+            position=found.position + 1,
+            besides=besides,
+        )
     parents, before = derivation.origins(found.step).parents, derivation[found.step - 1]
     if found.position >= len(parents):
-        return f"{so_far}At step {found.step} your word ends after position {found.position}, which is too early."
+        return so_far + gettext(
+            "At step {step} your word ends after position {position}, which is too early.",
+            step=found.step,
+            position=found.position,
+        )
     mother = before[parents[found.position]]
     production = derivation.origins(found.step).productions[found.position]
     have = derivation[found.step][found.position]
-    said = f"{so_far}At step {found.step} look at position {found.position + 1}, where you have {have}"
+    where = {"step": found.step, "position": found.position + 1, "module": have, "mother": mother}
     if production is None:
-        return f"{said}: you have no production for {mother}, so that it stays as it is."
-    return f"{said}. It comes from {mother}, by this production:{_typed(system.productions[production], mine)}"
+        return so_far + gettext(
+            "At step {step} look at position {position}, where you have {module}: you have no production for {mother}, so that "
+            "it stays as it is.",
+            **where,
+        )
+    said = gettext(
+        "At step {step} look at position {position}, where you have {module}. It comes from {mother}, by this production:",
+        **where,
+    )
+    return f"{so_far}{said}{_typed(system.productions[production], mine)}"
 
 
 def _decomposition_for(module: Module, mine: SystemAnswer, system: LSystem, wanted: LSystem) -> str:
@@ -143,10 +172,11 @@ def _decomposition_for(module: Module, mine: SystemAnswer, system: LSystem, want
     if tuple(one) != tuple(other):
         return ""
     if not system.decomposition:
-        return "Its production is right. Is there a rule by which what it makes is decomposed?"
-    rules = "this rule" if len(system.decomposition) == 1 else "the rules"
-    shown = _typed(system.decomposition[0], mine) if len(system.decomposition) == 1 else ""
-    return f"Its production is right. Look at {rules} by which what it makes is decomposed{':' if shown else '.'}{shown}"
+        return gettext("Its production is right. Is there a rule by which what it makes is decomposed?")
+    if len(system.decomposition) > 1:
+        return gettext("Its production is right. Look at the rules by which what it makes is decomposed.")
+    said = gettext("Its production is right. Look at this rule by which what it makes is decomposed:")
+    return said + _typed(system.decomposition[0], mine)
 
 
 def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
@@ -154,8 +184,8 @@ def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
     state = states.number(module.symbol, module.arguments)
     number = states.production(state) if states.is_d0l(state) else None
     if number is None:
-        return "You have no production that applies to it." if states.is_d0l(state) else ""
-    return f"Look at this production:{_typed(system.productions[number], mine)}"
+        return gettext("You have no production that applies to it.") if states.is_d0l(state) else ""
+    return gettext("Look at this production:") + _typed(system.productions[number], mine)
 
 
 def _typed(rule: Production, mine: SystemAnswer) -> str:
@@ -197,9 +227,9 @@ def _honest(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> boo
 
 def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
     return (
-        f"The words of all steps from 0 to {exercise.steps} agree, and so does what becomes of each module."
+        gettext("The words of all steps from 0 to {last} agree, and so does what becomes of each module.", last=exercise.steps)
         if not States(wanted.front).traits.stochastic
-        else "Each module becomes what it should, as often as it should."
+        else gettext("Each module becomes what it should, as often as it should.")
     )
 
 

@@ -15,6 +15,7 @@ from lsys_kit.classroom.exercises.typed.text import keyboard_text, quoted, unlab
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
+from lsys_kit.translation import gettext
 
 _EQUALS = re.compile(r"(?<![<>=!])=(?!=)|≈")
 _GROUPED = re.compile(r"[+-]?\d{1,3}([ ']\d{3})+")
@@ -77,13 +78,13 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
             return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
         except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
             fault = fault or mistake
-    raise fault or ModelValueError("A number is needed")
+    raise fault or ModelValueError(gettext("A number is needed"))
 
 
 def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     found = _SENTENCE.match(text)
     if not found:
-        raise ModelValueError(f'"{quoted(answer)}" is no number', hint="Write it in digits.")
+        raise ModelValueError(gettext('"{answer}" is no number', answer=quoted(answer)), hint=gettext("Write it in digits."))
     number = formula_text(_plain(found["number"].strip(), decimal_comma))
     value = _value(re.sub(r"\bpi\b", f"({math.pi!r})", number), answer)
     before, after = (tuple(re.findall(r"[^\W\d_]+|[°%]", found[part] or "")) for part in ("before", "after"))
@@ -95,7 +96,8 @@ def _value(number: str, answer: str) -> Value:
         return _known(number_from(number, "answer"))
     except (ModelSyntaxError, ModelNameError):
         raise ModelValueError(
-            f'"{quoted(answer)}" cannot be read as a number', hint='Write it alone, as in "21", "0.75" or "3/4".'
+            gettext('"{answer}" cannot be read as a number', answer=quoted(answer)),
+            hint=gettext('Write it alone, as in "21", "0.75" or "3/4".'),
         ) from None
 
 
@@ -109,7 +111,7 @@ def _plain(text: str, decimal_comma: bool) -> str:
 
 def _known(number: Value) -> Value:
     if is_symbolic(number):
-        raise ModelValueError(f'A number is needed, and "{quotable(str(number))}" is none')
+        raise ModelValueError(gettext('A number is needed, and "{text}" is none', text=quotable(str(number))))
     return number
 
 
@@ -140,10 +142,10 @@ def _flat(answer: object, what: str, depth: int = 0) -> Iterable[object]:
         answer = list(answer.values())
     if depth > 3 or isinstance(answer, str | bytes) or not isinstance(answer, Iterable):
         if depth == 0:
-            raise ModelValueError(f"{what} are needed, not {type(answer).__name__}")
+            raise ModelValueError(gettext("{what} are needed, not {kind}", what=what, kind=type(answer).__name__))
         yield answer
         return
     for number, part in enumerate(answer):
         if number > 10_000:
-            raise ModelValueError(f"{what} are needed, at most 10,000 of them")
+            raise ModelValueError(gettext("{what} are needed, at most 10,000 of them", what=what))
         yield from _flat(part, what, depth + 1)

@@ -6,6 +6,7 @@ import re
 import unicodedata
 
 from lsys_kit.errors import ModelValueError, quotable, shown
+from lsys_kit.translation import gettext
 
 _ASSIGNED = re.compile(r"^\s*[A-Za-z_]\w*\s*(\([^()=]*\))?\s*=(?!=)\s*")
 """The beginning of `N(12) = 21` or `t = d - s`."""
@@ -38,7 +39,11 @@ _SIGNS = str.maketrans(
 def text_answer(answer: object, what: str, example: str) -> str:
     """An answer that must be a text."""
     if not isinstance(answer, str):
-        raise ModelValueError(f"{what} must be a text such as {example}, not {type(answer).__name__}")
+        raise ModelValueError(
+            gettext(
+                "{what} must be a text such as {example}, not {kind}", what=what, example=example, kind=type(answer).__name__
+            )
+        )
     return answer
 
 

@@ -9,21 +9,22 @@ from fractions import Fraction
 from lsys_kit.notation.model.arithmetic import Value, normalised
 
 _NAMES: Mapping[str, tuple[str, Value]] = {
-    "° deg degree degrees": ("angle", 1),
-    "rad radian radians": ("angle", 180 / math.pi),
-    "turn turns revolution revolutions": ("angle", 360),
-    "% percent": ("share", 1),
+    "° deg degree degrees grad": ("angle", 1),
+    "rad radian radians radiant": ("angle", 180 / math.pi),
+    "turn turns revolution revolutions umdrehung umdrehungen": ("angle", 360),
+    "% percent prozent": ("share", 1),
     "mm millimetre millimetres millimeter millimeters": ("length", 1),
-    "cm centimetre centimetres centimeter centimeters": ("length", 10),
-    "dm decimetre decimetres decimeter decimeters": ("length", 100),
+    "cm centimetre centimetres centimeter centimeters zentimeter": ("length", 10),
+    "dm decimetre decimetres decimeter decimeters dezimeter": ("length", 100),
     "m metre metres meter meters": ("length", 1000),
     "km kilometre kilometres kilometer kilometers": ("length", 1_000_000),
 }
 UNITS: Mapping[str, tuple[str, Value]] = {name: unit for names, unit in _NAMES.items() for name in names.split()}
 """For each name of a unit what it measures, and how much of the first unit of that it is."""
 SAME_THING = (
-    frozenset(("cell", "letter", "module", "symbol", "character", "char", "element", "piece")),
-    frozenset(("wall", "edge")),
+    frozenset(("cell", "letter", "module", "symbol", "character", "char", "element", "piece", "zelle", "zellen", "buchstabe",
+               "buchstaben", "modul", "symbole", "zeichen", "elemente", "stück", "stücke")),
+    frozenset(("wall", "edge", "wand", "wände", "kante", "kanten")),
 )
 """Words for one thing that is counted: what a word is made of, what a map is made of."""
 

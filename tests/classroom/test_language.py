@@ -1,0 +1,215 @@
+"""Exercises in another language: every text is translated, and a student is asked and answered in it."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import pytest
+from babel.messages.catalog import Catalog
+from babel.messages.mofile import read_mo
+
+from lsys_kit import ModelNameError, check, exercises, language
+from lsys_kit.classroom.exercises.check import checked
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
+from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
+from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.notebooks import exercise_notebook
+from lsys_kit.classroom.exercises.translated import texts, translated, translated_lesson
+from lsys_kit.translation import gettext, ngettext
+from tests.messages import TEMPLATE, codes, is_translated, placeholders, po_file, po_text, renewed, template
+
+LESSONS = questions_in(QUESTIONS).lessons
+EXERCISES = [exercise for lesson in LESSONS for exercise in lesson.exercises]
+_RENEW = "python -m tests.messages renews the catalogues"
+
+
+@pytest.fixture
+def german() -> Iterator[None]:
+    language("de")
+    yield
+    language("en")
+
+
+# The catalogues
+
+
+def test_the_template_has_every_text():
+    assert po_text(template()) == TEMPLATE.read_bytes(), _RENEW
+
+
+@pytest.mark.parametrize("code", codes())
+def test_a_catalogue_has_the_texts_of_the_template(code):
+    assert po_text(renewed(code)) == po_file(code).read_bytes(), _RENEW
+
+
+@pytest.mark.parametrize("code", codes())
+def test_a_compiled_catalogue_says_what_its_source_says(code):
+    with po_file(code).with_suffix(".mo").open("rb") as file:
+        compiled = _translations(read_mo(file))
+    assert compiled == _translations(renewed(code)), _RENEW
+
+
+def _translations(catalogue: Catalog) -> dict[object, object]:
+    def key(value: object) -> object:
+        return value if isinstance(value, str) else tuple(value)
+
+    return {key(message.id): key(message.string) for message in catalogue if message.id and is_translated(message)}
+
+
+def test_german_lacks_no_text():
+    assert [message.id for message in renewed("de") if message.id and not is_translated(message)] == []
+
+
+def _forms(message) -> list[tuple[str, str]]:
+    """Each form of a text with its translation; what stands there for one is compared with what stands there for several."""
+    if isinstance(message.id, str):
+        return [(message.id, message.string)]
+    return [(message.id[1], form) for form in message.string]
+
+
+@pytest.mark.parametrize("code", codes())
+def test_a_translation_has_the_placeholders_of_its_text(code):
+    in_files = {text for lesson in LESSONS for text in texts(lesson)}
+    for message in renewed(code):
+        if message.id and is_translated(message):
+            for text, translation in _forms(message):
+                if text in in_files:
+                    assert sorted(FORMULA.findall(text)) == sorted(FORMULA.findall(translation)), text
+                else:
+                    assert placeholders(text) == placeholders(translation), text
+
+
+@pytest.mark.parametrize("code", codes())
+def test_a_translation_has_the_code_and_the_listings_of_its_text(code):
+    for message in renewed(code):
+        if isinstance(message.id, str) and message.id and is_translated(message):
+            assert len(re.findall("`[^`]*`", message.id)) == len(re.findall("`[^`]*`", message.string)), message.id
+            assert message.id.count("**") == message.string.count("**"), message.id
+            texts_of_both = (message.id, message.string)
+            listing, other = (re.findall(r"^    .*(?:->|\d).*$", text, re.MULTILINE) for text in texts_of_both)
+            assert [line.replace("und", "and") for line in other] == listing, message.id
+
+
+# What a student sees
+
+
+def test_english_is_the_language_at_the_beginning():
+    assert language() == "en"
+
+
+@pytest.mark.usefixtures("german")
+def test_replies_are_in_the_language():
+    assert repr(check("1.1", "al al br")) == (
+        "Fast richtig. Das kommt heraus, wenn du einen Schritt zu früh aufhörst oder das Axiom Schritt 1 nennst. Das Axiom ist "
+        "Schritt 0, und Schritt 1 ist, was aus seinen Modulen wird.")
+    assert repr(check("1.1", "bl ar bl ar bl")) == (
+        "Fast richtig. Bis Position 4 stimmt dein Wort; an Position 5 hast du bl. Sieh nach, was aus dem br an Position 3 von "
+        "Schritt 3 wird.")
+    assert "<b>Richtig.</b>" in check("1.1", "bl ar bl ar ar")._repr_html_()
+
+
+@pytest.mark.usefixtures("german")
+def test_the_key_of_a_verdict_is_the_same_in_every_language():
+    assert (check("1.1", "bl ar bl ar ar").said, float(check("1.1", "al al br"))) == ("Correct", 0.6)
+
+
+@pytest.mark.usefixtures("german")
+def test_hints_and_the_solution_are_in_the_language():
+    said = check("1.1", "al al br", hint=1, solution=True).message
+    assert "Tipp 1 von 3: Schreib für jeden Schritt eine Zeile" in said
+    assert "Die Lösung:\n  bl ar bl ar ar\nSchritt für Schritt" in said
+
+
+@pytest.mark.usefixtures("german")
+def test_a_number_is_read_with_the_words_of_the_question():
+    assert check("0.2", "64 Striche") == 1
+    assert check("4.2", "72 Grad") == 1
+    assert check("4.2", "etwa 72°") == 1
+    assert check("0.2", "mehr als 64").said == "Not readable yet"
+    assert "Einheit" in check("0.2", "64 Katzen").message
+
+
+@pytest.mark.usefixtures("german")
+def test_an_option_is_read_by_its_text():
+    assert check("8.2", "Ana und Ben, aber nicht Caro.") == 1
+
+
+@pytest.mark.usefixtures("german")
+def test_formulas_in_a_reply_are_computed():
+    assert "Fünf solche Drehungen sind zusammen 5 Grad." in check("4.2", 1).message
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize("exercise", EXERCISES, ids=lambda exercise: exercise.id)
+def test_every_solution_is_right_and_every_slip_has_its_reply(exercise):
+    own = translated(exercise)
+    assert checked(own, own.solution, 0, False, "check(answer").said == "Correct"
+    known = [slip.says or gettext(MISCONCEPTIONS[slip.misconception].but) for slip in own.slips]
+    for slip in own.slips:
+        reply = checked(own, slip.answer, 0, False, "check(answer")
+        assert any(said in reply.message for said in known)
+
+
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize("exercise", EXERCISES, ids=lambda exercise: exercise.id)
+def test_no_hint_contains_the_solution(exercise):
+    own = translated(exercise)
+    if exercise.kind in ("word", "system", "expression"):
+        assert not any(exercise.solution in hint for hint in own.hints)
+    assert len({option.text for option in own.options}) == len(letters(own))
+
+
+@pytest.mark.usefixtures("german")
+def test_a_notebook_is_written_in_the_language():
+    notebook = exercise_notebook(translated_lesson(LESSONS[1]))
+    assert "# Aufgaben: Paralleles Ersetzen" in notebook
+    assert not re.search(r"After these exercises|hints 1 to|Not answered|Replace the", notebook)
+
+
+@pytest.mark.usefixtures("german")
+def test_exercises_are_listed_in_the_language():
+    assert repr(exercises()).splitlines()[0] == "0.1      Ein Großbuchstabe"
+
+
+@pytest.mark.usefixtures("german")
+def test_a_text_without_translation_stays():
+    assert gettext("No such text") == "No such text"
+
+
+@pytest.mark.usefixtures("german")
+def test_numbers_have_their_form():
+    forms = "You have {number} word, and {asked} are asked for.", "You have {number} words, and {asked} are asked for."
+    assert [ngettext(*forms, number, asked=3).split(",")[0] for number in (1, 2)] == ["Du hast 1 Wort", "Du hast 2 Wörter"]
+
+
+# How it is chosen
+
+
+def test_a_language_that_is_not_there_is_named():
+    with pytest.raises(ModelNameError, match='There is no language "tlh"'):
+        language("tlh")
+    assert language() == "en"
+
+
+def test_a_country_is_taken_for_its_language():
+    try:
+        assert (language("de_AT"), language("DE-ch")) == ("de", "de")
+    finally:
+        language("en")
+
+
+@pytest.mark.parametrize(("variable", "said"), [
+    ({"LSYS_KIT_LANGUAGE": "de"}, "Richtig."), ({"LANG": "de_DE.UTF-8"}, "Correct.")])
+def test_the_environment_chooses_by_its_own_variable_alone(variable, said):
+    code = "from lsys_kit import check; print(check('1.1', 'bl ar bl ar ar'))"
+    done = subprocess.run([sys.executable, "-c", code], env={**os.environ, **variable}, capture_output=True, text=True,
+                          check=True, timeout=120)
+    assert done.stdout.strip() == said
+
+
