@@ -26,6 +26,7 @@ from babel.messages.pofile import read_po, write_po
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.practice import of_languages, of_space
 from lsys_kit.classroom.exercises.practice.practice import TOPICS
 from lsys_kit.classroom.exercises.translated import texts
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
@@ -70,6 +71,9 @@ def _in_tables() -> Iterator[tuple[str, str]]:
     yield from (("kinds", kind.what) for kind in ANSWER_KINDS.values())
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
     yield from (("practice", topic.title) for topic in TOPICS.values())
+    yield from (("practice", text) for text in (*of_languages.TYPES, *of_languages.REPLIES.values()))
+    yield from (("practice", text) for text in (*of_space.DIRECTIONS.values(), of_space.AGAIN))
+    yield from (("practice", unit) for unit in ("letters", "cells", "strokes", "internodes", "shoots", "walls"))
 
 
 def template() -> Catalog:

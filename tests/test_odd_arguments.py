@@ -62,6 +62,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "explain": lambda: (derive(GROWING, 1), 1),
     "infer": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
     "rule_finder": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
+    "language": lambda: ("en",),
     "infer from drawings": lambda: ([[(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 1, 1, 1)]],),
     "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
     "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,

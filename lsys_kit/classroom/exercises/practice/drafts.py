@@ -12,6 +12,7 @@ from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
+from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
 Rules: TypeAlias = Mapping[str, Sequence[str]]
@@ -87,7 +88,7 @@ def size_of(word: str) -> int:
 
 def derivation_text(words: Sequence[str]) -> str:
     """Words with their steps, for an explanation."""
-    return "Step by step:\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
+    return gettext("Step by step:") + "\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
 
 
 def number_exercise(question: str, right: Fraction | int, wrong: Sequence[tuple[Fraction | int, str]], explanation: str,

@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.exercise import Exercise, Option
 from lsys_kit.classroom.exercises.practice.drafts import Topic, quoted_lines
+from lsys_kit.translation import gettext
 
 Place: TypeAlias = tuple[int, int]
 
@@ -102,13 +103,25 @@ def _turtle(chance: Random, level: int) -> Exercise | None:
     places.insert(chance.randint(0, 3), right)
     options = tuple(Option(str(place), misconception=wrong.get(place, "")) for place in places)
     return Exercise(
-        "", "", "choice", "A turtle begins at (0, 0), its heading upwards. F moves it one square forward, + turns it 90 "
-        f"degrees to the left, - to the right. Draw this by hand:{quoted_lines(word)}Where does the turtle stand in the end?",
+        "",
+        "",
+        "choice",
+        gettext(
+            "A turtle begins at (0, 0), its heading upwards. F moves it one square forward, + turns it "
+            "90 degrees to the left, - to the right. Draw this by hand:{listing}Where does the turtle "
+            "stand in the end?",
+            listing=quoted_lines(word),
+        ),
         ascii_uppercase[places.index(right)],
-        f"It stands at {right}: at ] it returns to where it was at [, and to its heading there.",
-        ("Draw it on squared paper, and mark where the turtle looks.", "+ and - turn on the spot.",
-         "At [ note the place and the heading; at ] go back to both."),
-        options=options, expects=tuple(wrong[place] for place in places if place != right))
+        gettext("It stands at {right}: at ] it returns to where it was at [, and to its heading there.", right=right),
+        (
+            gettext("Draw it on squared paper, and mark where the turtle looks."),
+            gettext("+ and - turn on the spot."),
+            gettext("At [ note the place and the heading; at ] go back to both."),
+        ),
+        options=options,
+        expects=tuple(wrong[place] for place in places if place != right),
+    )
 
 
 def _part(chance: Random, level: int) -> str:

@@ -20,6 +20,7 @@ from lsys_kit.classroom.exercises.practice.drafts import (
 )
 from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.derivation.inference.infer import infer
+from lsys_kit.translation import gettext
 
 # Words of a language
 
@@ -37,19 +38,34 @@ def _language(chance: Random, level: int) -> Exercise | None:
     changed = right.split()
     place = chance.randrange(len(changed))
     changed[place] = chance.choice([letter for letter in letters if letter != changed[place]])
-    wrong = [(one, "It comes out if in each step the first letter alone is replaced. In a step all letters are."),
-             (other, "It comes out if the productions are applied one after another. In a step all letters are replaced at "
-                     "once."),
-             (" ".join(changed), "Derive the words up to this length: none of them is this one.")]
+    wrong = [
+        (one, gettext("It comes out if in each step the first letter alone is replaced. In a step all letters are.")),
+        (
+            other,
+            gettext(
+                "It comes out if the productions are applied one after another. In a step all letters are replaced at once."
+            ),
+        ),
+        (" ".join(changed), gettext("Derive the words up to this length: none of them is this one.")),
+    ]
     if not all(word and word not in words and len(word.split()) <= 16 for word, _ in wrong):
         return None
     return choice_exercise(
-        chance, f"The language of a D0L-system is the set of all words that it derives from its "
-                f"axiom.{quoted_lines(system)}Which of "
-        "these words is in its language?", right, wrong, derivation_text(words[: at + 1]),
-        ("The words of a D0L-system are those of step 0, 1, 2, ..., one for each step.",
-         "Derive one word after another until they are longer than all options.",
-         "A word that a Chomsky grammar with the same productions makes need not be among them."))
+        chance,
+        gettext(
+            "The language of a D0L-system is the set of all words that it derives from its axiom.{listing}Which "
+            "of these words is in its language?",
+            listing=quoted_lines(system),
+        ),
+        right,
+        wrong,
+        derivation_text(words[: at + 1]),
+        (
+            gettext("The words of a D0L-system are those of step 0, 1, 2, ..., one for each step."),
+            gettext("Derive one word after another until they are longer than all options."),
+            gettext("A word that a Chomsky grammar with the same productions makes need not be among them."),
+        ),
+    )
 
 
 def _wrong_words(step: rewriting.WrongStep, system: str, steps: int) -> list[str]:
@@ -63,7 +79,7 @@ def _wrong_words(step: rewriting.WrongStep, system: str, steps: int) -> list[str
 
 TYPES = ("bounded", "linear", "quadratic", "exponential")
 """The types of growth that are told apart."""
-_REPLIES = {
+REPLIES = {
     "bounded": "Is there a letter that makes others again and again, and is never used up?",
     "linear": "It would be linear if in every step the same number of letters were added.",
     "quadratic": "It would be quadratic if what is added grew by the same number in every step.",
@@ -77,7 +93,7 @@ def growth_type(lengths: Sequence[int]) -> str:
     >>> growth_type([2 * n + 3 for n in range(40)]), growth_type([1, 2] * 20), growth_type([2**n for n in range(40)])
     ('linear', 'bounded', 'exponential')
     """
-    late = lengths[len(lengths) // 2:]
+    late = lengths[len(lengths) // 2 :]
     if max(late) <= max(lengths[: len(lengths) // 2]):
         return "bounded"
     ratio = late[-1] / late[0]
@@ -91,20 +107,30 @@ def growth_type(lengths: Sequence[int]) -> str:
 def _growth_type(chance: Random, level: int) -> Exercise | None:
     letters = "abcd"[: 2 + (level > 1)]
     wanted = chance.choice(TYPES[: 3 + (level > 1)] if level > 1 else ("bounded", "linear", "exponential"))
-    rules = {letter: [chance.choice(letters[max(0, at - (level > 2)):]) for _ in range(chance.randint(1, 2 + (level > 1)))]
-             for at, letter in enumerate(letters)}
+    rules = {
+        letter: [chance.choice(letters[max(0, at - (level > 2)) :]) for _ in range(chance.randint(1, 2 + (level > 1)))]
+        for at, letter in enumerate(letters)
+    }
     rules["a"] = ["a", *rules["a"]] if wanted == "quadratic" else rules["a"]
     system = system_text("a", rules)
     lengths = growth(system_of(system)).lengths(48)
     if growth_type(lengths) != wanted or (wanted == "bounded" and lengths[1] == 1):
         return None
     return choice_exercise(
-        chance, f"How do the lengths of the words grow with the number of steps?{quoted_lines(system)}", wanted,
-        [(each, _REPLIES[each]) for each in TYPES if each != wanted],
-        "The lengths of the first words: " + ", ".join(map(str, lengths[:9])) + ", ...",
-        ("Write the lengths of the first words.", "Which letters make themselves again, and what do they make besides?",
-         "A letter that makes itself twice doubles; one that makes itself and a letter that stays adds; what it makes may "
-         "grow, too."))
+        chance,
+        gettext("How do the lengths of the words grow with the number of steps?{listing}", listing=quoted_lines(system)),
+        gettext(wanted),
+        [(gettext(each), gettext(REPLIES[each])) for each in TYPES if each != wanted],
+        gettext("The lengths of the first words: ") + ", ".join(map(str, lengths[:9])) + ", ...",
+        (
+            gettext("Write the lengths of the first words."),
+            gettext("Which letters make themselves again, and what do they make besides?"),
+            gettext(
+                "A letter that makes itself twice doubles; one that makes itself and a letter that stays adds; what it "
+                "makes may grow, too."
+            ),
+        ),
+    )
 
 
 # Which rules
@@ -120,19 +146,34 @@ def _rules(chance: Random, level: int) -> Exercise | None:
     if asked not in " ".join(words[:-1]) or len(infer([word.replace(" ", "") for word in words])) != 1:
         return None
     right, others = " ".join(rules[asked]), [" ".join(rules[letter]) for letter in letters if letter != asked]
-    wrong = {right[:-2]: "Then one letter of the next word would come from nothing. Cut it elsewhere.",
-             **dict.fromkeys(others, "That is what another letter becomes.")}
-    wrong[f"{right} {letters[0]}"] = "Then a letter would be left over. Cut the next word elsewhere."
+    wrong = {
+        right[:-2]: gettext("Then one letter of the next word would come from nothing. Cut it elsewhere."),
+        **dict.fromkeys(others, gettext("That is what another letter becomes.")),
+    }
+    wrong[f"{right} {letters[0]}"] = gettext("Then a letter would be left over. Cut the next word elsewhere.")
     wrong.pop(right, None)
     exercise = Exercise(
-        "", "", "word", "These are the words of steps 0, 1, 2, ... of a D0L-system in which no letter vanishes."
-        f"{quoted_lines(chr(10).join(words))}What does {asked} become in a step?", right,
-        "The one system that fits: " + ", ".join(f"{letter} -> {' '.join(made)}" for letter, made in rules.items()
-                                                 if letter in " ".join(words[:-1])) + ".",
-        ("Begin with the step from the shortest word.", "The next word is cut into pieces, one for each letter, in their "
-                                                        "order.",
-         "The same letter has the same piece everywhere: try a cut, and see if it fits all the other steps."),
-        symbols=tuple(letters), unlikely=("word reversed",))
+        "",
+        "",
+        "word",
+        gettext(
+            "These are the words of steps 0, 1, 2, ... of a D0L-system in which no letter "
+            "vanishes.{listing}What does {asked} become in a step?",
+            listing=quoted_lines(chr(10).join(words)),
+            asked=asked,
+        ),
+        right,
+        gettext("The one system that fits: ")
+        + ", ".join(f"{letter} -> {' '.join(made)}" for letter, made in rules.items() if letter in " ".join(words[:-1]))
+        + ".",
+        (
+            gettext("Begin with the step from the shortest word."),
+            gettext("The next word is cut into pieces, one for each letter, in their order."),
+            gettext("The same letter has the same piece everywhere: try a cut, and see if it fits all the other steps."),
+        ),
+        symbols=tuple(letters),
+        unlikely=("word reversed",),
+    )
     return replace(exercise, slips=tuple(Slip(word, says) for word, says in wrong.items()))
 
 

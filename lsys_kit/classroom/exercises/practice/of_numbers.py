@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from fractions import Fraction
-from itertools import pairwise, product
+from itertools import pairwise
 from random import Random
 
 from lsys_kit.classroom.exercises.asked import system_of
-from lsys_kit.classroom.exercises.exercise import Exercise, Slip
+from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.practice.drafts import (
     OF_BRANCHES,
     OF_ORDER,
@@ -22,15 +21,22 @@ from lsys_kit.classroom.exercises.practice.drafts import (
     system_text,
 )
 from lsys_kit.derivation.growth.growth import growth
+from lsys_kit.translation import gettext
 
 _NOT_COUNTED = (*OF_OVERLAPS, *OF_ORDER, *OF_PICTURES, *OF_SILENT_LETTERS, *OF_BRANCHES, "one production a step")
-_COUNTING = ("Write the first words, and count.",
-             "Order does not matter: of a production keep how many of each letter it makes.",
-             "How many of each kind come from how many of each kind in the step before?")
+
+
+def _counting() -> tuple[str, str, str]:
+    """The hints where modules are counted."""
+    return (
+        gettext("Write the first words, and count."),
+        gettext("Order does not matter: of a production keep how many of each letter it makes."),
+        gettext("How many of each kind come from how many of each kind in the step before?"),
+    )
 
 
 def _counts_text(system: str, steps: int) -> str:
-    return "Modules at each step: " + ", ".join(map(str, growth(system_of(system)).lengths(steps)))
+    return gettext("Modules at each step: ") + ", ".join(map(str, growth(system_of(system)).lengths(steps)))
 
 
 # How many
@@ -43,10 +49,26 @@ def _counts(chance: Random, level: int) -> Exercise | None:
     if not 6 < sum(found) < 200 or 0 in found or len(set(found)) < len(found):
         return None
     return Exercise(
-        "", "", "table", f"How often does each letter stand in the word of step {steps}?{quoted_lines(system)}"
-        f"Give the numbers of {', '.join(letters)}, in this order.", ", ".join(map(str, found)), _counts_text(system, steps),
-        _COUNTING, system=system, asks="counts", steps=steps, symbols=tuple(letters),
-        expects=("one step too few", "sequential"), unlikely=_NOT_COUNTED)
+        "",
+        "",
+        "table",
+        gettext(
+            "How often does each letter stand in the word of step {steps}?{listing}Give the numbers of "
+            "{letters}, in this order.",
+            steps=steps,
+            listing=quoted_lines(system),
+            letters=", ".join(letters),
+        ),
+        ", ".join(map(str, found)),
+        _counts_text(system, steps),
+        _counting(),
+        system=system,
+        asks="counts",
+        steps=steps,
+        symbols=tuple(letters),
+        expects=("one step too few", "sequential"),
+        unlikely=_NOT_COUNTED,
+    )
 
 
 def _matrix(chance: Random, level: int) -> Exercise | None:
@@ -60,11 +82,27 @@ def _matrix(chance: Random, level: int) -> Exercise | None:
     order = ", ".join(letters)
     rows = "\n".join(" ".join(map(str, entries[at : at + size])) for at in range(0, len(entries), size))
     return Exercise(
-        "", "", "table", f"Write the growth matrix, with rows and columns in the order {order}: the entry in row i and "
-        f"column j says how many j one i becomes.{quoted_lines(system)}", rows, "Each row counts the letters of one successor.",
-        ("The matrix has a row for each letter.", "Take one production: how often does each letter stand behind its arrow?",
-         "Write these numbers in the row of the letter before the arrow."),
-        system=system, asks="matrix", expects=("rows and columns",), unlikely=_NOT_COUNTED)
+        "",
+        "",
+        "table",
+        gettext(
+            "Write the growth matrix, with rows and columns in the order {order}: the entry in row i "
+            "and column j says how many j one i becomes.{listing}",
+            order=order,
+            listing=quoted_lines(system),
+        ),
+        rows,
+        gettext("Each row counts the letters of one successor."),
+        (
+            gettext("The matrix has a row for each letter."),
+            gettext("Take one production: how often does each letter stand behind its arrow?"),
+            gettext("Write these numbers in the row of the letter before the arrow."),
+        ),
+        system=system,
+        asks="matrix",
+        expects=("rows and columns",),
+        unlikely=_NOT_COUNTED,
+    )
 
 
 def _length(chance: Random, level: int) -> Exercise | None:
@@ -74,10 +112,24 @@ def _length(chance: Random, level: int) -> Exercise | None:
     if found[3] < 3 or not 12 < found[-1] < 100 * 3**level:
         return None
     return Exercise(
-        "", "", "number", f"How many letters has the word of step {steps}?{quoted_lines(system)}"
-        "Count without writing the words.",
-        str(found[-1]), _counts_text(system, steps), _COUNTING, system=system, asks="length", steps=steps, unit="letters",
-        expects=("one step too few", "Fibonacci by reflex"), unlikely=_NOT_COUNTED)
+        "",
+        "",
+        "number",
+        gettext(
+            "How many letters has the word of step {steps}?{listing}Count without writing the words.",
+            steps=steps,
+            listing=quoted_lines(system),
+        ),
+        str(found[-1]),
+        _counts_text(system, steps),
+        _counting(),
+        system=system,
+        asks="length",
+        steps=steps,
+        unit="letters",
+        expects=("one step too few", "Fibonacci by reflex"),
+        unlikely=_NOT_COUNTED,
+    )
 
 
 def _first_past(chance: Random, level: int) -> Exercise | None:
@@ -88,11 +140,24 @@ def _first_past(chance: Random, level: int) -> Exercise | None:
     if first < 4 or first > 30:
         return None
     return Exercise(
-        "", "", "number", f"Which is the first step whose word has more than {bound:,} letters?{quoted_lines(system)}",
+        "",
+        "",
+        "number",
+        gettext(
+            "Which is the first step whose word has more than {bound} letters?{listing}",
+            bound=f"{bound:,}",
+            listing=quoted_lines(system),
+        ),
         str(first),
-        _counts_text(system, first), _COUNTING, system=system, asks=f"first step past {bound}", steps=40,
-        expects=("linear growth", "axiom as step 1"), unlikely=_NOT_COUNTED,
-        otherwise="Count the letters of the first steps, and go on from them.")
+        _counts_text(system, first),
+        _counting(),
+        system=system,
+        asks=f"first step past {bound}",
+        steps=40,
+        expects=("linear growth", "axiom as step 1"),
+        unlikely=_NOT_COUNTED,
+        otherwise=gettext("Count the letters of the first steps, and go on from them."),
+    )
 
 
 # Life spans
@@ -108,13 +173,34 @@ def _life_spans(chance: Random, level: int) -> Exercise | None:
     if not 4 < found[-1] < 500:
         return None
     return Exercise(
-        "", "", "number", f"A cell A lives {life_a} steps and then becomes {_and(daughters_a)}; a cell B lives {life_b} "
-        f"steps and then becomes {_and(daughters_b)}. The filament begins with one newborn A."
-        f"{quoted_lines(system)}How many cells has it after step {steps}?", str(found[-1]), _counts_text(system, steps),
-        ("A cell that waits is one cell, whatever its age.", "In which step did the cells divide that make those of now?",
-         "Write the number of cells for each age, step by step: all of them move on by one, the oldest divide."),
-        system=system, asks="length", steps=steps, unit="cells",
-        expects=("Fibonacci by reflex", "one step too few", "doubling by reflex"), unlikely=_NOT_COUNTED)
+        "",
+        "",
+        "number",
+        gettext(
+            "A cell A lives {life_a} steps and then becomes {daughters_a}; a cell B lives {life_b} "
+            "steps and then becomes {daughters_b}. The filament begins with one newborn A.{listing}How "
+            "many cells has it after step {steps}?",
+            life_a=life_a,
+            daughters_a=_and(daughters_a),
+            life_b=life_b,
+            daughters_b=_and(daughters_b),
+            listing=quoted_lines(system),
+            steps=steps,
+        ),
+        str(found[-1]),
+        _counts_text(system, steps),
+        (
+            gettext("A cell that waits is one cell, whatever its age."),
+            gettext("In which step did the cells divide that make those of now?"),
+            gettext("Write the number of cells for each age, step by step: all of them move on by one, the oldest divide."),
+        ),
+        system=system,
+        asks="length",
+        steps=steps,
+        unit="cells",
+        expects=("Fibonacci by reflex", "one step too few", "doubling by reflex"),
+        unlikely=_NOT_COUNTED,
+    )
 
 
 def _ageing(cell: str, life: int, daughters: tuple[str, ...]) -> list[str]:
@@ -123,54 +209,11 @@ def _ageing(cell: str, life: int, daughters: tuple[str, ...]) -> list[str]:
 
 
 def _and(cells: tuple[str, ...]) -> str:
-    return " and ".join(f"one {cell}" for cell in cells) if len(set(cells)) == len(cells) else f"two {cells[0]}"
-
-
-# Chance
-
-
-def _chance(chance: Random, level: int) -> Exercise | None:
-    weight = Fraction(chance.randint(1, 6), chance.randint(7, 10))
-    rules = {"A": [(["A", "B"], weight), (["B"] if level > 1 else ["A"], 1 - weight)]}
-    if level > 2:
-        rules["B"] = [(["A"], Fraction(1, 3)), (["B"], Fraction(2, 3))]
-    axiom, steps = (["A", "A"], 1) if level == 1 else (["A"], 2)
-    if level == 1 and chance.random() < 0.5:
-        axiom = ["A", "B", "A", "A"]
-    outcomes = _after(rules, axiom, steps)
-    word = chance.choice(sorted(outcomes))
-    share = outcomes[word]
-    lines = [f"{letter} -> {' '.join(made)}   with probability {odds}"
-             for letter, choices in rules.items() for made, odds in choices]
-    stays = "" if level > 2 else "A letter without a production stays. "
-    if share in (weight, 1 - weight, Fraction(1, 2)) or weight == Fraction(1, 2):  # a half is its own contrary
-        return None
-    return Exercise(
-        "", "", "number", f"The axiom is {' '.join(axiom)}.{quoted_lines(chr(10).join(lines))}{stays}"
-        f"What is the probability that the word of step {steps} is {word}? Give a fraction or a decimal number.", str(share),
-        f"The probabilities of all words of step {steps}: "
-        + ", ".join(f"{each}: {odds}" for each, odds in sorted(outcomes.items())) + ".",
-        ("Each letter chooses by itself.", "Which choices lead to this word, in one step or in several?",
-         "What must happen together is multiplied; ways that exclude one another are added."),
-        tolerance=Fraction(1, 1000), expects=("contrary", "percent"),
-        slips=(Slip(str(weight), "That is the probability of one choice; how many choices are there?"),
-               Slip(str(1 - weight), "That is the probability of the other choice of one letter; how many choices are there?")),
-        otherwise="Write down every way that leads to the word, with what each letter chooses.")
-
-
-def _after(rules: dict[str, list[tuple[list[str], Fraction]]], word: list[str], steps: int) -> dict[str, Fraction]:
-    """The probability of each word after some steps."""
-    found = {" ".join(word): Fraction(1)}
-    for _ in range(steps):
-        after: Counter[str] = Counter()
-        for before, odds in found.items():
-            for choices in product(*(rules.get(letter, [([letter], Fraction(1))]) for letter in before.split())):
-                share = odds
-                for _, each in choices:
-                    share *= each
-                after[" ".join(letter for made, _ in choices for letter in made)] += share  # type: ignore[assignment]
-        found = {each: Fraction(odds) for each, odds in after.items()}
-    return found
+    if len(cells) == 1:
+        return gettext("one {cell}", cell=cells[0])
+    if len(set(cells)) == 1:
+        return gettext("two {cell}", cell=cells[0])
+    return gettext("one {cell} and one {other}", cell=cells[0], other=cells[1])
 
 
 # Stage diagrams
@@ -187,14 +230,25 @@ def _net(chance: Random, level: int) -> Exercise | None:
     if len(set(last)) != 2:  # two daughters of one kind, and another
         return None
     return Exercise(
-        "", "", "net", "Write the stage diagram of these rules: a line for each stage, such as C -> L + 2 S for a stage C "
-        f"whose cells become one L and two S.{quoted_lines(system)}", "\n".join(lines),
-        "A line for each production, with its daughters counted.",
-        ("Each letter is a stage, a place of the diagram.",
-         "Each production is a transition: it takes one token from its stage.",
-         "Daughters of one kind are counted, and put into one place."),
-        system=system, expects=("arcs reversed", "copies not counted"),
-        unlikely=(*_NOT_COUNTED, "sequential", "leftmost only", "old word kept"))
+        "",
+        "",
+        "net",
+        gettext(
+            "Write the stage diagram of these rules: a line for each stage, such as C -> L + 2 S for a "
+            "stage C whose cells become one L and two S.{listing}",
+            listing=quoted_lines(system),
+        ),
+        "\n".join(lines),
+        gettext("A line for each production, with its daughters counted."),
+        (
+            gettext("Each letter is a stage, a place of the diagram."),
+            gettext("Each production is a transition: it takes one token from its stage."),
+            gettext("Daughters of one kind are counted, and put into one place."),
+        ),
+        system=system,
+        expects=("arcs reversed", "copies not counted"),
+        unlikely=(*_NOT_COUNTED, "sequential", "leftmost only", "old word kept"),
+    )
 
 
 def _successors(system: str) -> list[tuple[str, list[str]]]:
@@ -212,6 +266,5 @@ OF_NUMBERS = {
     "first": Topic("When it is long", 2, _first_past),
     "stages": Topic("A stage diagram", 5, _net),
     "life spans": Topic("Life spans", 7, _life_spans),
-    "chance": Topic("Chance", 8, _chance),
 }
 """In the order of the lessons."""

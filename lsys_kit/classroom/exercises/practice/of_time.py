@@ -8,6 +8,7 @@ from random import Random
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.practice.drafts import Topic, number_exercise
+from lsys_kit.translation import gettext
 
 
 def _decimal(value: Fraction | int) -> str:
@@ -26,29 +27,66 @@ def _slices(chance: Random, level: int) -> Exercise | None:
     age = slices * slice_ - life + newborn
     if age >= life or slices * slice_ == life or (level > 1 and slices < 2):
         return None
-    begins = f"begins its life with age {_decimal(newborn)}" if newborn else "begins its life with age 0"
-    question = (f"A cell divides at the very moment at which it is {life} old. Each of its daughters {begins}. Time passes in "
-                f"slices of {_decimal(slice_)}; the first cell begins with age 0. ")
-    hints = ("In which slice does the cell reach the age at which it divides?",
-             "When it divides, a part of the slice is still to come.",
-             "In that part the daughters grow older, too.")
+    begins = (
+        gettext("begins its life with age {newborn}", newborn=_decimal(newborn))
+        if newborn
+        else gettext("begins its life with age 0")
+    )
+    question = gettext(
+        "A cell divides at the very moment at which it is {life} old. Each of its daughters {begins}. Time "
+        "passes in slices of {slice}; the first cell begins with age 0. ",
+        life=life,
+        begins=begins,
+        slice=_decimal(slice_),
+    )
+    hints = (
+        gettext("In which slice does the cell reach the age at which it divides?"),
+        gettext("When it divides, a part of the slice is still to come."),
+        gettext("In that part the daughters grow older, too."),
+    )
     late = slices * slice_ - life
     if level < 3:
-        return number_exercise(question + "How old are its daughters at the end of the slice in which it divides?", age, [
-            *([(newborn, "So old they are when they begin. What is left of the slice makes them older.")] if newborn else
-              [(slice_, "They have not lived through the whole slice, only through what was left of it.")]),
-            (slices * slice_, "So old the mother would be. What is left of the slice after the division is less."),
-            (slices * slice_ - (slices - 1) * slice_ + newborn if newborn else life - (slices - 1) * slice_,
-             "Only what is left of the slice after the division counts.")],
-            f"After {slices} slices {_decimal(slices * slice_)} have passed: {_decimal(late)} since the division"
-            + (f", and {_decimal(newborn)} from the start." if newborn else "."), hints)
+        return number_exercise(
+            question + gettext("How old are its daughters at the end of the slice in which it divides?"),
+            age,
+            [
+                *(
+                    [(newborn, gettext("So old they are when they begin. What is left of the slice makes them older."))]
+                    if newborn
+                    else [(slice_, gettext("They have not lived through the whole slice, only through what was left of it."))]
+                ),
+                (slices * slice_, gettext("So old the mother would be. What is left of the slice after the division is less.")),
+                (
+                    slices * slice_ - (slices - 1) * slice_ + newborn if newborn else life - (slices - 1) * slice_,
+                    gettext("Only what is left of the slice after the division counts."),
+                ),
+            ],
+            gettext(
+                "After {slices} slices {passed} have passed: {late} since the division",
+                slices=slices,
+                passed=_decimal(slices * slice_),
+                late=_decimal(late),
+            )
+            + (gettext(", and {newborn} from the start.", newborn=_decimal(newborn)) if newborn else "."),
+            hints,
+        )
     total = ceil((2 * life - newborn) / slice_)
     each = ceil((life - newborn) / slice_)
-    return number_exercise(question + "In which slice do the daughters divide in their turn?", total, [
-        (slices, "In this one the first cell divides."),
-        (slices + each, "The daughters begin within a slice: they are older at its end than when they began."),
-        (each, "Count from the beginning of the first cell.")],
-        f"The daughters divide when {_decimal(2 * life - newborn)} have passed, which is in slice {total}.", hints)
+    return number_exercise(
+        question + gettext("In which slice do the daughters divide in their turn?"),
+        total,
+        [
+            (slices, gettext("In this one the first cell divides.")),
+            (slices + each, gettext("The daughters begin within a slice: they are older at its end than when they began.")),
+            (each, gettext("Count from the beginning of the first cell.")),
+        ],
+        gettext(
+            "The daughters divide when {passed} have passed, which is in slice {total}.",
+            passed=_decimal(2 * life - newborn),
+            total=total,
+        ),
+        hints,
+    )
 
 
 # Lengths
@@ -62,15 +100,26 @@ def _shares(chance: Random) -> Exercise | None:
     short, long = sorted(chance.sample(range(1, 8), 2))
     length = (short + long) * chance.randint(2, 15)
     return number_exercise(
-        f"A cell is {length} long when it divides. Its daughters are {short} to {long} in length, and nothing jumps: "
-        f"together they "
-        "are as long as it was. How long is the shorter daughter?", length * Fraction(short, short + long), [
-            (Fraction(length, 2), "These would be two halves."),
-            (length * Fraction(short, long), "That is its share of the other daughter. Both together are the whole."),
-            (length * Fraction(long, short + long), "So long is the other daughter.")],
-        f"It has {short} of {short + long} equal parts of {length}.",
-        ("Into how many equal parts is the mother divided?", "How many of these parts does the shorter daughter have?",
-         "Check that both daughters together are as long as their mother."))
+        gettext(
+            "A cell is {length} long when it divides. Its daughters are {short} to {long} in length, and nothing jumps: "
+            "together they are as long as it was. How long is the shorter daughter?",
+            length=length,
+            short=short,
+            long=long,
+        ),
+        length * Fraction(short, short + long),
+        [
+            (Fraction(length, 2), gettext("These would be two halves.")),
+            (length * Fraction(short, long), gettext("That is its share of the other daughter. Both together are the whole.")),
+            (length * Fraction(long, short + long), gettext("So long is the other daughter.")),
+        ],
+        gettext("It has {short} of {parts} equal parts of {length}.", short=short, parts=short + long, length=length),
+        (
+            gettext("Into how many equal parts is the mother divided?"),
+            gettext("How many of these parts does the shorter daughter have?"),
+            gettext("Check that both daughters together are as long as their mother."),
+        ),
+    )
 
 
 def _other_daughter(chance: Random) -> Exercise | None:
@@ -78,30 +127,63 @@ def _other_daughter(chance: Random) -> Exercise | None:
     age = chance.randint(0, life - 1)
     mother, daughter = base**life, base**age
     return number_exercise(
-        f"A cell of age t is {base}^t long. It divides at age {life}; the one daughter begins with age {age}. How long must "
-        f"the "
-        "other daughter be, so that the filament does not jump in length?", mother - daughter, [
-            (base**(life - age), "Ages are subtracted in a quotient of lengths; the lengths of daughters add."),
-            (base * life - base * age, "The base is raised to the age, not multiplied by it."),
-            (mother, "So long is the mother. What does the other daughter leave of it?")],
-        f"The mother is {base}^{life} = {mother} long, the one daughter {base}^{age} = {daughter}.",
-        ("How long is the mother when she divides?", "How long is the one daughter at her beginning?",
-         "The lengths of both daughters together are that of their mother."))
+        gettext(
+            "A cell of age t is {base}^t long. It divides at age {life}; the one daughter begins with age {age}. How "
+            "long must the other daughter be, so that the filament does not jump in length?",
+            base=base,
+            life=life,
+            age=age,
+        ),
+        mother - daughter,
+        [
+            (base ** (life - age), gettext("Ages are subtracted in a quotient of lengths; the lengths of daughters add.")),
+            (base * life - base * age, gettext("The base is raised to the age, not multiplied by it.")),
+            (mother, gettext("So long is the mother. What does the other daughter leave of it?")),
+        ],
+        gettext(
+            "The mother is {base}^{life} = {mother} long, the one daughter {base}^{age} = {daughter}.",
+            base=base,
+            life=life,
+            mother=mother,
+            age=age,
+            daughter=daughter,
+        ),
+        (
+            gettext("How long is the mother when she divides?"),
+            gettext("How long is the one daughter at her beginning?"),
+            gettext("The lengths of both daughters together are that of their mother."),
+        ),
+    )
 
 
 def _filament(chance: Random) -> Exercise | None:
     factor, units, first, cells = chance.randint(2, 4), chance.randint(2, 4), chance.randint(2, 9), chance.randint(3, 12)
     return number_exercise(
-        f"A cell {first} long grows exponentially, in every hour to {factor} times its length, and so do all its daughters. "
-        f"Divisions "
-        f"change no length. After {units} hours there are {cells} cells. How long is the filament then?",
-        first * factor**units, [
-            (first * factor * units, "It grows in every hour from what there is then: that multiplies."),
-            (first * cells, "Cells are not all as long as the first one was."),
-            (first * factor**units * cells, "The daughters share the length of their mother; they do not have it each.")],
-        f"The number of cells does not matter: {first} * {factor}^{units}.",
-        ("What does a division change in the length of the filament?", "How long is it after one hour?",
-         "In every hour all of it grows by the same factor."))
+        gettext(
+            "A cell {first} long grows exponentially, in every hour to {factor} times its length, and so do all its "
+            "daughters. Divisions change no length. After {units} hours there are {cells} cells. How long is the "
+            "filament then?",
+            first=first,
+            factor=factor,
+            units=units,
+            cells=cells,
+        ),
+        first * factor**units,
+        [
+            (first * factor * units, gettext("It grows in every hour from what there is then: that multiplies.")),
+            (first * cells, gettext("Cells are not all as long as the first one was.")),
+            (
+                first * factor**units * cells,
+                gettext("The daughters share the length of their mother; they do not have it each."),
+            ),
+        ],
+        gettext("The number of cells does not matter: {first} * {factor}^{units}.", first=first, factor=factor, units=units),
+        (
+            gettext("What does a division change in the length of the filament?"),
+            gettext("How long is it after one hour?"),
+            gettext("In every hour all of it grows by the same factor."),
+        ),
+    )
 
 
 OF_TIME = {

@@ -22,18 +22,39 @@ from lsys_kit.classroom.exercises.practice.drafts import (
     system_text,
     words_of,
 )
+from lsys_kit.translation import gettext
 
 MOST_WRITTEN = 60
 """The most modules of a word that is to be written by hand."""
 
 
-def _word_exercise(system: str, steps: int, question: str, hints: tuple[str, ...], expects: tuple[str, ...],
-                   unlikely: tuple[str, ...], longest: int = MOST_WRITTEN) -> Exercise | None:
+def _word_exercise(
+    system: str,
+    steps: int,
+    question: str,
+    hints: tuple[str, ...],
+    expects: tuple[str, ...],
+    unlikely: tuple[str, ...],
+    longest: int = MOST_WRITTEN,
+) -> Exercise | None:
     words = words_of(system, steps)
     if not 3 < size_of(words[-1]) <= longest or words[-1] in words[:-1]:
         return None
-    return Exercise("", "", "word", f"{question}{quoted_lines(system)}Write the word of step {steps}.", words[-1],
-                    derivation_text(words), hints, system=system, steps=steps, expects=expects, unlikely=unlikely)
+    return Exercise(
+        "",
+        "",
+        "word",
+        gettext(
+            "{question}{listing}Write the word of step {steps}.", question=question, listing=quoted_lines(system), steps=steps
+        ),
+        words[-1],
+        derivation_text(words),
+        hints,
+        system=system,
+        steps=steps,
+        expects=expects,
+        unlikely=unlikely,
+    )
 
 
 # All at once
@@ -42,12 +63,21 @@ def _word_exercise(system: str, steps: int, question: str, hints: tuple[str, ...
 def _derive(chance: Random, level: int) -> Exercise | None:
     rules = random_rules(chance, "abcd"[: 2 + (level > 1)], 2 + (level > 2))
     return _word_exercise(
-        system_text(chance.choice([*rules]), rules), 3 + (level > 1), "Derive by hand:",
-        ("The axiom is step 0. Write each word on a line of its own.",
-         "In a step every letter of the word is replaced, each by its own production.",
-         "Go through the word from left to right, and look each letter up in the rules, not in what you have just written."),
+        system_text(chance.choice([*rules]), rules),
+        3 + (level > 1),
+        gettext("Derive by hand:"),
+        (
+            gettext("The axiom is step 0. Write each word on a line of its own."),
+            gettext("In a step every letter of the word is replaced, each by its own production."),
+            gettext(
+                "Go through the word from left to right, and look each letter up in the rules, not in what you have just "
+                "written."
+            ),
+        ),
         ("sequential", "one step too few", "leftmost only"),
-        (*OF_OVERLAPS, *OF_SILENT_LETTERS, *OF_BRANCHES, *OF_PICTURES), 12 + 8 * level)
+        (*OF_OVERLAPS, *OF_SILENT_LETTERS, *OF_BRANCHES, *OF_PICTURES),
+        12 + 8 * level,
+    )
 
 
 # Brackets
@@ -59,12 +89,17 @@ def _brackets(chance: Random, level: int) -> Exercise | None:
     chance.shuffle(parts)
     rules = {"X": [*chain.from_iterable(parts)], "F": ["F", "F"] if level > 1 else [*chance.choice(["FF", "XF", "FX"])]}
     return _word_exercise(
-        system_text("X", rules), 2, "A plant that is typed as a word:",
-        ("What has no production stays as it is: the brackets, + and -.",
-         "What stands in brackets is rewritten like everything else.",
-         "Replace each letter where it stands, and copy all other characters."),
+        system_text("X", rules),
+        2,
+        gettext("A plant that is typed as a word:"),
+        (
+            gettext("What has no production stays as it is: the brackets, + and -."),
+            gettext("What stands in brackets is rewritten like everything else."),
+            gettext("Replace each letter where it stands, and copy all other characters."),
+        ),
         ("sequential", "one step too few", "branches kept"),
-        (*OF_OVERLAPS, *OF_SILENT_LETTERS, *OF_PICTURES, "word reversed"))
+        (*OF_OVERLAPS, *OF_SILENT_LETTERS, *OF_PICTURES, "word reversed"),
+    )
 
 
 # Parameters and conditions
@@ -85,12 +120,17 @@ def _conditions(chance: Random, level: int) -> Exercise | None:
     overlaps = () if level > 2 else OF_OVERLAPS
     silent = OF_SILENT_LETTERS if level > 1 else ()
     return _word_exercise(
-        "\n".join(lines), bound + 1 + level, "The productions have conditions:",
-        ("A condition is asked of the value that the module has before the step.",
-         "Take each module by itself: for which of its productions does its value fulfil the condition?",
-         "Try the bound itself: does the condition hold for it?"),
+        "\n".join(lines),
+        bound + 1 + level,
+        gettext("The productions have conditions:"),
+        (
+            gettext("A condition is asked of the value that the module has before the step."),
+            gettext("Take each module by itself: for which of its productions does its value fulfil the condition?"),
+            gettext("Try the bound itself: does the condition hold for it?"),
+        ),
         ("strictness confused", "condition after the step", *(("first match overlooked",) if level > 2 else ())),
-        (*overlaps, *silent, *OF_BRANCHES, *OF_PICTURES, "condition one off", "condition dropped"))
+        (*overlaps, *silent, *OF_BRANCHES, *OF_PICTURES, "condition one off", "condition dropped"),
+    )
 
 
 # Neighbours
@@ -111,12 +151,18 @@ def _context(chance: Random, level: int) -> Exercise | None:
     if f"{left} {old}" not in axiom or new == [old]:  # nothing would happen in the first step
         return None
     return _word_exercise(
-        "\n".join([f"axiom: {axiom}", *lines]), 2 + (level > 1), "The productions look at neighbours:",
-        ("What stands before < is the neighbour on the left, what stands behind > that on the right.",
-         "Neighbours are read in the word before the step, not in the one that is being written.",
-         "The first module has no neighbour on its left. A module without a production that fits stays."),
+        "\n".join([f"axiom: {axiom}", *lines]),
+        2 + (level > 1),
+        gettext("The productions look at neighbours:"),
+        (
+            gettext("What stands before < is the neighbour on the left, what stands behind > that on the right."),
+            gettext("Neighbours are read in the word before the step, not in the one that is being written."),
+            gettext("The first module has no neighbour on its left. A module without a production that fits stays."),
+        ),
         ("context in the new word", "context overlooked"),
-        (*OF_OVERLAPS, *OF_SILENT_LETTERS, *OF_BRANCHES, *OF_PICTURES, "production missing"), 24)
+        (*OF_OVERLAPS, *OF_SILENT_LETTERS, *OF_BRANCHES, *OF_PICTURES, "production missing"),
+        24,
+    )
 
 
 # A misprint
@@ -135,20 +181,33 @@ def _misprint(chance: Random, level: int) -> Exercise | None:
     word[at] = chance.choice([letter for letter in letters if letter != word[at]])
     printed = [*words[:wrong], " ".join(word), *words[wrong + 1 :]]
     exercise = Exercise(
-        "", "", "line", "The words of steps 0, 1, 2, ... of this system are printed below, one a line. In one of them a letter "
-        f"is wrong; axiom and rules are right.{quoted_lines(system)}In which line is the misprint?", str(wrong + 1),
-        f"Line {wrong + 1} must be: {words[wrong]}. " + derivation_text(words),
-        ("Line 1 is the axiom. Derive line 2 from it, and compare.",
-         "Derive each line from the line before, as long as these agree.",
-         "Where a line does not follow from the one before, derive two steps from the last line that is right."),
-        text="\n".join(printed), otherwise="Derive the lines one after another, from the first on.", expects=("sequential",))
+        "",
+        "",
+        "line",
+        gettext(
+            "The words of steps 0, 1, 2, ... of this system are printed below, one a line. In one of "
+            "them a letter is wrong; axiom and rules are right.{listing}In which line is the misprint?",
+            listing=quoted_lines(system),
+        ),
+        str(wrong + 1),
+        gettext("Line {wrong} must be: {words}. ", wrong=wrong + 1, words=words[wrong]) + derivation_text(words),
+        (
+            gettext("Line 1 is the axiom. Derive line 2 from it, and compare."),
+            gettext("Derive each line from the line before, as long as these agree."),
+            gettext("Where a line does not follow from the one before, derive two steps from the last line that is right."),
+        ),
+        text="\n".join(printed),
+        otherwise=gettext("Derive the lines one after another, from the first on."),
+        expects=("sequential",),
+    )
     return _with_first_departures(exercise, system, printed)
 
 
 def _with_first_departures(exercise: Exercise, system: str, printed: list[str]) -> Exercise | None:
     """An exercise with the lines as slips at which words derived by a misconception first differ from those printed."""
-    derived = Exercise("", "", "words", "", "\n".join(words_of(system, len(printed) - 1)), "", (), system=system,
-                       steps=len(printed) - 1)
+    derived = Exercise(
+        "", "", "words", "", "\n".join(words_of(system, len(printed) - 1)), "", (), system=system, steps=len(printed) - 1
+    )
     slips: dict[str, Slip] = {}
     for wrong in wrong_answers(derived):
         line = str(first_difference([" ".join(map(str, word)) for word in wrong.answer], printed) + 1)
@@ -160,7 +219,7 @@ def _with_first_departures(exercise: Exercise, system: str, printed: list[str]) 
             slips.setdefault(line, Slip(line, misconception=wrong.misconception.name))
     following = str(int(exercise.solution) + 1)
     if int(following) <= len(printed):
-        says = "This line does not follow from the one before; which of the two is wrong?"
+        says = gettext("This line does not follow from the one before; which of the two is wrong?")
         slips[following] = Slip(following, says, near=True)
     return replace(exercise, slips=tuple(slips.values()))
 

@@ -13,6 +13,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.practice.drafts import Topic
+from lsys_kit.classroom.exercises.practice.of_chance import OF_CHANCE
 from lsys_kit.classroom.exercises.practice.of_drawings import OF_DRAWINGS
 from lsys_kit.classroom.exercises.practice.of_languages import OF_LANGUAGES
 from lsys_kit.classroom.exercises.practice.of_numbers import OF_NUMBERS
@@ -23,9 +24,10 @@ from lsys_kit.classroom.exercises.practice.of_words import OF_WORDS
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, require, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.translation import gettext, language
 
 TOPICS: Mapping[str, Topic] = {
-    **OF_WORDS, **OF_NUMBERS, **OF_DRAWINGS, **OF_PLANTS, **OF_TIME, **OF_SPACE, **OF_LANGUAGES}
+    **OF_WORDS, **OF_NUMBERS, **OF_CHANCE, **OF_DRAWINGS, **OF_PLANTS, **OF_TIME, **OF_SPACE, **OF_LANGUAGES}
 """What can be practised."""
 LEVELS = 3
 """How many levels there are."""
@@ -123,18 +125,18 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
     if not 1 <= level <= LEVELS:
         raise ModelValueError(f"The levels are 1 to {LEVELS}, not {level}")
     seed = whole_number(seed, "The seed")
-    return Practice(topic, level, seed, _made(topic, level, seed))
+    return Practice(topic, level, seed, _made(topic, level, seed, language()))
 
 
 @lru_cache(maxsize=512)
-def _made(topic: str, level: int, seed: int) -> Exercise:
-    """The first sound exercise that chance yields."""
+def _made(topic: str, level: int, seed: int, _: str) -> Exercise:
+    """The first sound exercise that chance yields, in the chosen language."""
     chance = Random(f"{topic}, {level}, {seed}")  # noqa: S311 (nothing secret depends on it)
     with Task("No exercise was found"):
         while True:
             check_budget()
             draft = TOPICS[topic].draft(chance, level)
-            named = draft and replace(draft, id=f"{topic}, level {level}, seed {seed}", title=TOPICS[topic].title)
+            named = draft and replace(draft, id=f"{topic}, level {level}, seed {seed}", title=gettext(TOPICS[topic].title))
             if named is not None and is_sound(named):
                 return named
 
