@@ -28,8 +28,10 @@ from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.practice import of_languages, of_space
 from lsys_kit.classroom.exercises.practice.practice import TOPICS
+from lsys_kit.classroom.exercises.progress import SIGNS
 from lsys_kit.classroom.exercises.translated import texts
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
+from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.translation import LOCALE
 
 PACKAGE = LOCALE.parent
@@ -70,6 +72,8 @@ def _in_tables() -> Iterator[tuple[str, str]]:
     yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
     yield from (("kinds", kind.what) for kind in ANSWER_KINDS.values())
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
+    yield from (("widgets", label) for label in LABELS)
+    yield from (("progress", state) for state in SIGNS)
     yield from (("practice", topic.title) for topic in TOPICS.values())
     yield from (("practice", text) for text in (*of_languages.TYPES, *of_languages.REPLIES.values()))
     yield from (("practice", text) for text in (*of_space.DIRECTIONS.values(), of_space.AGAIN))

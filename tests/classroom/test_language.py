@@ -7,12 +7,14 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from babel.messages.catalog import Catalog
 from babel.messages.mofile import read_mo
 
-from lsys_kit import ModelNameError, check, exercises, language, practice
+import lsys_kit
+from lsys_kit import ModelNameError, check, exercises, language, practice, predict, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.choices import letters
@@ -20,12 +22,18 @@ from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.practice.practice import TOPICS
+from lsys_kit.classroom.exercises.progress import progress_of
+from lsys_kit.classroom.exercises.record import Record, Try
 from lsys_kit.classroom.exercises.translated import texts, translated, translated_lesson
+from lsys_kit.classroom.lessons.declared import table
+from lsys_kit.classroom.lessons.widget import LABELS
+from lsys_kit.classroom.lessons.worksheet import marked, summary
 from lsys_kit.translation import gettext, ngettext
 from tests.messages import TEMPLATE, codes, is_translated, placeholders, po_file, po_text, renewed, template
 
 LESSONS = questions_in(QUESTIONS).lessons
 EXERCISES = [exercise for lesson in LESSONS for exercise in lesson.exercises]
+SCRIPTS = Path(lsys_kit.__file__).parent / "classroom" / "panel" / "scripts"
 _RENEW = "python -m tests.messages renews the catalogues"
 
 
@@ -233,3 +241,30 @@ def test_practice_is_the_same_exercise_in_the_language(topic):
     assert not {*german.hints} & {*english.hints}
     language("de")
     assert checked(german, german.solution, 0, False, "check(answer").said == "Correct"
+
+
+# The questions of a lesson, and progress
+
+
+@pytest.mark.usefixtures("german")
+def test_the_labels_of_a_lesson_are_in_the_language():
+    assert vote("01").words["Check"] == worksheet("01", "counts").words["Check"] == "Prüfen"
+    sheet = table("01", "counts")
+    assert summary(sheet, marked(sheet, ["2", "2", "3", "5"])) == (
+        "3 von 8 Feldern sind richtig, 4 sind noch nicht ausgefüllt. Sieh dir noch einmal an: Zeile 2, rule after rule.")
+
+
+def test_english_labels_need_no_words():
+    assert predict("How many?", "3").prompt.words == {}
+
+
+def test_the_scripts_show_the_labels_that_are_translated():
+    scripts = "".join(path.read_text("utf-8") for path in SCRIPTS.glob("lessons/*.js"))
+    assert [label for label in LABELS if f'"{label}"' not in scripts] == ["Not right"]  # said by the kernel
+
+
+@pytest.mark.usefixtures("german")
+def test_progress_is_in_the_language():
+    page = progress_of(Record((Try("1.1", True),)), 1)
+    assert repr(page).startswith("Paralleles Ersetzen: 1 von 5 gelöst.\n✓ 1.1  Ein Wort von Hand\n")
+    assert 'aria-label="gelöst:"' in page._repr_html_()

@@ -14,12 +14,13 @@ from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
+from lsys_kit.translation import gettext, ngettext
 
-_SIGNS = {"solved": ("✓", GREEN), "tried": ("◐", ORANGE), "not tried": ("○", QUIET)}
+SIGNS = {"solved": ("✓", GREEN), "tried": ("◐", ORANGE), "not tried": ("○", QUIET)}
 """For each state of an exercise its sign and its colour; the meaning never depends on the colour alone."""
 _BOX = f"border-left:6px solid {BLUE};background:{PAPER};color:{INK};padding:6px 12px;overflow-wrap:break-word"
 _COLUMNS = "display:grid;grid-template-columns:repeat(auto-fill,minmax(min(270px,100%),1fr));gap:6px 24px;margin:6px 0"
-_FOR_YOU = "This is for your own practice: the answers are in the kit, and a check is not an examination."
+FOR_YOU = "This is for your own practice: the answers are in the kit, and a check is not an examination."
 
 
 @dataclass(frozen=True)
@@ -55,8 +56,9 @@ class Progress:
     def _repr_html_(self) -> str:
         """The page: all text escaped, and a column for as many lessons as there is room for."""
         rows = "".join(_html_rows(self))
+        label = gettext("progress")
         notes = "".join(f"<p style=\"margin:6px 0 0\">{_linked(self, note)}</p>" for note in _notes(self))
-        return (f'<div class="{PLAIN_TEXT}" role="region" aria-label="progress" style="{_BOX}"><b>{escaped(_heading(self))}</b>'
+        return (f'<div class="{PLAIN_TEXT}" role="region" aria-label="{label}" style="{_BOX}"><b>{escaped(_heading(self))}</b>'
                 f'<div style="{_COLUMNS}">{rows}</div>{notes}</div>')
 
 
@@ -126,9 +128,11 @@ def _next(lessons: Sequence[Lesson], record: Record, lesson: Lesson | None) -> t
 def _heading(page: Progress) -> str:
     """How many exercises are solved."""
     total = sum(len(lesson.exercises) for lesson in page.lessons)
-    name = page.lessons[0].title if len(page.lessons) == 1 else "Exercises"
-    tried = page.count("tried")
-    return f"{name}: {page.count('solved')} of {total} solved{f', {tried} more tried' if tried else ''}."
+    name = page.lessons[0].title if len(page.lessons) == 1 else gettext("Exercises")
+    numbers = {"name": name, "solved": page.count("solved"), "total": total, "tried": page.count("tried")}
+    if numbers["tried"]:
+        return gettext("{name}: {solved} of {total} solved, {tried} more tried.", **numbers)
+    return gettext("{name}: {solved} of {total} solved.", name=name, solved=numbers["solved"], total=total)
 
 
 def _text_rows(page: Progress) -> Iterator[str]:
@@ -137,36 +141,39 @@ def _text_rows(page: Progress) -> Iterator[str]:
         return
     width = max(len(lesson.title) for lesson in page.lessons)
     for lesson in page.lessons:
-        signs = "  ".join(f"{_SIGNS[page.state(each)][0]} {each.id}" for each in lesson.exercises)
+        signs = "  ".join(f"{SIGNS[page.state(each)][0]} {each.id}" for each in lesson.exercises)
         yield f"{lesson.title:{width}}  {_count(page, lesson)}  {signs}"
 
 
 def _titled(page: Progress, exercise: Exercise) -> str:
     """An exercise with its sign, its title and how often it was tried."""
     tries = page.record.tried(exercise.id)
-    often = f" ({tries} tries)" if tries > 1 else ""
-    return f"{_SIGNS[page.state(exercise)][0]} {exercise.id}  {exercise.title}{often}"
+    often = " " + ngettext("({number} try)", "({number} tries)", tries) if tries > 1 else ""
+    return f"{SIGNS[page.state(exercise)][0]} {exercise.id}  {exercise.title}{often}"
 
 
 def _count(page: Progress, lesson: Lesson) -> str:
-    return f"{page.count('solved', lesson)} of {len(lesson.exercises)}"
+    return gettext("{solved} of {total}", solved=page.count("solved", lesson), total=len(lesson.exercises))
 
 
 def _notes(page: Progress) -> Iterator[str]:
     """What to do next, what is wrong, and, where all lessons are shown, what becomes of it."""
-    yield f"Next: {_named_next(page)}." if page.next else "All exercises are solved."
+    yield f"{gettext('Next:')} {_named_next(page)}." if page.next else gettext("All exercises are solved.")
     if page.record.problem:
         yield page.record.problem
     if len(page.lessons) > 1:
-        kept = (f"Tries are kept in {FILE}, in the folder of the course." if page.record.folder else
-                "Tries are forgotten when Python ends. To keep them, work in a copy of the course: lsys-kit lab.")
-        yield f"{kept} {_FOR_YOU}"
+        kept = (gettext("Tries are kept in {file}, in the folder of the course.", file=FILE) if page.record.folder else
+                gettext("Tries are forgotten when Python ends. To keep them, work in a copy of the course: lsys-kit lab."))
+        yield f"{kept} {gettext(FOR_YOU)}"
 
 
 def _named_next(page: Progress) -> str:
     assert page.next
     lesson, exercise = page.next
-    return f"{exercise.id} {exercise.title}" + ("" if page.lessons == (lesson,) else f", in the exercises of {lesson.name}")
+    named = f"{exercise.id} {exercise.title}"
+    if page.lessons == (lesson,):
+        return named
+    return gettext("{exercise}, in the exercises of {lesson}", exercise=named, lesson=lesson.name)
 
 
 # Markup
@@ -177,7 +184,7 @@ def _html_rows(page: Progress) -> Iterator[str]:
         yield from (f"<div>{_chip(page, each, _titled(page, each))}</div>" for each in page.lessons[0].exercises)
         return
     for lesson in page.lessons:
-        chips = " ".join(_chip(page, each, f"{_SIGNS[page.state(each)][0]} {each.id}") for each in lesson.exercises)
+        chips = " ".join(_chip(page, each, f"{SIGNS[page.state(each)][0]} {each.id}") for each in lesson.exercises)
         yield f"<div>{_link(page, lesson, lesson.title)} <span>({_count(page, lesson)})</span><br>{chips}</div>"
 
 
@@ -185,9 +192,10 @@ def _chip(page: Progress, exercise: Exercise, text: str) -> str:
     """An exercise with its sign, under which is a line in its colour; its state is read out, too."""
     state = page.state(exercise)
     sign, rest = text.split(" ", 1)
-    style = f"display:inline-block;margin:2px 8px 2px 0;border-bottom:3px solid {_SIGNS[state][1]}"
-    return (f'<span title="{state}" style="{style}">'
-            f'<span role="img" aria-label="{state}:">{sign}</span> {escaped(rest)}</span>')
+    name = gettext(state)
+    style = f"display:inline-block;margin:2px 8px 2px 0;border-bottom:3px solid {SIGNS[state][1]}"
+    return (f'<span title="{name}" style="{style}">'
+            f'<span role="img" aria-label="{name}:">{sign}</span> {escaped(rest)}</span>')
 
 
 def _link(page: Progress, lesson: Lesson, text: str) -> str:
@@ -200,7 +208,8 @@ def _link(page: Progress, lesson: Lesson, text: str) -> str:
 
 def _linked(page: Progress, note: str) -> str:
     """A note, with a link to what is to do next."""
-    if page.next is None or not note.startswith("Next: "):
+    begin = f"{gettext('Next:')} "
+    if page.next is None or not note.startswith(begin):
         return escaped(note)
     lesson, _ = page.next
-    return f"Next: {_link(page, lesson, note.removeprefix('Next: '))}" if page.lessons != (lesson,) else escaped(note)
+    return f"{begin}{_link(page, lesson, note.removeprefix(begin))}" if page.lessons != (lesson,) else escaped(note)

@@ -25,6 +25,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.formats.notebook import svg_bundle
+from lsys_kit.translation import gettext
 
 LETTERS = "ABCD"
 """The names of the options."""
@@ -156,12 +157,14 @@ def _receipt(ballot: Ballot) -> dict[str, str]:
     """What is said after the first vote: nothing of what is right."""
     if ballot.first == NONE:
         return {}
-    return {"text": f"Your vote, {LETTERS[ballot.first]}, is kept. The question comes again at the end of the lesson."}
+    return {"text": gettext("Your vote, {letter}, is kept. The question comes again at the end of the lesson.",
+                            letter=LETTERS[ballot.first])}
 
 
 def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
     """What is said before and after the second vote."""
-    before = f"Your first vote was {LETTERS[ballot.first]}." if ballot.first != NONE else "You have not voted the first time."
+    before = (gettext("Your first vote was {letter}.", letter=LETTERS[ballot.first]) if ballot.first != NONE else
+              gettext("You have not voted the first time."))
     if ballot.second == NONE:
         return {"before": before}
     option = vote.options[ballot.second]
@@ -174,6 +177,8 @@ def _change(vote: Vote, ballot: Ballot) -> str:
     if ballot.first == NONE:
         return ""
     if ballot.first == ballot.second:
-        return "You voted the same way the first time."
-    back = "You were right the first time." if vote.options[ballot.first].right else ""
-    return f"You have changed your vote from {LETTERS[ballot.first]} to {LETTERS[ballot.second]}. {back}".rstrip()
+        return gettext("You voted the same way the first time.")
+    back = gettext("You were right the first time.") if vote.options[ballot.first].right else ""
+    changed = gettext("You have changed your vote from {first} to {second}.", first=LETTERS[ballot.first],
+                      second=LETTERS[ballot.second])
+    return f"{changed} {back}".rstrip()

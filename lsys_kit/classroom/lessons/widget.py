@@ -6,17 +6,30 @@ import re
 from typing import Any
 
 import anywidget
+import traitlets
 
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.translation import gettext
 
 MOST_TYPED = 1_000
 """What is typed into a box is cut off here."""
+LABELS = (
+    "vote", "prediction", "table to fill", "Show", "I have no idea, show me", "You said:", "You wanted to see it.", "Check",
+    "Right", "Not right", "right", "not yet", "not filled in yet", "The kernel does not answer. Run the cell again.")
+"""What the scripts of questions show by themselves."""
 _MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
 
 
 class LessonWidget(anywidget.AnyWidget):  # type: ignore[misc]
     """A widget that is displayed by its script, and stored as text."""
+
+    words = traitlets.Dict().tag(sync=True)
+
+    @traitlets.default("words")
+    def _translated_labels(self) -> dict[str, str]:
+        """The labels that another language has another word for."""
+        return {label: gettext(label) for label in LABELS if gettext(label) != label}
 
     def _stored(self) -> dict[str, Any]:
         """What a page without a kernel shows, by media types."""

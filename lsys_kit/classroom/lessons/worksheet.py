@@ -12,6 +12,7 @@ from lsys_kit.classroom.lessons.declared import table
 from lsys_kit.classroom.lessons.lesson import Blank, Table
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.translation import gettext, ngettext
 
 RIGHT, NOT_YET, MISSING = "right", "not yet", "not filled in yet"
 """What is said of a cell."""
@@ -117,18 +118,20 @@ def summary(table: Table, marks: Sequence[str]) -> str:
     """
     right, missing, total = marks.count(RIGHT), marks.count(MISSING), len(marks)
     if right == total:
-        return "All cells are right." if total > 1 else "The cell is right."
-    parts = [f"{right} of {total} cell{'s' * (total > 1)} {'is' if 1 in (right, total) else 'are'} right"]
+        return gettext("All cells are right.") if total > 1 else gettext("The cell is right.")
+    parts = [ngettext("{number} of {total} cells is right", "{number} of {total} cells are right", right, total=total)
+             if total > 1 else gettext("0 of 1 cell is right")]
     if missing:
-        parts.append(f"{missing} {'is' if missing == 1 else 'are'} not filled in yet")
-    again = f" Look again at {_place(table, marks.index(NOT_YET))}." if NOT_YET in marks else ""
-    return f"{', '.join(parts)}.{again}"
+        parts.append(ngettext("{number} is not filled in yet", "{number} are not filled in yet", missing))
+    again = gettext("Look again at {place}.", place=_place(table, marks.index(NOT_YET))) if NOT_YET in marks else ""
+    return f"{', '.join(parts)}. {again}".rstrip()
 
 
 def _place(table: Table, number: int) -> str:
     """Where a cell stands, by the names of its row and column."""
     row, column, _ = table.blanks[number]
-    return f"row {prose_text(_cell_text(table.rows[row][0]))}, {prose_text(table.columns[column])}"
+    name = prose_text(_cell_text(table.rows[row][0]))
+    return gettext("row {row}, {column}", row=name, column=prose_text(table.columns[column]))
 
 
 def _cell_text(cell: str | Blank) -> str:

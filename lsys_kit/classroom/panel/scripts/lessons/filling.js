@@ -1,7 +1,7 @@
 // A table to fill. The model checks it, and says of each cell no more than whether it is right.
 
 import { made } from "../views/controls.js";
-import { freshId, question, tellModel } from "./asking.js";
+import { freshId, labelled, question, tellModel } from "./asking.js";
 import { plain, prose } from "./prose.js";
 
 const SIGNS = { right: "✓", "not yet": "✗", "not filled in yet": "○" };
@@ -15,7 +15,7 @@ export function askForEntries({ model, el }) {
       const mark = made("span", { class: "lsys-mark", id: freshId() });
       const box = made("input", {
         type: "text", size: 8, maxlength: 200, autocomplete: "off", "aria-describedby": mark.id,
-        "aria-label": `${plain(columns[0])} ${plain(row[0])}: ${plain(columns[column])}`, oninput: () => shown(box, mark, ""),
+        "aria-label": `${plain(columns[0])} ${plain(row[0])}: ${plain(columns[column])}`, oninput: () => shown(model, box, mark, ""),
       });
       boxes.push(box);
       marks.push(mark);
@@ -31,19 +31,19 @@ export function askForEntries({ model, el }) {
       event.preventDefault();
       const number = (model.get("result").number ?? 0) + 1;
       tellModel(model, { asked: { number, entries: boxes.map((box) => box.value) } }, status);
-    } }, made("div", { class: "lsys-scroll" }, table), made("button", { type: "submit" }, "Check"));
+    } }, made("div", { class: "lsys-scroll" }, table), made("button", { type: "submit" }, labelled(model, "Check")));
     root.append(form, status);
 
     return () => {
       const { marks: said = [], text = "" } = model.get("result");
       status.textContent = text;
-      said.forEach((word, number) => shown(boxes[number], marks[number], word));
+      said.forEach((word, number) => shown(model, boxes[number], marks[number], word));
     };
   });
 }
 
-function shown(box, mark, word) {
-  mark.textContent = word ? `${SIGNS[word]} ${word}` : "";
+function shown(model, box, mark, word) {
+  mark.textContent = word ? `${SIGNS[word]} ${labelled(model, word)}` : "";
   mark.dataset.mark = word;
   box.setAttribute("aria-invalid", String(word === "not yet"));
 }
