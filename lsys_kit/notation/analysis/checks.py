@@ -23,6 +23,7 @@ from lsys_kit.notation.model.expressions import (
 from lsys_kit.notation.model.fields import FIELD_FORMS
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
+from lsys_kit.translation import gettext
 
 
 def span(record: object) -> tuple[int | None, int | None]:
@@ -48,7 +49,7 @@ def suggestion(name: str, known: Collection[str], likeness: float = 0.6) -> str 
     'Did you mean "lifeTimeA"?'
     """
     name_meant = closest(name, known, likeness)
-    return f'Did you mean "{name_meant}"?' if name_meant else None
+    return gettext('Did you mean "{name}"?', name=name_meant) if name_meant else None
 
 
 SETTINGS = frozenset(("axiom", "Axiom", "angle", "heading", "steps", "alphabet"))

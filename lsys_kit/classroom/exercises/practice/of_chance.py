@@ -24,7 +24,9 @@ def _chance(chance: Random, level: int) -> Exercise | None:
     word = chance.choice(sorted(outcomes))
     share = outcomes[word]
     lines = [
-        f"{letter} -> {' '.join(made)}   with probability {odds}" for letter, choices in rules.items() for made, odds in choices
+        f"{letter} -> {' '.join(made)}   {gettext('with probability {odds}', odds=odds)}"
+        for letter, choices in rules.items()
+        for made, odds in choices
     ]
     stays = "" if level > 2 else gettext("A letter without a production stays. ")
     if share in (weight, 1 - weight, Fraction(1, 2)) or weight == Fraction(1, 2):  # a half is its own contrary
