@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
@@ -180,6 +181,7 @@ def test_no_hint_contains_the_solution(exercise):
 def test_a_notebook_is_written_in_the_language():
     notebook = exercise_notebook(translated_lesson(LESSONS[1]))
     assert "# Aufgaben: Paralleles Ersetzen" in notebook
+    assert json.loads(notebook)["cells"][1]["source"] == ["from lsys_kit import check, language, progress\n", 'language("de");']
     assert not re.search(r"After these exercises|hints 1 to|Not answered|Replace the", notebook)
 
 

@@ -23,7 +23,7 @@ from lsys_kit.classroom.exercises.registry import exercises
 from lsys_kit.classroom.exercises.translated import translated_lesson
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
-from lsys_kit.translation import gettext
+from lsys_kit.translation import ENGLISH, gettext, language
 
 NotebookCell: TypeAlias = dict[str, Any]
 
@@ -79,8 +79,7 @@ def write_notebooks(folder: str | Path, questions: str | Path = QUESTIONS) -> li
 
 def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     yield _markdown("head", _introduction(lesson))
-    words, added = ("check, exercises, progress", f"\nexercises({json.dumps(folder)});") if folder else ("check, progress", "")
-    yield _code("import", f"from lsys_kit import {words}{added}")
+    yield _code("import", _beginning(folder))
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
     yield _markdown("summary", f"## {gettext('Summary')}\n\n{lesson.summary}\n\n"
@@ -89,6 +88,14 @@ def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     yield _code("progress", f'progress("{lesson.name}")   # {all_lessons}', progress_of(Record(), lesson.name))
     yield _markdown("marks", gettext(_MARKS))
     yield from map(_score_cell, lesson.exercises)
+
+
+def _beginning(folder: str) -> str:
+    """The first cell: what is imported, the language in which the notebook is written, and the folder of its questions."""
+    lines = {"exercises": f"exercises({json.dumps(folder)});"} if folder else {}
+    if language() != ENGLISH:
+        lines["language"] = f"language({json.dumps(language())});"
+    return "\n".join([f"from lsys_kit import {', '.join(sorted(['check', 'progress', *lines]))}", *lines.values()])
 
 
 def _introduction(lesson: Lesson) -> str:
