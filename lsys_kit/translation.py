@@ -70,7 +70,7 @@ def _known(name: object) -> str:
     if code in languages():
         return code
     wanted = f'"{quotable(name)}"' if isinstance(name, str) else shown(name)
-    hint = f"Languages are: {', '.join(languages())}. One is chosen by language(...), or by the environment variable {VARIABLE}."
+    hint = f"Languages are: {', '.join(languages())}. They are chosen by language(...) or the environment variable {VARIABLE}."
     raise ModelNameError(f"There is no language {wanted}", hint=hint)
 
 
