@@ -29,6 +29,8 @@ FLAT = 1e-9
 """What is no deeper than this part of its extent lies in the plane."""
 MOST_CYLINDERS = 10_000
 """Of more strokes one sees none by itself, and they are painted as plain lines."""
+EDGE_ON = 1e-9
+"""How far a unit normal may point away from the viewer by rounding alone, where a polygon is seen from its edge."""
 
 
 @dataclass(frozen=True)
@@ -223,7 +225,7 @@ def _shape_depths(scene: Scene, towards: Floats) -> Floats:
 def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:
     """The unit normals of polygons as they are seen, by Newell's method, towards the viewer."""
     normals = _mapped(normals_of(polygons.points, polygons.starts), np.stack(side, axis=1))
-    return np.where(normals[:, 2:] < 0, -normals, normals)
+    return np.where(normals[:, 2:] < -EDGE_ON, -normals, normals)
 
 
 def _depths(points: Floats, towards: Floats) -> Floats:

@@ -14,6 +14,7 @@ export const EDGE = -4; // of edges, to the inside
 const LIGHTEST = 0.55, DARKEST = 0.5; // the part of white in the lightest shade, and of black in the darkest
 const HAZE = 0.5; // the part of paper in what is farthest
 const HIGHLIGHT = [0.6 * TO_LIGHT[0], 0.6 * TO_LIGHT[1]], REACH = 1.6; // where a sphere of radius 1 is brightest, and how far from there darkest
+const EDGE_ON = 1e-9; // how far a unit normal points away by rounding alone, where a surface is seen from its edge
 const SPHERE = [[0, 15], [0.45, OWN], [1, 2]]; // how bright it is at some parts of that way
 const LIGHTENED = 0.7; // how much of a colour is left on dark paper, where thin and far strokes would be lost else
 
@@ -35,7 +36,7 @@ function lit(colour, bright) {
 
 // How bright a surface is, in steps, given its normal: to the right, up, towards the viewer; from behind it is as from the front.
 export function brightness(normal) {
-  const length = Math.hypot(...normal) || 1, way = (normal[2] < 0 ? -1 : 1) / length;
+  const length = Math.hypot(...normal) || 1, way = (normal[2] < -EDGE_ON * length ? -1 : 1) / length;
   const facing = normal.reduce((sum, part, i) => sum + part * way * TO_LIGHT[i], 0);
   return Math.round(STEPS * (AMBIENT + (1 - AMBIENT) * Math.max(0, facing)));
 }

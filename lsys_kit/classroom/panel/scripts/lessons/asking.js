@@ -8,7 +8,7 @@ const GONE = "The kernel does not answer. Run the cell again.";
 // Build a question in a cell's output. `build` is given the frame and returns what is to be told after a change of some traits
 // of the model; `render` returns how all of it is undone.
 export function question(model, el, name, traits, build) {
-  const root = made("section", { class: "lsys-lesson", "aria-label": labelled(model, name) });
+  const root = made("section", { class: "lsys-lesson", "aria-label": translated(model, name) });
   el.append(root);
   const tell = build(root), release = ownKeys(root);
   for (const trait of traits) model.on(`change:${trait}`, tell);
@@ -21,7 +21,7 @@ export function question(model, el, name, traits, build) {
 }
 
 // A label in the language that the kernel has chosen; in English without one.
-export function labelled(model, text) {
+export function translated(model, text) {
   return model.get("words")?.[text] ?? text;
 }
 
@@ -29,7 +29,7 @@ export function labelled(model, text) {
 export function tellModel(model, values, status) {
   for (const [name, value] of Object.entries(values)) model.set(name, value);
   model.save_changes();
-  if (model.comm_live === false) status.replaceChildren(labelled(model, GONE));
+  if (model.comm_live === false) status.replaceChildren(translated(model, GONE));
 }
 
 let last = 0;

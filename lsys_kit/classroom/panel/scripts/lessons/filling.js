@@ -1,7 +1,7 @@
 // A table to fill. The model checks it, and says of each cell no more than whether it is right.
 
 import { made } from "../views/controls.js";
-import { freshId, labelled, question, tellModel } from "./asking.js";
+import { freshId, translated, question, tellModel } from "./asking.js";
 import { plain, prose } from "./prose.js";
 
 const SIGNS = { right: "✓", "not yet": "✗", "not filled in yet": "○" };
@@ -31,7 +31,7 @@ export function askForEntries({ model, el }) {
       event.preventDefault();
       const number = (model.get("result").number ?? 0) + 1;
       tellModel(model, { asked: { number, entries: boxes.map((box) => box.value) } }, status);
-    } }, made("div", { class: "lsys-scroll" }, table), made("button", { type: "submit" }, labelled(model, "Check")));
+    } }, made("div", { class: "lsys-scroll" }, table), made("button", { type: "submit" }, translated(model, "Check")));
     root.append(form, status);
 
     return () => {
@@ -43,7 +43,7 @@ export function askForEntries({ model, el }) {
 }
 
 function shown(model, box, mark, word) {
-  mark.textContent = word ? `${SIGNS[word]} ${labelled(model, word)}` : "";
+  mark.textContent = word ? `${SIGNS[word]} ${translated(model, word)}` : "";
   mark.dataset.mark = word;
   box.setAttribute("aria-invalid", String(word === "not yet"));
 }

@@ -1,7 +1,7 @@
 // The question of a prediction, with its box. What answers it is not here: the model is told when it may be seen.
 
 import { made } from "../views/controls.js";
-import { freshId, labelled, question, tellModel } from "./asking.js";
+import { freshId, translated, question, tellModel } from "./asking.js";
 import { prose } from "./prose.js";
 
 export function askForPrediction({ model, el }) {
@@ -13,8 +13,8 @@ export function askForPrediction({ model, el }) {
       if (!model.get("revealed")) return;
       status.focus();
     };
-    const show = made("button", { type: "submit", disabled: true }, labelled(model, "Show"));
-    const unsure = made("button", { type: "button", onclick: () => reveal("") }, labelled(model, "I have no idea, show me"));
+    const show = made("button", { type: "submit", disabled: true }, translated(model, "Show"));
+    const unsure = made("button", { type: "button", onclick: () => reveal("") }, translated(model, "I have no idea, show me"));
     const form = made("form", { class: "lsys-predict", onsubmit: (event) => {
       event.preventDefault();
       if (box.value.trim()) reveal(box.value.trim());
@@ -25,8 +25,8 @@ export function askForPrediction({ model, el }) {
       if (!model.get("revealed")) return;
       const typed = model.get("typed");
       form.hidden = true;
-      const mine = () => [`${labelled(model, "You said:")} `, made("b", { class: "mathjax_ignore tex2jax_ignore" }, typed)];
-      status.replaceChildren(...(typed ? mine() : [labelled(model, "You wanted to see it.")]));
+      const mine = () => [`${translated(model, "You said:")} `, made("b", { class: "mathjax_ignore tex2jax_ignore" }, typed)];
+      status.replaceChildren(...(typed ? mine() : [translated(model, "You wanted to see it.")]));
     };
   });
 }

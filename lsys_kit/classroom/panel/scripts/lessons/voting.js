@@ -1,7 +1,7 @@
 // A vote: a question and four buttons. Which is right, the model says, and only the second time.
 
 import { made } from "../views/controls.js";
-import { freshId, labelled, question, tellModel } from "./asking.js";
+import { freshId, translated, question, tellModel } from "./asking.js";
 import { prose } from "./prose.js";
 
 const LETTERS = "ABCD";
@@ -26,7 +26,7 @@ export function askForVote({ model, el }) {
       before.hidden = !said.before;
       status.className = said.verdict ? `lsys-said ${said.verdict === "Right" ? "lsys-right" : "lsys-wrong"}` : "lsys-said";
       status.replaceChildren();
-      if (said.verdict) status.append(made("b", {}, `${said.verdict === "Right" ? "✓" : "✗"} ${labelled(model, said.verdict)}. `));
+      if (said.verdict) status.append(made("b", {}, `${said.verdict === "Right" ? "✓" : "✗"} ${translated(model, said.verdict)}. `));
       if (said.text) status.append(prose(said.text));
       if (said.changed) status.append(made("p", {}, said.changed));
     };
