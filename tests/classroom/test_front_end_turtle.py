@@ -110,13 +110,22 @@ def test_every_drawing_of_the_catalogue(page, id):
 VALUES = st.sampled_from([-2, -0.5, 0, 0.25, 0.5, 1, 2, 3, 7.3, 30, 45, 90, 120, 180])
 
 
+GENTLE = st.sampled_from([-0.5, 0, 0.25, 0.5])
+"""Values of tropisms: a strong pull turns the heading by many radians at each step, which multiplies rounding errors."""
+
+
 def modules(dialect, *, flat):
     """Modules of any command of a dialect, in the plane or not, with any number of values; and symbols that are none."""
     known = [symbol for symbol, commands in COMMANDS[dialect].items()
              if not (flat and any(Effect.LEAVES_PLANE in command.effects for command in commands))]
     symbols = st.sampled_from([*known, *["[", "]", "F"] * 6, *(["~"] * 4 if "~" in known else ()), "K", "rosette", "X"])
-    values = st.one_of(st.just(()), st.tuples(VALUES), st.tuples(VALUES), st.lists(VALUES, max_size=5).map(tuple))
-    return st.builds(lambda symbol, numbers: Pattern(symbol, tuple(map(Number, numbers))), symbols, values)
+    return symbols.flatmap(lambda symbol: st.builds(
+        lambda numbers: Pattern(symbol, tuple(map(Number, numbers))), values_from(GENTLE if symbol == "@Ts" else VALUES)))
+
+
+def values_from(numbers):
+    """None, one, or up to five of some numbers; one more often than others."""
+    return st.one_of(st.just(()), st.tuples(numbers), st.tuples(numbers), st.lists(numbers, max_size=5).map(tuple))
 
 
 def words(dialect, *, flat=False):
