@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from itertools import product
 from math import isnan
 
@@ -12,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, derive, limits, read, stages, system, systems
+from lsys_kit.classroom.panel import bundle
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.derivation.timed.ages import age_model
@@ -237,3 +239,8 @@ def test_what_is_marked_or_traced_is_painted_so(page):
         traced = step == 3 and position == 0
         assert (edge == [0xD5, 0x5E, 0x00]) == traced
         assert (edge == [0xB8, 0x86, 0x0B]) == (state in marked and not traced)
+
+
+def test_scripts_that_are_joined_share_no_names():
+    names = Counter(name for script in bundle._scripts() for name in bundle._EXPORT.findall(bundle.source(script)))
+    assert [name for name, count in names.items() if count > 1] == []
