@@ -12,7 +12,7 @@ import pytest
 
 from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, files, progress
 from lsys_kit.classroom.course import copy_course
-from lsys_kit.classroom.exercises import record
+from lsys_kit.classroom.exercises import record, registry
 from lsys_kit.classroom.exercises.progress import progress_of
 from lsys_kit.classroom.exercises.record import FILE, HEAD, MOST_BYTES, Record, Try, record_so_far
 from lsys_kit.classroom.exercises.registry import lessons
@@ -234,7 +234,8 @@ def test_what_is_solved_and_tried_is_counted(new_session):
     ((), None, "0.1"), ((), 1, "1.1"), ((Try("1.1", True),), None, "1.2"), ((Try("1.3", False),), None, "1.1"),
     ((Try("1.1", True), Try("3.1", True)), None, "3.2"), (tuple(Try(f"1.{n}", True) for n in range(1, 6)), None, "2.1"),
     (tuple(Try(f"18.{n}", True) for n in range(1, 7)), None, "0.1"), ((Try("unknown", True),), None, "0.1")])
-def test_next_is_the_first_exercise_not_solved_of_the_lesson_worked_on_last(tries, lesson, following):
+def test_next_is_the_first_exercise_not_solved_of_the_lesson_worked_on_last(tries, lesson, following, monkeypatch):
+    monkeypatch.setattr(registry, "_added", {})  # no folders of a teacher's own
     assert progress_of(Record(tries), lesson).next[1].id == following
 
 
