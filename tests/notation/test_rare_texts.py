@@ -179,6 +179,14 @@ def test_cpfg_has_no_remainder_of_a_random_number() -> None:
     assert "mod" not in write(read("axiom: A(5)\nA(t) -> A(mod(t,2))"), "cpfg")
 
 
+@pytest.mark.parametrize("source", ["natural", "symbols"])
+def test_a_model_says_where_its_colours_come_from(source: str) -> None:
+    found = read(f"colours: {source}\naxiom: A")
+    assert found.colours == source
+    assert read(write(found, "abop")) == found
+
+
+
 def test_widths_may_be_in_pixels() -> None:
     found = read("widths: pixels\naxiom: A")
     assert found.widths == "pixels"
