@@ -196,7 +196,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _check_step(self, step: int) -> None:
         last, end = (self.model["book"][entry] for entry in ("steps", "end")) if self.model else (step, "")
         if not 0 <= step <= last:
-            raise ModelValueError(f"The panel shows steps 0 to {last}, not {step}", hint=end or None)
+            raise ModelValueError(f"The panel shows steps 0 to {last}, not {shown(step)}", hint=end or None)
 
     @traitlets.validate("settings")
     def _possible_settings(self, proposal: Any) -> dict[str, str]:
