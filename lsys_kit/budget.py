@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from math import log10
 from types import FrameType
 from typing import Any, TypeVar
 
@@ -224,8 +225,17 @@ Take fewer steps, or set limits(bytes=...).
     """
     most = current().bytes
     if needed > most:
-        raise ModelLimitError(f"{failed()}: it would take {needed:,} bytes; the limit is {most:,}", limit=most, needed=needed,
-                              hint="Take fewer steps, or set limits(bytes=...).")
+        raise ModelLimitError(f"{failed()}: it would take {_written(needed)} bytes; the limit is {most:,}", limit=most,
+                              needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
+
+
+def _written(size: int) -> str:
+    """A size with its digits, or about how large it is.
+
+    >>> _written(1234567), _written(10**5000)
+    ('1,234,567', 'about 10^5000')
+    """
+    return f"{size:,}" if size < 10**30 else f"about 10^{round((size.bit_length() - 1) * log10(2))}"
 
 
 def counted(things: Iterable[_T], interval: int = INTERVAL) -> Iterator[_T]:
