@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from itertools import combinations, pairwise
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import read, stages, system, systems
 from lsys_kit.errors import LSystemError
+from lsys_kit.pictures.nets import parts
 from lsys_kit.pictures.nets.layers import Layers, layered
 from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
 from lsys_kit.pictures.nets.parts import clearest_layout, steering_of
@@ -80,6 +82,16 @@ def test_a_row_of_stages_without_crossings_stays_a_row() -> None:
     found = layout("J4")
     assert found is not None
     assert len({y for _, y in found.circles.values()}) == 2
+
+
+def test_a_net_with_very_many_arcs_stands_in_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of 60 symbols becomes 4 others: to look for layers of so many arcs would take minutes."""
+    names = [f"s{number}" for number in range(60)]
+    rules = [f"{name} -> {' '.join(names[(7 * number + 11 * copy) % 60] for copy in range(4))}"
+             for number, name in enumerate(names)]
+    net = stages(read("\n".join([f"alphabet: {' '.join(names)}", f"axiom: {' '.join(names)}", *rules])))
+    monkeypatch.setattr(parts, "layered_layout", None)
+    assert len(parts.parts_of(net, False, steering_of(net.system)).arcs) == 240
 
 
 def test_a_sensitive_function_is_called_as_the_model_calls_it() -> None:

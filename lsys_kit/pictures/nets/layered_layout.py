@@ -26,8 +26,8 @@ SPACE, LEAST_GAP, MOST_GAP, SLOPE = 8.0, 22.0, 80.0, 0.3
 columns move apart: the gap to the height of the steepest line."""
 PORT, HIGHEST_PORT = 7.0, 13.0
 """The distance of lines that end at one side of a circle or bar, and how far from the middle one may meet a circle."""
-MOST_PLACES = 16
-"""With more places, paths are followed from the first place only, not from each in turn."""
+MOST_PIECES = 1_000
+"""Paths are followed first from one place after another, until layers with so many pieces of lines have been made."""
 TERMS, NOTE, CLEARANCE = 15.0, 14.0, 6.0
 """The height of the text above a bar, of a note on a line, and the distance from other lines that is enough for a note."""
 
@@ -83,16 +83,14 @@ def _graph(net: Stages, places: Sequence[int]) -> _Graph:
 def _best_layers(graph: _Graph) -> Layers:
     """The layers with the fewest crossings, then with the fewest arcs that lead back, over the places that may come first."""
     weights = [FEED if i < len(graph.bars) else ARC for i in range(len(graph.edges))]
-    starts = range(len(graph.places) if len(graph.places) <= MOST_PLACES else 1)
-    best = None
-    for start in starts:
-        found = layered(len(graph.places) + len(graph.bars), graph.edges, weights, [start])
-        if best is None or (found.crossings, len(found.turned)) < (best.crossings, len(best.turned)):
-            best = found
-        if not best.crossings:
+    tried: list[Layers] = []
+    pieces = 0
+    for start in range(len(graph.places)):
+        tried.append(layered(len(graph.places) + len(graph.bars), graph.edges, weights, [start]))
+        pieces += sum(map(len, tried[-1].chains))
+        if not tried[-1].crossings or pieces > MOST_PIECES:
             break
-    assert best is not None
-    return best
+    return min(tried, key=lambda layers: (layers.crossings, len(layers.turned)))
 
 
 def _ports(graph: _Graph, layers: Layers) -> dict[tuple[int, int], float]:

@@ -24,8 +24,8 @@ LABEL_SIZE, SMALL = 14, 11
 """Font sizes, in pixels."""
 LINE = 16.0
 """The height of a line below the diagram."""
-MOST_CROSSINGS = 1
-"""So many crossings are allowed in rows of places."""
+MOST_CROSSINGS, MOST_LAYERED = 1, 60
+"""So many crossings are allowed in rows of places; nets with more arcs than so many stand in rows all the same."""
 
 
 @dataclass(frozen=True)
@@ -156,10 +156,9 @@ def positions_in(net: Stages) -> dict[str, Point]:
 
 
 def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts) -> Layout:
-    """Rows of places as in print, unless their arcs cross more than once, and less often in layers."""
+    """Rows of places as in print, unless their arcs are few enough, cross more than once, and less often in layers."""
     in_rows = layout_of(net, planned(net, rows), texts)
-    count = crossings(in_rows)
-    if count <= MOST_CROSSINGS:
+    if len(in_rows.arcs) > MOST_LAYERED or (count := crossings(in_rows)) <= MOST_CROSSINGS:
         return in_rows
     in_layers = layered_layout(net, [place for row in rows for place in row], texts)
     return in_layers if crossings(in_layers) < count else in_rows
