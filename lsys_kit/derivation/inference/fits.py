@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import overload
@@ -63,8 +64,38 @@ class Refusal:
         return " ".join(found)
 
 
+class SystemsFound(Sequence[LSystem]):
+    """Systems in a sequence that prints as an explanation.
+
+    Attributes
+    ----------
+    systems
+        The systems.
+    """
+
+    systems: tuple[LSystem, ...]
+
+    def __len__(self) -> int:
+        return len(self.systems)
+
+    @overload
+    def __getitem__(self, index: int) -> LSystem: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[LSystem]: ...
+    def __getitem__(self, index: int | slice) -> LSystem | Sequence[LSystem]:
+        return self.systems[index]
+
+    @abstractmethod
+    def lines(self) -> Iterator[str]:
+        """The explanation, line by line."""
+
+    def __repr__(self) -> str:
+        with Task("The explanation was not finished"):
+            return "\n".join(self.lines())
+
+
 @dataclass(frozen=True, repr=False)
-class Fits(Sequence[LSystem]):
+class Fits(SystemsFound):
     """All systems that fit a sequence of words: a sequence of systems, which prints as an explanation.
 
     Attributes
@@ -84,22 +115,9 @@ class Fits(Sequence[LSystem]):
     conditions: Conditions
     refusal: Refusal | None = None
 
-    def __len__(self) -> int:
-        return len(self.systems)
-
-    @overload
-    def __getitem__(self, index: int) -> LSystem: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[LSystem]: ...
-    def __getitem__(self, index: int | slice) -> LSystem | Sequence[LSystem]:
-        return self.systems[index]
-
-    def __repr__(self) -> str:
-        with Task("The explanation was not finished"):
-            return str(explanation(self))
-
-    def __str__(self) -> str:
-        return repr(self)
+    def lines(self) -> Iterator[str]:
+        """The explanation, line by line."""
+        yield str(explanation(self))
 
 
 @dataclass(frozen=True)

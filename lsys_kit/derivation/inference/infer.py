@@ -38,51 +38,12 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
           context: tuple[int, int] = (0, 0)) -> Fits:
     """All deterministic systems that fit a sequence of words: each of them derives every word from the one before.
 
-    Parameters
-    ----------
-    words
-        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words. A word is a text of one-letter symbols, a
-        `Word`, or a row of modules or names. Texts with blanks between letters, or numbers in parentheses behind them, are read
-        as `derive` prints words.
-    constants
-        The symbols that stay as they are; contexts pass over them. The brackets [ and ] always do.
-    erasing
-        Whether a letter may become nothing.
-    context
-        How many neighbours to the left and to the right a production may look at.
+    The arguments, what is returned and the errors are those of the public function, which finds the rules of pictures, too.
 
-    Returns
-    -------
-    Fits
-        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
-        step and letter that contradict those before, single letters that may be wrong, contexts with which some system fits.
-        Letters that only the last word has are left as they are, since nothing is known of them. Where modules have parameters
-        and no contexts are asked for, the systems are those with the fewest productions: conditions compare parameters with
-        numbers, and values are affine functions of parameters.
-
-    Raises
-    ------
-    ModelLimitError
-        More than 1,000 systems fit, or the search takes too long; `partial` has those that were found.
-    ModelValueError
-        The words or another argument cannot be used.
-
-    Examples
-    --------
     >>> infer(["a", "ab", "aba"])
     One system fits these 3 words:
       a -> a b
       b -> a
-    >>> print(infer(["FGG", "F-G+F+G-FGGGG"]))
-    2 systems fit these 2 words; they part at step 2:
-     1.
-      F -> F-G+F+G-F G G
-     2.
-      F -> F-G+F+G-F
-      G -> G G
-    >>> print(infer(["a", "ab", "abb", "abba"]))
-    No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is \
-a. A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits.
     """
     asked = _conditions(constants, erasing, context)
     found: list[Table] = []

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import overload
 
-from lsys_kit.budget import Task, check_budget
+from lsys_kit.budget import check_budget
 from lsys_kit.derivation.derive import derive
+from lsys_kit.derivation.inference.fits import SystemsFound
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.inference.strokes import Strokes
@@ -24,7 +24,7 @@ SAME_TO = 1e-3
 
 
 @dataclass(frozen=True, repr=False)
-class DrawingFits(Sequence[LSystem]):
+class DrawingFits(SystemsFound):
     """The systems that draw a sequence of pictures: a sequence of systems, which prints as an explanation.
 
     Attributes
@@ -41,40 +41,23 @@ class DrawingFits(Sequence[LSystem]):
     systems: tuple[LSystem, ...]
     refusal: str = ""
 
-    def __len__(self) -> int:
-        return len(self.systems)
-
-    @overload
-    def __getitem__(self, index: int) -> LSystem: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[LSystem]: ...
-    def __getitem__(self, index: int | slice) -> LSystem | Sequence[LSystem]:
-        return self.systems[index]
-
-    def __repr__(self) -> str:
-        with Task("The explanation was not finished"):
-            return "\n".join(_explained(self))
-
-    def __str__(self) -> str:
-        return repr(self)
-
-
-def _explained(fits: DrawingFits) -> Iterator[str]:
-    count = f"these {len(fits.drawings)} pictures"
-    if not fits:
-        yield f"No system was found that draws {count}. {fits.refusal}".strip()
-        return
-    if len(fits) == 1:
-        yield f"One system draws {count}:"
-    else:
-        step = parting_step(fits[:MOST_SHOWN], len(fits.drawings))
-        yield f"{len(fits)} systems draw {count}; " + (
-            "as far as was looked, later pictures are the same:" if step is None else f"they part at step {step}:")
-    for number, system in enumerate(fits[:MOST_SHOWN], 1):
-        yield from [f" {number}."] if len(fits) > 1 else []
-        yield from (f"  {line}" for line in str(system).splitlines())
-    if len(fits) > MOST_SHOWN:
-        yield f" and {len(fits) - MOST_SHOWN} more"
+    def lines(self) -> Iterator[str]:
+        """The explanation, line by line."""
+        count = f"these {len(self.drawings)} pictures"
+        if not self:
+            yield f"No system was found that draws {count}. {self.refusal}".strip()
+            return
+        if len(self) == 1:
+            yield f"One system draws {count}:"
+        else:
+            step = parting_step(self[:MOST_SHOWN], len(self.drawings))
+            yield f"{len(self)} systems draw {count}; " + (
+                "as far as was looked, later pictures are the same:" if step is None else f"they part at step {step}:")
+        for number, system in enumerate(self[:MOST_SHOWN], 1):
+            yield from [f" {number}."] if len(self) > 1 else []
+            yield from (f"  {line}" for line in str(system).splitlines())
+        if len(self) > MOST_SHOWN:
+            yield f" and {len(self) - MOST_SHOWN} more"
 
 
 def parting_step(systems: Sequence[LSystem], start: int) -> int | None:

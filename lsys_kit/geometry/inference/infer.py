@@ -13,6 +13,7 @@ from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.inference import infer as words_alone
 from lsys_kit.derivation.inference.fits import Fits
+from lsys_kit.derivation.inference.infer import MOST_FITS
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
 from lsys_kit.geometry.inference.fits import SAME_TO, DrawingFits, drawn
@@ -21,9 +22,6 @@ from lsys_kit.geometry.inference.strokes import LEAST_ANGLE, Strokes, Turning, a
 from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
-
-MOST_FITS = 1_000
-"""So many systems are listed; more are refused."""
 
 
 @overload
@@ -59,9 +57,9 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     Fits
         The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
         step and letter that contradict those before, single letters that may be wrong, contexts with which some system fits.
-        Letters that only the last word has are left as they are, since nothing is known of them. Where modules have parameters,
-        the systems are those with the fewest productions: conditions compare parameters with numbers, and values are affine
-        functions of parameters.
+        Letters that only the last word has are left as they are, since nothing is known of them. Where modules have parameters
+        and no contexts are asked for, the systems are those with the fewest productions: conditions compare parameters with
+        numbers, and values are affine functions of parameters.
     DrawingFits
         For pictures the systems that draw them, in the same form: each was drawn and compared. All strokes must be equally
         long. If the first picture has strokes, F is the only letter, and its successor is a word of F, + and - with brackets;
