@@ -29,10 +29,10 @@ if TYPE_CHECKING:
         systems,
     )
     from lsys_kit.classroom.exercises.check import check
+    from lsys_kit.classroom.exercises.declared.registry import exercises
     from lsys_kit.classroom.exercises.practice.practice import practice
-    from lsys_kit.classroom.exercises.progress import progress
-    from lsys_kit.classroom.exercises.registry import exercises
-    from lsys_kit.classroom.exercises.scores import score
+    from lsys_kit.classroom.exercises.progress.progress import progress
+    from lsys_kit.classroom.exercises.progress.scores import score
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.rule_finder import rule_finder
     from lsys_kit.classroom.lessons.vote import vote
@@ -79,16 +79,16 @@ _HOMES = {
     "continuity": "derivation.timed.continuity", "derive": "worlds.derive", "draw": "pictures.draw",
     "draw_hierarchy": "pictures.hierarchy",
     "Table": "experiments.table", "ensemble": "experiments.runs", "plot": "experiments.plot", "sweep": "experiments.runs",
-    "exercises": "classroom.exercises.registry",
+    "exercises": "classroom.exercises.declared.registry",
     "explain": "derivation.explain", "explore": "classroom.panel.explorer", "figure": "pictures.draw",
     "growth": "derivation.growth.growth", "infer": "geometry.inference.infer", "language": "translation", "limits": "budget",
     "link": "classroom.link", "linked": "classroom.link", "lineage": "derivation.timed.lineage",
     "map_system": "classroom.catalogue", "map_systems": "classroom.catalogue", "pnml": "derivation.petri.pnml",
     "practice": "classroom.exercises.practice.practice", "predict": "classroom.lessons.predict",
-    "progress": "classroom.exercises.progress", "qr_code": "pictures.qr_codes",
+    "progress": "classroom.exercises.progress.progress", "qr_code": "pictures.qr_codes",
     "read": "notation.read", "read_cellwork": "notation.dialects.cellwork.dialect", "read_map": "notation.dialects.map.dialect",
     "rule_finder": "classroom.lessons.rule_finder",
-    "score": "classroom.exercises.scores", "stages": "derivation.petri.stages",
+    "score": "classroom.exercises.progress.scores", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
     "variants": "classroom.variants", "vote": "classroom.lessons.vote", "worksheet": "classroom.lessons.worksheet",
     "write": "notation.write",

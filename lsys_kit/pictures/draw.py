@@ -23,21 +23,21 @@ from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.cellworks import CellworkPicture, cellwork_picture
 from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
 from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes
-from lsys_kit.pictures.line_widths import in_units
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
-from lsys_kit.pictures.maps import MapPicture, map_picture
 from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.picture import NetPicture, Picture, plotted
 from lsys_kit.pictures.plots.chart import Plot, painted
+from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.view import project, view_from
 from lsys_kit.pictures.sizes import size_from
-from lsys_kit.pictures.spheres import sphere_picture
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.svg import FilamentRow
-from lsys_kit.pictures.view import project, view_from
+from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
+from lsys_kit.pictures.tissues.maps import MapPicture, map_picture
+from lsys_kit.pictures.tissues.spheres import sphere_picture
 from lsys_kit.worlds.fields import Field
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
-from lsys_kit.pictures.frames import HEIGHT, MARGIN, WIDTH
+from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, OLDEST, QUIET, cell_fill, shaded
 from lsys_kit.pictures.svg import FilamentRow
 

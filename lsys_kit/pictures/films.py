@@ -27,11 +27,11 @@ from lsys_kit.pictures.filaments import filament_layout
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import film_bundle
 from lsys_kit.pictures.formats.raster import centred, turtle_image
-from lsys_kit.pictures.frames import MARGIN, WIDTH, frame_around
-from lsys_kit.pictures.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH, frame_around
+from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.view import View, project, view_from
 from lsys_kit.pictures.sizes import Size, enlargement, final_size, size_from
 from lsys_kit.pictures.style.palette import PAPER
-from lsys_kit.pictures.view import View, project, view_from
 
 if TYPE_CHECKING:
     from PIL.Image import Image

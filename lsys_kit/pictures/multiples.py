@@ -20,8 +20,8 @@ from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.raster import turtle_image
 from lsys_kit.pictures.formats.sheet import Sheet
-from lsys_kit.pictures.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
 from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
 from lsys_kit.pictures.sizes import enlargement, final_size
 from lsys_kit.pictures.style.palette import QUIET
 from lsys_kit.pictures.svg import background, described, document, resized, turtle_svg

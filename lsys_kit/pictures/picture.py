@@ -16,7 +16,7 @@ from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
-from lsys_kit.geometry.meshes import Mesh, mesh_of
+from lsys_kit.geometry.meshes.mesh import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
@@ -28,10 +28,10 @@ from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.raster import turtle_png
 from lsys_kit.pictures.formats.sheet import Sheet
-from lsys_kit.pictures.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.painting import paint_stages
 from lsys_kit.pictures.nets.parts import parts_of, positions_in, steering_of
+from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.sizes import enlargement, final_size
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, resized, turtle_svg
 

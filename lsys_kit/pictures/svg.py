@@ -15,10 +15,10 @@ from itertools import groupby
 import numpy as np
 
 from lsys_kit.geometry.scene import Integers, Scene
-from lsys_kit.pictures.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines
-from lsys_kit.pictures.frames import ViewFrame
-from lsys_kit.pictures.looks import stroke_scale
-from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.rendering.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines
+from lsys_kit.pictures.rendering.frames import ViewFrame
+from lsys_kit.pictures.rendering.looks import stroke_scale
+from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER

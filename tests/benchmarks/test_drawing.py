@@ -13,9 +13,9 @@ from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.formats.raster import turtle_png
-from lsys_kit.pictures.frames import frame_of
+from lsys_kit.pictures.rendering.frames import frame_of
+from lsys_kit.pictures.rendering.view import project
 from lsys_kit.pictures.svg import turtle_svg
-from lsys_kit.pictures.view import project
 
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")
 IN_SPACE = read("angle: 25.7\naxiom: F\nF -> F[+F]/(90)F[-F]F")

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
-from lsys_kit.pictures.display_list import AreaRun, LineRun
 from lsys_kit.pictures.draw import state_colours
-from lsys_kit.pictures.painters_order import display_list
-from lsys_kit.pictures.view import project
+from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
+from lsys_kit.pictures.rendering.painters_order import display_list
+from lsys_kit.pictures.rendering.view import project
 from tests.classroom.front_end import PAINTER, answers, book_of
 from tests.classroom.test_front_end_turtle import MOST_MODULES, scene_by_kit, words
 

@@ -24,8 +24,8 @@ from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import state_colours
-from lsys_kit.pictures.line_widths import in_units
-from lsys_kit.pictures.looks import numbered_colours
+from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.looks import numbered_colours
 from tests.classroom.front_end import TURTLE, answers, book_of
 
 MOST_MODULES, LAST_STEP = 5_000, 6

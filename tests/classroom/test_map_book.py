@@ -24,8 +24,8 @@ from lsys_kit import (
 )
 from lsys_kit.classroom.panel.books.maps import map_book, maps_at_rest
 from lsys_kit.derivation.petri.walls import kind_of, wall_stages
-from lsys_kit.geometry.map_layout import place_maps
-from lsys_kit.geometry.relaxation import Forces
+from lsys_kit.geometry.tissues.map_layout import place_maps
+from lsys_kit.geometry.tissues.relaxation import Forces
 from lsys_kit.notation.model.maps import Edge
 from tests.classroom.panel_page import answered
 

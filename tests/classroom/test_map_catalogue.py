@@ -11,8 +11,8 @@ from lsys_kit import ModelNameError, ModelValueError, derive, draw, map_system, 
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.catalogue import entry
 from lsys_kit.derivation.maps.map import cell_words
-from lsys_kit.geometry.map_layout import FIRST_WALL, polygon, tissue
-from lsys_kit.geometry.relaxation import DEFAULT_FORCES, areas, force
+from lsys_kit.geometry.tissues.map_layout import FIRST_WALL, polygon, tissue
+from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, areas, force
 
 COUNTS = {
     "K28": [(4, 4, 1), (6, 7, 2), (9, 12, 4)], "K29": [(4, 4, 1), (8, 9, 2), (14, 17, 4)],

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import check, score
-from lsys_kit.classroom.exercises import scores
+from lsys_kit.classroom.exercises.declared.registry import lessons
 from lsys_kit.classroom.exercises.judging import NEAR
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
-from lsys_kit.classroom.exercises.registry import lessons
+from lsys_kit.classroom.exercises.progress import scores
 
 LESSON = next(lesson for lesson in lessons() if lesson.name.startswith("01"))
 FIRST, SECOND = LESSON.exercises[:2]

@@ -11,13 +11,13 @@ from playwright.sync_api import expect
 from lsys_kit import LSystemError, derive, explore, limits, map_system
 from lsys_kit.classroom.panel.books.tissue_layout import tissue_at_rest
 from lsys_kit.classroom.panel.books.tissues import tissue_book
-from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
-from lsys_kit.geometry.cellwork_layout import cellwork_scene
-from lsys_kit.geometry.sphere_layout import SPHERE_FORCES
-from lsys_kit.pictures.cellworks import wall_labels
-from lsys_kit.pictures.spheres import _seen_outlines, wall_arcs
+from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
+from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene
+from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES
+from lsys_kit.pictures.rendering.view import axes, project
 from lsys_kit.pictures.style.lighting import brightness
-from lsys_kit.pictures.view import axes, project
+from lsys_kit.pictures.tissues.cellworks import wall_labels
+from lsys_kit.pictures.tissues.spheres import _seen_outlines, wall_arcs
 from tests.classroom.test_panel_maps import PIXELS, asked
 from tests.derivation.random_cellworks import cellwork_systems
 

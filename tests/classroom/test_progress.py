@@ -12,10 +12,11 @@ import pytest
 
 from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, files, progress
 from lsys_kit.classroom.course import copy_course
-from lsys_kit.classroom.exercises import record, registry
-from lsys_kit.classroom.exercises.progress import progress_of
-from lsys_kit.classroom.exercises.record import FILE, HEAD, MOST_BYTES, Record, Try, record_so_far
-from lsys_kit.classroom.exercises.registry import lessons
+from lsys_kit.classroom.exercises.declared import registry
+from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises.progress import record
+from lsys_kit.classroom.exercises.progress.progress import progress_of
+from lsys_kit.classroom.exercises.progress.record import FILE, HEAD, MOST_BYTES, Record, Try, record_so_far
 from lsys_kit.files import append_line
 
 RIGHT, NEAR, UNREADABLE = "bl ar bl ar ar", "al al br", "al al bx"
@@ -241,7 +242,7 @@ def test_next_is_the_first_exercise_not_solved_of_the_lesson_worked_on_last(trie
 
 def test_when_all_is_solved_the_page_says_so(monkeypatch):
     tries = tuple(Try(exercise.id, True) for lesson in lessons() for exercise in lesson.exercises)
-    monkeypatch.setattr("lsys_kit.classroom.exercises.progress.all_lessons", lessons)
+    monkeypatch.setattr("lsys_kit.classroom.exercises.progress.progress.all_lessons", lessons)
     page = progress_of(Record(tries))
     assert page.next is None
     assert "All exercises are solved." in repr(page)

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, cellwork_system, derive, read_cellwork
-from lsys_kit.geometry.cell_relaxation import SPACE_FORCES, area_vectors, relax_in_space, volumes
-from lsys_kit.geometry.cellwork_layout import cellwork_scene, place_cellworks, solid_tissue
-from lsys_kit.geometry.relaxation import Forces
+from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES, area_vectors, relax_in_space, volumes
+from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene, place_cellworks, solid_tissue
+from lsys_kit.geometry.tissues.relaxation import Forces
 
 K33 = cellwork_system("K33")
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, draw, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.meshes import mesh_of
-from lsys_kit.geometry.solids import SIDES, THIN_SIDES
-from lsys_kit.geometry.triangulation import triangulate
+from lsys_kit.geometry.meshes.mesh import mesh_of
+from lsys_kit.geometry.meshes.solids import SIDES, THIN_SIDES
+from lsys_kit.geometry.meshes.triangulation import triangulate
 
 BUSH = """angle: 22.5
 axiom: A

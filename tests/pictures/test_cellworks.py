@@ -12,9 +12,9 @@ import trimesh
 from PIL import Image
 
 from lsys_kit import ModelLimitError, ModelNameError, ModelValueError, cellwork_system, derive, draw, limits
-from lsys_kit.pictures.cellworks import CellworkPicture
+from lsys_kit.pictures.rendering.view import axes
 from lsys_kit.pictures.style.lighting import LIGHT, brightness
-from lsys_kit.pictures.view import axes
+from lsys_kit.pictures.tissues.cellworks import CellworkPicture
 
 K33 = cellwork_system("K33")
 

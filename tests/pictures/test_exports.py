@@ -28,7 +28,7 @@ from lsys_kit import (
     system,
 )
 from lsys_kit.__main__ import main
-from lsys_kit.geometry.meshes import mesh_of
+from lsys_kit.geometry.meshes.mesh import mesh_of
 from lsys_kit.pictures.formats.mesh_files import channels
 from lsys_kit.pictures.style.palette import CHOSEN, colours
 

@@ -11,8 +11,8 @@ from PIL import Image
 
 from lsys_kit import ModelValueError, derive, draw, figure, read, system
 from lsys_kit.pictures.filaments import DrawnCell, FilamentLayout, filament_layout
-from lsys_kit.pictures.frames import WIDTH
 from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.rendering.frames import WIDTH
 
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -9,8 +9,8 @@ import pytest
 
 from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, derive, draw, limits
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.pictures.maps import FILLS, MOST_MAPS, MapPicture
 from lsys_kit.pictures.style.palette import SERIES
+from lsys_kit.pictures.tissues.maps import FILLS, MOST_MAPS, MapPicture
 
 SVG = "{http://www.w3.org/2000/svg}"
 K28 = read_map("map: ABAB\nA -> B[-A][+A]B\nB -> A")
@@ -100,7 +100,7 @@ def test_maps_do_not_overlap() -> None:
 
 
 def _panels(picture):  # type: ignore[no-untyped-def]
-    from lsys_kit.pictures.maps import arranged
+    from lsys_kit.pictures.tissues.maps import arranged
 
     return picture.maps, picture.places, arranged(picture.scenes)
 

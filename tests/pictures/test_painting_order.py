@@ -18,14 +18,14 @@ from PIL import Image
 
 from lsys_kit import derive, draw, figure, read
 from lsys_kit.geometry.scene import DISC, OWN, Discs, Polygons, Scene, Segments
-from lsys_kit.pictures.display_list import AreaRun, LineRun
 from lsys_kit.pictures.formats.axes import frame_in, plot_turtle
 from lsys_kit.pictures.formats.raster import turtle_image
-from lsys_kit.pictures.frames import frame_around
-from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
+from lsys_kit.pictures.rendering.frames import frame_around
+from lsys_kit.pictures.rendering.painters_order import display_list
+from lsys_kit.pictures.rendering.view import FRONT, MOST_CYLINDERS, project
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.svg import turtle_svg
-from lsys_kit.pictures.view import FRONT, MOST_CYLINDERS, project
 
 POINT = st.tuples(*[st.integers(-6, 6)] * 3)
 COLOUR, WIDTH = st.integers(0, 15), st.sampled_from([OWN, 0.5, 1, 2])

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Scene
-from lsys_kit.pictures.display_list import AreaRun, DisplayList, LineRun
 from lsys_kit.pictures.filaments import wall_colour, wall_width
-from lsys_kit.pictures.frames import MARGIN, ViewFrame, frame_around
-from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineRun
+from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
+from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
 from lsys_kit.pictures.style.palette import GREEN, INK, cell_fill
 from lsys_kit.pictures.svg import FilamentRow

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lsys_kit.budget import counted
 from lsys_kit.pictures.filaments import DrawnCell, filament_layout, wall_colour, wall_width
 from lsys_kit.pictures.formats.raster import FINE, centred, encoded, samples_for
-from lsys_kit.pictures.frames import WIDTH
+from lsys_kit.pictures.rendering.frames import WIDTH
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.palette import GREEN, INK, PAPER, cell_fill
 from lsys_kit.pictures.svg import FilamentRow

@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lsys_kit.budget import check_budget, check_bytes, counted
-from lsys_kit.geometry.meshes import Mesh
-from lsys_kit.geometry.solids import Numbers, Singles
-from lsys_kit.pictures.looks import numbered_colours
+from lsys_kit.geometry.meshes.mesh import Mesh
+from lsys_kit.geometry.meshes.solids import Numbers, Singles
+from lsys_kit.pictures.rendering.looks import numbered_colours
 
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963

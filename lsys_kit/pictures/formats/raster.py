@@ -17,10 +17,19 @@ from numpy.typing import NDArray
 
 from lsys_kit.budget import check_bytes, counted, current
 from lsys_kit.geometry.scene import Floats, Scene
-from lsys_kit.pictures.display_list import AREA, NO_COLOUR, ROUND, Areas, DisplayList, Lines, Rounds, colours_and_widths
 from lsys_kit.pictures.formats.line_raster import Coordinates, Grid, spread, touched
-from lsys_kit.pictures.frames import MARGIN, ViewFrame, frame_around
-from lsys_kit.pictures.painters_order import display_list
+from lsys_kit.pictures.rendering.display_list import (
+    AREA,
+    NO_COLOUR,
+    ROUND,
+    Areas,
+    DisplayList,
+    Lines,
+    Rounds,
+    colours_and_widths,
+)
+from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
+from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import PAPER

@@ -21,8 +21,8 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.frames import MARGIN, WIDTH
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
+from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import svg_label, values_text
 from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
 from lsys_kit.pictures.svg import background, document, resized

@@ -21,15 +21,15 @@ from lsys_kit.derivation.maps.development import Development, develop, unmatched
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
 from lsys_kit.errors import LSystemError, ModelLimitError
-from lsys_kit.geometry.equilibrium import Equilibrium
-from lsys_kit.geometry.map_layout import equilibria, polygon, tissue
-from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.tissues.equilibrium import Equilibrium
+from lsys_kit.geometry.tissues.map_layout import equilibria, polygon, tissue
+from lsys_kit.geometry.tissues.relaxation import Forces
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.maps import Edge, MapSystem
-from lsys_kit.pictures.maps import STEPS
 from lsys_kit.pictures.style.labels import label_parts
 from lsys_kit.pictures.style.palette import colours
+from lsys_kit.pictures.tissues.maps import STEPS
 
 MOST_WALLS = 20_000
 """A book holds no map of more walls."""

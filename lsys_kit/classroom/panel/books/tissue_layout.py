@@ -14,14 +14,14 @@ from lsys_kit.derivation.cellworks.development import CellworkDevelopment, devel
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.geometry.cellwork_layout import place_cellworks
-from lsys_kit.geometry.relaxation import Forces
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.sphere_layout import Placed, place_on_sphere
+from lsys_kit.geometry.tissues.cellwork_layout import place_cellworks
+from lsys_kit.geometry.tissues.relaxation import Forces
+from lsys_kit.geometry.tissues.sphere_layout import Placed, place_on_sphere
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.pictures.cellworks import STEPS
-from lsys_kit.pictures.maps import STEPS as MAP_STEPS
+from lsys_kit.pictures.tissues.cellworks import STEPS
+from lsys_kit.pictures.tissues.maps import STEPS as MAP_STEPS
 
 MOST_EDGES = 4_000
 """A book holds no step of more edges, since nobody could see more of them."""

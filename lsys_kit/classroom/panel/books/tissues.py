@@ -22,15 +22,15 @@ from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest
 from lsys_kit.derivation.cellworks.cellwork import CellEdge, Cellwork
 from lsys_kit.derivation.maps.map import Map, Wall, least_rotation
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
-from lsys_kit.geometry.cellwork_layout import solid_tissue
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.sphere_layout import Placed
+from lsys_kit.geometry.tissues.cellwork_layout import solid_tissue
+from lsys_kit.geometry.tissues.sphere_layout import Placed
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.maps import Edge, MapSystem
-from lsys_kit.pictures.cellworks import wall_labels
-from lsys_kit.pictures.spheres import kinds_of_cells, wall_arcs
 from lsys_kit.pictures.style.labels import label_parts
 from lsys_kit.pictures.style.palette import SERIES, colours
+from lsys_kit.pictures.tissues.cellworks import wall_labels
+from lsys_kit.pictures.tissues.spheres import kinds_of_cells, wall_arcs
 
 NEVER_DIVIDED = "no cell is divided at any step: new edges never go once around one"
 """What is said of rules whose markers do not match, or not around a cell."""
@@ -57,7 +57,7 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
     Examples
     --------
     >>> from lsys_kit.classroom.panel.books.tissue_layout import tissue_at_rest
-    >>> from lsys_kit.geometry.sphere_layout import SPHERE_FORCES
+    >>> from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> three = read_map("sphere: D>D>D>\\nsteps: 1\\nD> -> D>[-e]D>[+e]D>")
     >>> made = tissue_book(tissue_at_rest(three, SPHERE_FORCES), {})

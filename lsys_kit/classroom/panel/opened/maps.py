@@ -10,12 +10,12 @@ from lsys_kit.classroom.panel.controls import slider
 from lsys_kit.classroom.panel.opened.cells import VALUES, CellSight, Kind, OpenedCells
 from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import deflated, shared
-from lsys_kit.geometry.map_layout import scenes
-from lsys_kit.geometry.relaxation import DEFAULT_FORCES
+from lsys_kit.geometry.tissues.map_layout import scenes
+from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.pictures.maps import MapPicture
+from lsys_kit.pictures.tissues.maps import MapPicture
 
 WALL_BYTES = 600
 """About what a wall of a map at rest takes in memory."""

@@ -23,8 +23,8 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import is_cellwork, is_map, read
+from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, FRONT, lies_flat
 from lsys_kit.pictures.style.labels import place_text
-from lsys_kit.pictures.view import FROM_THE_RIGHT, FRONT, lies_flat
 
 
 class OpenedSystem:

@@ -15,17 +15,17 @@ from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import deflated, shared
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.maps.map import Map
-from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
-from lsys_kit.geometry.sphere_layout import SPHERE_FORCES
+from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
+from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES
 from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.pictures import cellworks, spheres
-from lsys_kit.pictures.cellworks import CellworkPicture, picture_at
-from lsys_kit.pictures.spheres import SpherePicture, spheres_at
-from lsys_kit.pictures.view import View
+from lsys_kit.pictures.rendering.view import View
+from lsys_kit.pictures.tissues import cellworks, spheres
+from lsys_kit.pictures.tissues.cellworks import CellworkPicture, picture_at
+from lsys_kit.pictures.tissues.spheres import SpherePicture, spheres_at
 
 EDGE_BYTES = 900
 """About what an edge of cells at rest takes in memory."""

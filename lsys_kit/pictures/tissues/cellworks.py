@@ -15,15 +15,15 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
-from lsys_kit.geometry.cell_relaxation import SPACE_FORCES
-from lsys_kit.geometry.cellwork_layout import cellwork_scene, place_cellworks
 from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
+from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.pictures.maps import forces_of
 from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.rendering.view import View, project, view_from
 from lsys_kit.pictures.style.palette import QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import FilamentRow, described
-from lsys_kit.pictures.view import View, project, view_from
+from lsys_kit.pictures.tissues.maps import forces_of
 
 STEPS = 3
 """The default number of steps."""

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import counted
+from lsys_kit.geometry.meshes.solids import Numbers, Singles, circle, prism_triangles
 from lsys_kit.geometry.scene import Floats, Integers
-from lsys_kit.geometry.solids import Numbers, Singles, circle, prism_triangles
 
 Flags: TypeAlias = NDArray[np.bool_]
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lsys_kit.geometry.relaxation import Forces, summed_at_vertices, until_rest
 from lsys_kit.geometry.scene import Floats, Integers
+from lsys_kit.geometry.tissues.relaxation import Forces, summed_at_vertices, until_rest
 
 SPACE_FORCES = Forces(rest=1.0, pressure=8.0)
 """The forces in space: with them the edges of a single cell that is a cube have the length 2."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Integers, Scene
-from lsys_kit.pictures.looks import median_length
-from lsys_kit.pictures.view import ProjectedScene
+from lsys_kit.pictures.rendering.looks import median_length
+from lsys_kit.pictures.rendering.view import ProjectedScene
 
 WIDTH, HEIGHT = 600, 400
 """The size of the largest picture, in pixels."""

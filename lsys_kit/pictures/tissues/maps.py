@@ -18,12 +18,12 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
-from lsys_kit.geometry.map_layout import equilibria, relaxation_steps, scenes
-from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
+from lsys_kit.geometry.tissues.map_layout import equilibria, relaxation_steps, scenes
+from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.frames import MARGIN, ViewFrame
+from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import background, described, document, resized

@@ -16,9 +16,10 @@ from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.maps.map import Map
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.cell_relaxation import cross
-from lsys_kit.geometry.map_layout import tissue
-from lsys_kit.geometry.relaxation import (
+from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.tissues.cell_relaxation import cross
+from lsys_kit.geometry.tissues.map_layout import tissue
+from lsys_kit.geometry.tissues.relaxation import (
     AT_REST,
     LEAST_AREA,
     MOST_ITERATIONS,
@@ -29,7 +30,6 @@ from lsys_kit.geometry.relaxation import (
     summed_at_vertices,
     with_finished,
 )
-from lsys_kit.geometry.scene import Floats
 
 SPHERE_FORCES = Forces(rest=0.0, pressure=0.5)
 """The forces on a sphere, which does not grow: walls pull as if they were all too long, so that pressures decide."""

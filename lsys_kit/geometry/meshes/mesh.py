@@ -15,10 +15,10 @@ import numpy as np
 
 from lsys_kit.budget import check_bytes, counted, current
 from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.geometry.meshes.solids import SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
+from lsys_kit.geometry.meshes.triangulation import triangulate
+from lsys_kit.geometry.meshes.tubes import Rings, blocks, by_width, connected, rings, triangles
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
-from lsys_kit.geometry.solids import SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
-from lsys_kit.geometry.triangulation import triangulate
-from lsys_kit.geometry.tubes import Rings, blocks, by_width, connected, rings, triangles
 
 LARGEST_COORDINATE = 1e37
 """Greater coordinates cannot be computed in single precision."""

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import Floats, Integers
-from lsys_kit.pictures.looks import BROADEST, THINNEST
+from lsys_kit.pictures.rendering.looks import BROADEST, THINNEST
+from lsys_kit.pictures.rendering.view import ProjectedScene
 from lsys_kit.pictures.style.lighting import LIGHT
-from lsys_kit.pictures.view import ProjectedScene
 
 TONED = 16
 """From this width on, in tenths of a pixel, stripes can be seen."""

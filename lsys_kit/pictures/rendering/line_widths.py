@@ -20,7 +20,7 @@ import numpy as np
 from lsys_kit.geometry.scene import OWN, Scene
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-from lsys_kit.pictures.frames import HEIGHT, WIDTH, frame_of
+from lsys_kit.pictures.rendering.frames import HEIGHT, WIDTH, frame_of
 
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""

@@ -12,9 +12,9 @@ import numpy as np
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.equilibrium import Equilibrium, equilibrium
-from lsys_kit.geometry.relaxation import DEFAULT_FORCES, Forces, Tissue, relax, with_finished
 from lsys_kit.geometry.scene import Floats, Polygons, Scene, Segments
+from lsys_kit.geometry.tissues.equilibrium import Equilibrium, equilibrium
+from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, Forces, Tissue, relax, with_finished
 from lsys_kit.notation.model.maps import Edge
 
 FIRST_WALL = 0.28

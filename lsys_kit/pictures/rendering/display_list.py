@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import Floats, Integers
-from lsys_kit.pictures.looks import BROADEST
+from lsys_kit.pictures.rendering.looks import BROADEST
 
 NO_COLOUR = -1
 """Stands for the colour inside a shape or of its edge where there is none."""

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from lsys_kit.budget import counted
-from lsys_kit.geometry.relaxation import (
+from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.tissues.relaxation import (
     DEFAULT_FORCES,
     LEAST_AREA,
     LEAST_LENGTH,
@@ -22,7 +23,6 @@ from lsys_kit.geometry.relaxation import (
     force,
     relax,
 )
-from lsys_kit.geometry.scene import Floats
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

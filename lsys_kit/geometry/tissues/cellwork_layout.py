@@ -11,9 +11,9 @@ from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.cellworks.cellwork import Cellwork
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.cell_relaxation import SPACE_FORCES, SolidTissue, relax_in_space
-from lsys_kit.geometry.relaxation import Forces, with_finished
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments, no_discs
+from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES, SolidTissue, relax_in_space
+from lsys_kit.geometry.tissues.relaxation import Forces, with_finished
 
 FIRST_EDGE = 2.0
 """The mean length of the edges of the first cell before relaxation."""

@@ -12,12 +12,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import CIRCLE, SPHERE, Floats, Integers, Scene, Segments
-from lsys_kit.pictures.cylinders import TONED, Cylinders, capsules, cylinders_of, seen_widths, stripes
-from lsys_kit.pictures.display_list import AREA, NO_COLOUR, ROUND, Areas, DisplayList, Lines, Rounds, in_order, keys_of
-from lsys_kit.pictures.looks import BOLDEST, BROADEST, STURDY, numbered_colours, stroke_scale, stroke_widths
+from lsys_kit.pictures.rendering.cylinders import TONED, Cylinders, capsules, cylinders_of, seen_widths, stripes
+from lsys_kit.pictures.rendering.display_list import (
+    AREA,
+    NO_COLOUR,
+    ROUND,
+    Areas,
+    DisplayList,
+    Lines,
+    Rounds,
+    in_order,
+    keys_of,
+)
+from lsys_kit.pictures.rendering.looks import BOLDEST, BROADEST, STURDY, numbered_colours, stroke_scale, stroke_widths
+from lsys_kit.pictures.rendering.view import MOST_CYLINDERS, ProjectedScene, far_to_near
 from lsys_kit.pictures.style.lighting import BRIGHT, DIM, EDGE, OWN, brightness, paper_number, shade_numbers, shades
 from lsys_kit.pictures.style.palette import PAPER, tinted
-from lsys_kit.pictures.view import MOST_CYLINDERS, ProjectedScene, far_to_near
 
 FILLED = 0.7
 """The strength of the colour inside a surface in the plane."""
@@ -42,7 +52,7 @@ def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Di
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.geometry.drawing import scene_of
     >>> from lsys_kit.notation.read import read
-    >>> from lsys_kit.pictures.view import FRONT, project
+    >>> from lsys_kit.pictures.rendering.view import FRONT, project
     >>> scene = scene_of(derive(read("axiom: F@o(1)!(3)F{f+f+f}"), 0))
     >>> [(type(run).__name__, run.numbers.tolist()) for run in display_list(scene, 1, {})]
     [('AreaRun', [0]), ('LineRun', [1]), ('LineRun', [0]), ('RoundRun', [0])]

@@ -14,7 +14,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
-from lsys_kit.geometry.meshes import normals_of, start_widths
+from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
 
 View: TypeAlias = tuple[float, float]

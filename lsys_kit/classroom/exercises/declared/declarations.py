@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from lsys_kit.classroom.exercises.declared.keys import Problem, Source, exercise_problems, lesson_problems, read_exercise
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
-from lsys_kit.classroom.exercises.keys import Problem, Source, exercise_problems, lesson_problems, read_exercise
 from lsys_kit.errors import ModelFileError, quotable
 
-QUESTIONS = Path(__file__).parent / "questions"
+QUESTIONS = Path(__file__).parent.parent / "questions"
 """The kit's own files."""
 
 

@@ -19,15 +19,15 @@ from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
 from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
+from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
 from lsys_kit.notation.model.maps import Edge, MapSystem
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.spheres import SphereShapes, spheres_file
-from lsys_kit.pictures.frames import MARGIN
-from lsys_kit.pictures.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
+from lsys_kit.pictures.rendering.frames import MARGIN
+from lsys_kit.pictures.rendering.view import View, axes, view_from
 from lsys_kit.pictures.style.palette import INK, QUIET
 from lsys_kit.pictures.svg import background, described, document, resized
-from lsys_kit.pictures.view import View, axes, view_from
+from lsys_kit.pictures.tissues.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
 
 SIDE = 20, 25
 """From where spheres are seen, in degrees: somewhat from the right, and from above."""
