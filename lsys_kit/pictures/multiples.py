@@ -33,8 +33,6 @@ GAP, CAPTION, TEXT, LOWER = 30, 44, 13, 22
 pixels."""
 LARGEST_SCALE = 120.0
 """Pixels of a unit, at most."""
-MOST = 36
-"""The greatest number of drawings in a picture."""
 
 
 class Panel(NamedTuple):
