@@ -26,7 +26,7 @@ from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
 from tests.browser.test_lessons import move_every_slider
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 PAGES = ["index.html", *(name.replace(".ipynb", ".html") for name in course_files() if name.endswith(".ipynb"))]
 LESSONS = [name.replace(".ipynb", ".html") for name in course_files() if is_lesson(name)]
