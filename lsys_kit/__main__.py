@@ -79,16 +79,19 @@ def _argument_parser() -> argparse.ArgumentParser:
     _add_system(draw, steps_needed=False, several_steps=True)
     draw.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
     draw.add_argument("-o", "--output", required=True, metavar="FILE",
-                      help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng)")
+                      help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng, .mp4)")
     draw.add_argument("--seeds", type=_numbers, default=(), metavar="S,S,...", help="draw plants of several seeds side by side")
     draw.add_argument("--view", type=_numbers, metavar="AROUND,ABOVE",
                       help="the side from which a plant in space is seen, in degrees (default: 30,15)")
     draw.add_argument("--size", type=_numbers, metavar="WIDTH[,HEIGHT]", help="the size of a picture or film in pixels")
-    draw.add_argument("--seconds", default="0.6", help="how long a film shows each step (default: 0.6)")
+    draw.add_argument("--turntable", action="store_true", help="let the film show a plant in space from all sides")
+    _add_film(draw)
     stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
     stages.add_argument("-o", "--output", required=True, metavar="FILE",
-                        help="a picture (.svg), or a net for Petri-net tools (.pnml)")
+                        help="a picture (.svg, .png, .pdf), a film of the tokens (.gif, .apng, .mp4), or a net for Petri-net "
+                             "tools (.pnml)")
+    _add_film(stages)
     stages.add_argument("--durations", action="store_true",
                         help="let a transition take a module's life span instead of one step")
     convert = command("convert", models.convert, "Print a model in another notation.",
@@ -146,6 +149,12 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
     package.add_argument("what_exercises", metavar="LESSON", help="a lesson of the kit, such as 1, or a folder of .toml files")
     package.add_argument("-o", "--output", required=True, metavar="FILE", help="a .zip file")
     package.set_defaults(action=course.write_package)
+
+
+def _add_film(parser: argparse.ArgumentParser) -> None:
+    """Options of films, and of pictures of pixels."""
+    parser.add_argument("--seconds", help="how long a film shows each step (default: 0.6; on a turntable 0.1)")
+    parser.add_argument("--dpi", help="the dots per inch of a .png picture (default: 96)")
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_steps: bool = False) -> None:

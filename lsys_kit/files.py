@@ -132,11 +132,17 @@ def marked_xml(text: str) -> bytes:
     return text.encode() + b"\n<?" + KIT_MARK + b"?>\n"
 
 
-def marked_png(image: bytes) -> bytes:
-    """A PNG picture, animated or not, as a file of the kit: with a text chunk behind its header (PNG specification, 11.3.4)."""
-    chunk = b"tEXtSoftware\0" + KIT_MARK
-    text = struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
-    return image[:33] + text + image[33:]
+def marked_png(image: bytes, dpi: float | None = None) -> bytes:
+    """A PNG picture, animated or not, as a file of the kit: with a text chunk behind its header, and perhaps with the dots of
+    an inch (PNG specification, 11.3.4 and 11.3.5)."""
+    metre = 0 if dpi is None else round(dpi / 0.0254)
+    size = b"" if dpi is None else _chunk(b"pHYs" + struct.pack(">IIB", metre, metre, 1))
+    return image[:33] + _chunk(b"tEXtSoftware\0" + KIT_MARK) + size + image[33:]
+
+
+def _chunk(content: bytes) -> bytes:
+    """A chunk of a PNG picture, given its type and its data."""
+    return struct.pack(">I", len(content) - 4) + content + struct.pack(">I", zlib.crc32(content))
 
 
 def marked_gif(image: bytes) -> bytes:
@@ -144,6 +150,11 @@ def marked_gif(image: bytes) -> bytes:
     colours = 3 * 2 ** ((image[10] & 7) + 1) if image[10] & 128 else 0
     comment = b"!\xfe" + bytes([len(KIT_MARK)]) + KIT_MARK + b"\0"
     return image[:13 + colours] + comment + image[13 + colours:]
+
+
+def marked_mp4(film: bytes) -> bytes:
+    """An MP4 film as a file of the kit: with a box at its end that players pass over (ISO/IEC 14496-12, 8.1.2)."""
+    return film + struct.pack(">I", 8 + len(KIT_MARK)) + b"free" + KIT_MARK
 
 
 @contextmanager

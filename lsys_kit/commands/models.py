@@ -11,19 +11,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
-from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, quotable
+from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.draw import AnyPicture
-    from lsys_kit.pictures.films import Film
+    from lsys_kit.pictures.formats.film import Film
 
 STEPS = 5
 """The number of steps drawn by default, if the system has none of its own."""
-FILMS = (".gif", ".apng")
-"""The suffixes of files with several pictures."""
 
 
 def list_systems(_: argparse.Namespace) -> None:
@@ -89,18 +87,36 @@ def draw_word(options: argparse.Namespace) -> None:
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
+    film = _film(options)
     if is_map_system(options.system) or is_cellwork_system(options.system):
         cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
-        shown: AnyPicture | Film = draw(cells, options.steps, **_seen(options))
+        shown: AnyPicture | Film = animate(cells, options.steps, **film, **_seen(options)) if film else \
+            draw(cells, options.steps, **_seen(options))
     elif options.seeds or isinstance(options.steps, list):
         shown = draw(system_with_constants(options), seed=options.seed, arithmetic=options.arithmetic, angle=options.angle,
                      seeds=options.seeds, **_steps(options), **_seen(options))
     else:
         words = _derivation(system_with_constants(options), options)
-        film = Path(options.output).suffix.lower() in FILMS
-        shown = animate(words, angle=options.angle, seconds=options.seconds, **_seen(options)) if film else \
+        shown = animate(words, angle=options.angle, **film, **_seen(options)) if film else \
             draw(words, angle=options.angle, **_seen(options))
-    shown.save(options.output)
+    _save(shown, options)
+
+
+def _film(options: argparse.Namespace) -> dict[str, Any]:
+    """How a film is shown; nothing, if no film is wanted."""
+    from lsys_kit.pictures.formats.files import FILMS
+
+    turntable = getattr(options, "turntable", False)
+    if Path(options.output).suffix.lower() not in FILMS and not turntable:
+        return {}
+    if options.dpi is not None:
+        raise ModelValueError("A film has no dots per inch", hint="Choose its size in pixels: --size 1200.")
+    return {"seconds": options.seconds} | ({"turntable": True} if turntable else {})
+
+
+def _save(shown: AnyPicture | Film, options: argparse.Namespace) -> None:
+    """Write a picture, with so many dots per inch, or a film; and print what it shows."""
+    shown.save(options.output, **({} if options.dpi is None else {"dpi": options.dpi}))
     print(shown)
 
 
@@ -116,15 +132,15 @@ def _steps(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def draw_stages(options: argparse.Namespace) -> None:
-    """Write a picture of the stage diagram, and print what it shows."""
+    """Write a picture of the stage diagram, or a film of its tokens, and print what it shows."""
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.pictures.draw import draw
+    from lsys_kit.pictures.films import animate
 
     system = system_with_constants(options)
-    word = None if options.steps is None else _derivation(system, options)[-1]
-    picture = draw(stages(system, durations=options.durations), tokens=word)
-    picture.save(options.output)
-    print(picture)
+    net, film = stages(system, durations=options.durations), _film(options)
+    word = None if options.steps is None or film else _derivation(system, options)[-1]
+    _save(animate(net, options.steps, **film) if film else draw(net, tokens=word), options)
 
 
 def convert(options: argparse.Namespace) -> None:

@@ -26,9 +26,10 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
 from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
-from lsys_kit.pictures.picture import NetPicture, Picture, plotted
+from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.rendering.line_widths import in_units
 from lsys_kit.pictures.rendering.view import project, view_from
@@ -201,7 +202,7 @@ def state_colours(what: Derivation | Word) -> Mapping[int, str]:
     return {state: colour_of(module.symbol, what.states.system) for state, module in enumerate(what.states.modules)}
 
 
-def figure(what: Picture | Plot | LSystem | Derivation | Word, ax: Axes | None = None, **choices: Any) -> Axes:
+def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
     """Draw into a matplotlib figure, to be combined with other plots.
 
     Parameters
@@ -221,7 +222,7 @@ def figure(what: Picture | Plot | LSystem | Derivation | Word, ax: Axes | None =
     Raises
     ------
     ModelValueError
-        The axes are in space, or it is no drawing of a word.
+        The axes are in space.
 
     Examples
     --------
@@ -245,8 +246,10 @@ def figure(what: Picture | Plot | LSystem | Derivation | Word, ax: Axes | None =
             raise ModelNameError(f'There is no option "{next(iter(choices))}" here',
                                  hint="What a plot shows is chosen when it is made.")
         return painted(what, new_axes() if ax is None else ax)
-    picture = what if isinstance(what, Picture) else draw(what, **choices)
-    if not isinstance(picture, Picture):
-        raise ModelValueError("Only a plot, or the drawing of a system, a derivation or a word goes into a figure",
-                              hint="Keep other pictures as .svg.")
-    return plotted(picture, new_axes() if ax is None else ax)
+    picture, axes = what if isinstance(what, SVGPicture) else draw(what, **choices), new_axes() if ax is None else ax
+    with Task("The figure was not drawn"):
+        picture.plot_into(axes)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.set_axis_off()
+    return axes

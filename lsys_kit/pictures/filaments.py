@@ -28,6 +28,8 @@ HEAD, STEPS, TIMES, AGES = 18, 34, 46, 12
 """Room for the heading, the column of steps, that of times, and the ages of walls, in pixels."""
 TALLEST, FILLED = 46.0, 0.66
 """The greatest distance of rows, in pixels, and the part of it that cells fill."""
+MARKED = 3.2
+"""The width of the edges of marked cells, in pixels."""
 LEGIBLE = 28
 """Ages of walls are written where the distance of rows is greater than this, in pixels."""
 
@@ -119,8 +121,7 @@ class FilamentLayout:
         return self.gutter + (WIDTH - self.gutter - MARGIN - row.scene.width * self.scale) / 2
 
 
-def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None,
-                    written: bool = True) -> FilamentLayout:
+def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None) -> FilamentLayout:
     """The layout of some rows.
 
     Parameters
@@ -131,30 +132,31 @@ def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: V
         Whether the rows are labelled with their steps.
     time
         The duration of a step; rows are labelled with times too, if that is not 1.
-    written
-        Whether there is any text.
     """
     time = time if numbered and time != 1 else None
     gutter, head = MARGIN + STEPS * numbered + TIMES * (time is not None), HEAD * numbered
     longest = max(max(row.scene.width for row in rows), 1e-9)
     tallest = max(max(row.scene.height for row in rows), 1e-9)
     most = min(TALLEST, (HEIGHT - 2 * MARGIN - head) / len(rows))
-    above = AGES if written and most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
+    above = AGES if most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
     scale = min((WIDTH - gutter - 2 * MARGIN) / longest, (FILLED * most - above) / tallest)
     pitch = max(14.0, min(most, (tallest * scale + above) / FILLED))
     return FilamentLayout(rows, numbered, time, scale, gutter, head, above, pitch)
 
 
 def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], current: int | None = None,
-             marked: Collection[int] = ()) -> str:
-    """Filaments below one another, centred, with a common scale; the current row on a tinted band."""
-    body = [_heading(sheet)] if sheet.numbered else []
+             marked: Collection[int] = (), image: str = "") -> str:
+    """Filaments below one another, centred, with a common scale; the current row on a tinted band. An image, if there is one,
+    stands for the band and for all cells."""
+    body = [image, _heading(sheet)] if sheet.numbered else [image]
     for place, row in enumerate(sheet.rows):
         middle = sheet.middle(place)
         if sheet.numbered:
+            body += [_band(sheet, place)] if row.step == current and not image else []
             body.append(_row_labels(sheet, row.step, middle, row.step == current))
-        body.append(filament_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
-        body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
+        if not image:
+            body.append(filament_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
+            body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
     return "".join(body)
 
 
@@ -167,17 +169,26 @@ def _heading(sheet: FilamentLayout) -> str:
                    f'fill="{QUIET}">{text}</text>' for x, text in texts)
 
 
+def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, float, float]:
+    """The band behind the current row: its left, upper, right and lower edge, and the radius of its corners, in pixels."""
+    top = sheet.middle(place) - sheet.above / 2 - sheet.pitch / 2
+    return 4.0, top, WIDTH - 4.0, top + sheet.pitch, 6.0
+
+
+def _band(sheet: FilamentLayout, place: int) -> str:
+    left, top, right, _, corner = band_of(sheet, place)
+    return (f'<rect x="{tenths(left)}" y="{tenths(top)}" width="{tenths(right - left)}" height="{tenths(sheet.pitch)}" '
+            f'rx="{tenths(corner)}" fill="{MARK}"/>')
+
+
 def _row_labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
-    """The step and time of a row, on a band if it is the current one."""
-    top, size = middle - sheet.above / 2 - sheet.pitch / 2, tenths(min(14.0, 0.8 * sheet.pitch))
-    band = (f'<rect x="40" y="{tenths(top)}" width="{WIDTH * 10 - 80}" height="{tenths(sheet.pitch)}" rx="60" fill="{MARK}"/>'
-            if current else "")
-    texts = [(MARGIN + STEPS - 8, str(step))]
+    """The step and time of a row, bold if it is the current one."""
+    size, texts = tenths(min(14.0, 0.8 * sheet.pitch)), [(MARGIN + STEPS - 8, str(step))]
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, time_text(step * sheet.time)))
     weight = f'fill="{INK}" font-weight="bold"' if current else f'fill="{QUIET}"'
-    return band + "".join(f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
-                          f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>' for x, text in texts)
+    return "".join(f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
+                   f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>' for x, text in texts)
 
 
 def time_text(time: Value) -> str:
@@ -197,7 +208,7 @@ def filament_svg(cells: Sequence[DrawnCell], look: str, middle: float, colour_of
     y, shapes, arrows = tenths(middle), [], []
     for cell in cells:
         x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
-        edge = f'{MARK_EDGE}" stroke-width="32' if cell.state in marked else colour_of.get(cell.state, GREEN)
+        edge = f'{MARK_EDGE}" stroke-width="{10 * MARKED:.0f}' if cell.state in marked else colour_of.get(cell.state, GREEN)
         shape = (f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"' if look == "ellipses" else
                  f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"')
         shapes.append(f'{shape} fill="{fills[cell.state, cell.shade]}" stroke="{edge}"/>')

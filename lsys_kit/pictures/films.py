@@ -1,127 +1,73 @@
-"""Films: a development step after step, as an animated GIF or PNG.
+"""Films: a development step after step, or what is in space on a turntable.
 
 All steps have the same frame, so that what grows is seen to grow. Of a filament's developmental sequence one row after another
-appears.
+appears, and of a lineage one step after another.
 """
 
 from __future__ import annotations
 
-import io
-from dataclasses import dataclass, field, replace
-from functools import cached_property
-from pathlib import Path
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, check_bytes, counted
+from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.files import marked_gif, marked_png
+from lsys_kit.derivation.maps.development import Development
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.errors import ModelLimitError, ModelValueError, require
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import derivation_of
 from lsys_kit.pictures.draw import draw, state_colours
-from lsys_kit.pictures.filaments import filament_layout
-from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.notebook import film_bundle
+from lsys_kit.pictures.formats.film import SECONDS, Film
+from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.raster import centred, turtle_image
-from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH, frame_around
+from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.rendering.frames import frame_around
 from lsys_kit.pictures.rendering.line_widths import in_units
-from lsys_kit.pictures.rendering.view import View, project, view_from
-from lsys_kit.pictures.sizes import Size, enlargement, final_size, size_from
-from lsys_kit.pictures.style.palette import PAPER
+from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project, view_from
+from lsys_kit.pictures.sizes import enlargement, final_size, size_from
+from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-SECONDS, HELD = 0.6, 4
-"""The duration of each step in seconds, and the factor by which the last is shown longer."""
 SHAPE_BYTES = 100
 """About what a shape takes in memory."""
 MOST_FRAMES = 300
 """The greatest number of steps of a film."""
+TURNS, TURN_SECONDS = 60, 0.1
+"""The pictures of a whole turn, and the duration of each in seconds."""
 
 
-@dataclass(frozen=True)
-class Film:
-    """The steps of a development, one picture after another.
-
-    Attributes
-    ----------
-    text
-        What the film shows, in words.
-    images
-        The pictures, all of the same size.
-    seconds
-        The duration of each picture; the last is shown `HELD` times as long.
-    """
-
-    text: str
-    images: tuple[Image, ...] = field(repr=False)
-    seconds: float = SECONDS
-
-    @cached_property
-    def gif(self) -> bytes:
-        """The film as a GIF that loops for ever."""
-        return self._film("GIF")
-
-    @cached_property
-    def apng(self) -> bytes:
-        """The film as an animated PNG, whose colours are exact."""
-        return self._film("PNG")
-
-    def save(self, path: str | Path) -> None:
-        """Write the film to a file, in the format given by its extension: .gif, .apng or .png.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".gif": lambda: marked_gif(self.gif), ".apng": lambda: marked_png(self.apng),
-                             ".png": lambda: marked_png(self.apng)})
-
-    def _film(self, form: str) -> bytes:
-        buffer, step = io.BytesIO(), round(1000 * self.seconds)
-        first, *rest = self.images
-        first.save(buffer, form, save_all=True, append_images=rest, loop=0, duration=[*[step] * len(rest), HELD * step])
-        return buffer.getvalue()
-
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return film_bundle(self.gif, self._last, self.text)
-
-    def _last(self) -> bytes:
-        """The last picture, as PNG."""
-        buffer = io.BytesIO()
-        self.images[-1].save(buffer, "PNG")
-        return buffer.getvalue()
-
-    def __repr__(self) -> str:
-        return self.text
-
-
-def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object = SECONDS, angle: object = None,
-            seed: int | None = None, arithmetic: str = "exact", view: object = None, size: object = None,
-            **constants: object) -> Film:
-    """Draw the steps of a development one after another, in a common frame.
+def animate(what: Any, n: int | None = None, *, seconds: object = None, turntable: bool = False, view: object = None,
+            size: object = None, **choices: Any) -> Film:
+    """Draw the steps of a development one after another, in a common frame; or turn what is in space around.
 
     Parameters
     ----------
     what
-        A system, which is derived first, or a derivation.
+        A system, which is derived first, or a derivation; of maps and cellworks too. A stage diagram, whose tokens move; a
+        lineage, which grows. Or a picture, or a list of pictures.
     n
-        The number of steps of a system; by default its own.
+        The number of steps of a system or of a stage diagram; by default its own.
     seconds
-        The duration of each step; the last is shown longer.
-    angle, seed, arithmetic, view, size, **constants
-        As for `draw`.
+        The duration of each picture: 0.6 by default, and the last is shown longer; 0.1 on a turntable.
+    turntable
+        Whether the last step is shown from all sides, rather than the steps from one.
+    view, size, **choices
+        As for `draw`. On a turntable the first picture has this view.
 
     Raises
     ------
     ModelValueError
-        It does not develop, or a choice is out of range.
+        It does not develop, or a choice is out of range; or it lies in the plane, and cannot be turned.
     ModelLimitError
         There are too many steps.
 
@@ -132,53 +78,114 @@ def animate(what: LSystem | Derivation, n: int | None = None, *, seconds: object
     >>> plant, len(plant.images)
     (steps 0 to 3; the last: 125 segments, width 8.84, height 27, 4)
     """
-    if not isinstance(what, LSystem | Derivation):
-        raise ModelValueError(f"Only systems and derivations can be animated, not {type(what).__name__}")
-    pace = real_from(seconds, "seconds")
+    require(turntable, bool, 'True or False for "turntable"')
+    usual = TURN_SECONDS if turntable else SECONDS
+    pace = real_from(usual if seconds is None else seconds, "seconds")
+    size_from(size)  # which is wrong before anything is made
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
-    derivation = derivation_of(what, n, seed=seed, arithmetic=arithmetic, **constants)
+    side = None if view is None else view_from(view)
+    with Task("The film was not finished"):
+        if turntable:
+            return _turned(what, n, pace, side, size, choices)
+        text, images = _shown(what, n, side, size, choices)
+        return Film(text, tuple(images), pace)
+
+
+def _shown(what: Any, n: int | None, side: View | None, size: object,
+           choices: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
+    """What a film shows, in words, and its pictures."""
+    if isinstance(what, LSystem | Derivation):
+        derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
+        if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
+            return _filmed(draw(derivation, size=size))
+        return _turtle_film(derivation, choices.get("angle"), side, size)
+    if isinstance(what, CellworkSystem | CellworkDevelopment):
+        steps = cellwork_steps(what, n, **choices)
+        scenes = project([step.solid for step in steps if step.solid is not None], side or SIDE)
+        return f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}", _framed(scenes, steps[-1].colour_of, size)
+    if isinstance(what, MapSystem | Development | Lineage):
+        seen = {} if side is None else {"view": side}
+        return _filmed(draw(what, n, size=size, **choices, **seen))
+    if isinstance(what, Stages):
+        return _net_film(what, n, size, choices)
+    return _pictures_film(what, size)
+
+
+def _derived(what: LSystem | Derivation, n: int | None, choices: Mapping[str, Any]) -> Derivation:
+    derivation = derivation_of(what, n, **{"seed": None, "arithmetic": "exact", **choices})
     assert isinstance(derivation, Derivation)
     if derivation.steps >= MOST_FRAMES:
-        raise ModelLimitError(f"A film of {derivation.steps + 1:,} pictures is too long; it can have {MOST_FRAMES:,}",
-                              limit=MOST_FRAMES, needed=derivation.steps + 1)
-    with Task("The film was not finished"):
-        if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-            return _sequence_film(derivation, pace, size_from(size))
-        turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
-        return _turtle_film(derivation, turn, pace, None if view is None else view_from(view), size_from(size))
+        raise _too_long(derivation.steps + 1)
+    return derivation
 
 
-def _turtle_film(derivation: Derivation, turn: float, pace: float, view: View | None, size: Size | None) -> Film:
+def _too_long(pictures: int) -> ModelLimitError:
+    return ModelLimitError(f"A film of {pictures:,} pictures is too long; it can have {MOST_FRAMES:,}", limit=MOST_FRAMES,
+                           needed=pictures)
+
+
+def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
+    return repr(picture), picture.film_images()
+
+
+def _net_film(net: Stages, n: int | None, size: object, choices: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
+    """A stage diagram with the tokens of each step."""
+    own = {name: value for name, value in choices.items() if name != "positions"}
+    derivation = _derived(net.system, n, own)
+    told = {"positions": choices["positions"]} if "positions" in choices else {}
+    pictures = [draw(net, tokens=word, size=size, **told) for word in derivation]
+    return f"steps 0 to {derivation.steps}; the last: {pictures[-1]!r}", [picture.image() for picture in counted(pictures, 1)]
+
+
+def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
+    """A picture that unfolds, or several pictures one after another, on paper on which all have room."""
+    if isinstance(what, SVGPicture):
+        return _filmed(what)
+    if not isinstance(what, Sequence) or not what or not all(isinstance(each, SVGPicture) for each in what):
+        raise ModelValueError("Only systems and derivations, stage diagrams, lineages and pictures can be animated, "
+                              f"not {type(what).__name__}")
+    if len(what) > MOST_FRAMES:
+        raise _too_long(len(what))
+    images = [picture.image() for picture in counted(what, 1)]
+    wide, high = (max(sides) for sides in zip(*(image.size for image in images), strict=True))
+    found = size_from(size)
+    paper = final_size(wide, high, found)
+    return f"{len(what)} pictures; the last: {what[-1]!r}", [
+        centred(picture.image(enlargement(wide, high, found)) if found else image, paper)
+        for picture, image in zip(what, images, strict=True)]
+
+
+def _turtle_film(derivation: Derivation, angle: object, view: View | None,
+                 size: object) -> tuple[str, Sequence[Image]]:
     """What the turtle draws, step after step."""
+    turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
         steps.append(scene_of(derivation.to(step), turn))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
     scenes = project(in_units(steps, derivation.states.system), view)
-    frame, colour_of = frame_around(scenes), state_colours(derivation)
-    enlarged, whole = enlargement(frame.width, frame.height, size), final_size(frame.width, frame.height, size)
-    images = tuple(centred(turtle_image(scene, colour_of, frame, enlarged), whole) for scene in scenes)
-    return Film(_caption(derivation, steps[-1]), images, pace)
+    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size)
 
 
-def _caption(derivation: Derivation, last: Scene) -> str:
-    return f"steps 0 to {derivation.steps}; the last: {last}"
+def _framed(scenes: Sequence[Scene], colour_of: Mapping[int, str], size: object) -> list[Image]:
+    """Scenes as images in a common frame."""
+    frame, found = frame_around(scenes), size_from(size)
+    enlarged, whole = enlargement(frame.width, frame.height, found), final_size(frame.width, frame.height, found)
+    return [centred(turtle_image(scene, colour_of, frame, enlarged), whole) for scene in counted(scenes, 1)]
 
 
-def _sequence_film(derivation: Derivation, pace: float, size: Size | None) -> Film:
-    """A developmental sequence, whose rows appear one after another."""
-    from PIL import Image
+def _turned(what: Any, n: int | None, pace: float, view: View | None, size: object, choices: Mapping[str, Any]) -> Film:
+    """What is in space, from all sides."""
+    picture = what if isinstance(what, SVGPicture) else draw(what, n, **choices)
+    if not isinstance(picture, Picture) or picture.solid is None:
+        raise ModelValueError("A turntable shows what is in space, and this lies in the plane",
+                              hint="Animate its steps: without turntable=True.")
+    scenes = list(_around(picture.solid, view or FROM_THE_RIGHT))
+    return Film(f"{picture!r}; from all sides", tuple(_framed(scenes, picture.colour_of, size)), pace, 1)
 
-    picture = draw(derivation)
-    usual = WIDTH, filament_layout(picture.rows, written=False).height
-    enlarged = enlargement(*usual, size)
-    picture = replace(picture, pixels=(round(WIDTH * enlarged), None))
-    whole = Image.open(io.BytesIO(picture.png)).convert("RGB")
-    images, margin = list[Image.Image](), MARGIN * enlarged
-    for shown in range(1, len(picture.rows) + 1):
-        until = round(margin + shown * (whole.height - 2 * margin) / len(picture.rows))
-        image = Image.new("RGB", whole.size, PAPER)
-        image.paste(whole.crop((0, 0, whole.width, until)))
-        images.append(centred(image, final_size(*usual, size)))
-    return Film(picture.text, tuple(images), pace)
+
+def _around(solid: Scene, view: View) -> Iterator[Scene]:
+    """A scene from all sides, one after another: it turns to the left, as a plant whose right side comes to the front."""
+    for number in range(TURNS):
+        yield from project([solid], (view[0] + 360 * number / TURNS, view[1]))

@@ -9,22 +9,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
-from lsys_kit.errors import ModelLimitError
-from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import turtle_image
-from lsys_kit.pictures.formats.sheet import Sheet
+from lsys_kit.pictures.formats.vector.reading import drawing_of
+from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
-from lsys_kit.pictures.sizes import enlargement, final_size
+from lsys_kit.pictures.sizes import enlargement
 from lsys_kit.pictures.style.palette import QUIET
-from lsys_kit.pictures.svg import background, described, document, resized, turtle_svg
+from lsys_kit.pictures.svg import background, described, document, embedded, resized, turtle_svg
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 WIDTH, HEIGHT = 760, 540
 """The greatest size of a picture, in pixels."""
@@ -70,51 +71,32 @@ class SmallMultiples(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
-            _check_shapes(self.pictures)
-            panels = arranged([each.scene for each in self.pictures], self.columns)
-            frame = panels[0].frame
-            body = "".join(_panel_svg(*each) for each in zip(self.pictures, panels, self.captions, strict=True))
-            whole = document(background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text,
-                             frame.parts)
-            return resized(whole, self.pixels)
+            return self._written(current().segments)
 
-    @cached_property
-    def png(self) -> bytes:
-        """The picture as PNG."""
+    def image(self, enlarged: float = 1.0) -> Image:
+        """The picture as an image, perhaps enlarged."""
         with Task("The picture was not drawn"):
-            panels = arranged([each.scene for each in self.pictures], self.columns)
-            width, height = panels[0].frame.width, panels[0].frame.height
-            enlarged = enlargement(width, height, self.pixels)
-            paper = Sheet(*final_size(width, height, self.pixels))
-            left, top = (max(0.0, room - side * enlarged) / 2 for room, side in zip(paper.size, (width, height), strict=True))
-            sheet = paper.part(left, top, enlarged)
-            for picture, panel, caption in zip(self.pictures, panels, self.captions, strict=True):
-                own = own_frame(picture.scene, panel.frame.scale)
-                image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
-                sheet.picture(panel.middle - own.width / 2, panel.ground - own.height + MARGIN, image)
-                sheet.centred(panel.middle, panel.ground + LOWER, caption, TEXT, QUIET)
-            return paper.png
+            return painted(drawing_of(self._written(0, enlarged)), enlarged)
 
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg or .png file.
+    def drawing(self, enlarged: float = 1.0) -> Drawing:
+        """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
+        return drawing_of(self._written(current().figure, enlarged))
 
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png)},
-                "Other formats take one drawing at a time.")
+    def _written(self, most: int, enlarged: float = 1.0) -> str:
+        """The picture as SVG; if it has more shapes than the most, its drawings are pixels, so many in each direction of its
+        own."""
+        panels = arranged([each.scene for each in self.pictures], self.columns)
+        frame = panels[0].frame
+        factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
+        pixels = sum(each.size for each in self.pictures) > most
+        body = "".join(_panel_svg(*each, factor if pixels else 0.0)
+                       for each in zip(self.pictures, panels, self.captions, strict=True))
+        whole = document(background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text,
+                         frame.parts)
+        return resized(whole, self.pixels)
 
     def __repr__(self) -> str:
         return self.text
-
-
-def _check_shapes(pictures: Sequence[Picture]) -> None:
-    shapes, most = sum(each.size for each in pictures), current().segments
-    if shapes > most:
-        raise ModelLimitError(f"The picture would have {shapes:,} shapes; the limit is {most:,}", limit=most, needed=shapes,
-                              hint="Take fewer steps, keep the picture as .png, or set limits(segments=...).")
 
 
 def own_frame(scene: Scene, scale: float) -> ViewFrame:
@@ -159,9 +141,18 @@ def _scale(wide: float, high: float, many: int, columns: int) -> float:
     return min(across / max(wide, 1e-9), down / max(high, 1e-9), LARGEST_SCALE)
 
 
-def _panel_svg(picture: Picture, panel: Panel, caption: str) -> str:
-    """A drawing with its caption."""
+def _panel_svg(picture: Picture, panel: Panel, caption: str, pixels: float) -> str:
+    """A drawing with its caption; perhaps as so many pixels in each direction of one of the picture."""
     parts = panel.frame.parts
-    return (f"{turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked)}"
-            f'<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" font-size="{TEXT * parts}" '
-            f'text-anchor="middle" font-family="sans-serif" fill="{QUIET}">{escape(caption)}</text>')
+    drawn = turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked) if not pixels else \
+        _panel_image(picture, panel, pixels)
+    return (f'{drawn}<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" '
+            f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" fill="{QUIET}">{escape(caption)}</text>')
+
+
+def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> str:
+    """A drawing as pixels."""
+    own, parts = own_frame(picture.scene, panel.frame.scale), panel.frame.parts
+    image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
+    corner = round((panel.middle - own.width / 2) * parts), round((panel.ground - own.height + MARGIN) * parts)
+    return embedded(own.width * parts, own.height * parts, image, corner)

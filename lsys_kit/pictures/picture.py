@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import base64
-import io
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import unescape
 from pathlib import Path
@@ -15,28 +13,30 @@ from lsys_kit.budget import Task, current, supervised
 from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.files import KIT_MARK, marked_png, marked_xml, save_file
+from lsys_kit.files import marked_xml, save_file
 from lsys_kit.geometry.meshes.mesh import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
-from lsys_kit.pictures.formats.axes import new_axes, plot_rows, plot_turtle
-from lsys_kit.pictures.formats.filament_raster import rows_png
-from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.axes import plot_turtle
+from lsys_kit.pictures.formats.filament_raster import rows_image
+from lsys_kit.pictures.formats.files import FILMS, listed, save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.formats.raster import turtle_png
-from lsys_kit.pictures.formats.sheet import Sheet
+from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.raster import turtle_image, turtle_picture
+from lsys_kit.pictures.formats.vector.reading import drawing_of
+from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.nets.diagram import drawn_stages
-from lsys_kit.pictures.nets.painting import paint_stages
-from lsys_kit.pictures.nets.parts import parts_of, positions_in, steering_of
+from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
-from lsys_kit.pictures.sizes import enlargement, final_size
-from lsys_kit.pictures.svg import FilamentRow, background, described, document, resized, turtle_svg
+from lsys_kit.pictures.sizes import enlargement
+from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, resized, turtle_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from PIL.Image import Image
 
 
 @dataclass(frozen=True)
@@ -89,27 +89,66 @@ class Picture(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
-            pixels, parts = self.size > current().segments, 10
-            if len(self.scene.cells):
-                sheet = filament_layout(self.rows, not pixels and self.current is not None, self.time)
-                width, height = WIDTH, sheet.height
-                body = "" if pixels else rows_svg(sheet, self.look, self.colour_of, self.current, self.marked)
-            else:
-                frame = in_fine_parts(frame_around([self.scene]), self.scene)
-                width, height, parts = frame.width, frame.height, frame.parts
-                body = "" if pixels else turtle_svg(self.scene, frame, self.colour_of, self.marked)
-            if pixels:
-                data = base64.b64encode(self.png).decode()
-                body = f'<image width="{width * parts}" height="{height * parts}" href="data:image/png;base64,{data}"/>'
-            return resized(document(background(width, height, parts) + body, width, height, self.text, parts), self.pixels)
+            return self._written(current().segments)
 
-    @cached_property
-    def png(self) -> bytes:
-        """The picture as PNG, without text."""
+    def image(self, enlarged: float = 1.0) -> Image:
+        """The picture as an image, perhaps enlarged."""
         with Task("The picture was not drawn"):
             if len(self.scene.cells):
-                return rows_png(self.rows, self.look, self.colour_of, self.pixels)
-            return turtle_png(self.scene, self.colour_of, self.pixels)
+                return painted(drawing_of(self._written(current().segments, enlarged)), enlarged)
+            return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
+
+    def drawing(self, enlarged: float = 1.0) -> Drawing:
+        """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
+        return drawing_of(self._written(current().figure, enlarged))
+
+    def plot_into(self, ax: Axes) -> None:
+        """Paint the picture into axes: what a turtle has drawn in its own units, a filament in pixels."""
+        if self.size > current().figure:
+            raise ModelLimitError(f"The figure would have {self.size:,} shapes; the limit is {current().figure:,}",
+                                  limit=current().figure, needed=self.size,
+                                  hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).")
+        if len(self.scene.cells):
+            super().plot_into(ax)
+        else:
+            with supervised():
+                plot_turtle(ax, self.scene, self.colour_of)
+
+    def _written(self, most: int, enlarged: float = 1.0) -> str:
+        """The picture as SVG; if it has more shapes than the most, these are pixels, so many in each direction of its own."""
+        if len(self.scene.cells):
+            return self._sequence_written(self.size > most, enlarged)
+        usual = frame_around([self.scene])
+        frame = in_fine_parts(usual, self.scene)
+        if self.size > most:
+            factor = enlarged * enlargement(usual.width, usual.height, self.pixels)
+            image = turtle_image(self.scene, self.colour_of, usual, factor)
+            body = embedded(frame.width * frame.parts, frame.height * frame.parts, image)
+        else:
+            body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
+        return self._framed(body, frame.width, frame.height, frame.parts)
+
+    def film_images(self) -> Sequence[Image]:
+        """The rows of a filament, which appear one after another."""
+        many = len(self.rows) if len(self.scene.cells) and self.current is not None else 0
+        pixels = self.size > current().segments
+        return [painted(drawing_of(self._sequence_written(pixels, 1.0, shown))) for shown in range(1, many + 1)] \
+            or [self.image()]
+
+    def _sequence_written(self, pixels: bool, enlarged: float, shown: int = 0) -> str:
+        """The rows of a filament, whose cells may be pixels; perhaps as if so many of them were all."""
+        layout, image = filament_layout(self.rows, self.current is not None, self.time), ""
+        height, now = layout.height, self.rows[shown - 1].step if shown else self.current
+        sheet = replace(layout, rows=self.rows[:shown]) if shown else layout
+        if pixels:
+            factor = enlarged * enlargement(WIDTH, height, self.pixels)
+            cells = rows_image(sheet, self.look, self.colour_of, now, self.marked, factor)
+            image = embedded(10 * WIDTH, 10 * sheet.height, cells)
+        body = rows_svg(sheet, self.look, self.colour_of, now, self.marked, image)
+        return self._framed(body, WIDTH, height, 10)
+
+    def _framed(self, body: str, width: int, height: int, parts: int) -> str:
+        return resized(document(background(width, height, parts) + body, width, height, self.text, parts), self.pixels)
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -117,25 +156,35 @@ class Picture(SVGPicture):
         with Task("The mesh was not made"):
             return mesh_of(self.scene if self.solid is None else self.solid)
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.
 
         The last two are for 3D programs and contain only the last step. The colours of an .obj file are kept in an .mtl file
         beside it.
 
+        Parameters
+        ----------
+        path
+            The file.
+        dpi
+            For .png files the dots of an inch of paper: with 300 the picture has 300/96 of its size in pixels.
+
         Raises
         ------
         ModelFileError
             The extension is unknown, or the file cannot be written.
+        ModelValueError
+            The dots are no number from 24 to 2400, or the file is no .png file.
         """
         path = Path(path)
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
+        flat = self._encoders(path, dpi)
         if path.suffix.lower() == ".obj":
             save_file(library, mtl(self.mesh, self.colour_of))
-        save_as(path, {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png), ".pdf": lambda: _pdf(self),
+        save_as(path, {".svg": flat[".svg"], ".png": flat[".png"], ".pdf": flat[".pdf"],
                        ".glb": lambda: glb(self.mesh, self.colour_of),
                        ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
-                "Films end in .gif or .apng, and are made by animate(...).")
+                f"Films end in {listed(FILMS)}, and are made by animate(...).")
 
     def __repr__(self) -> str:
         return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))
@@ -165,67 +214,25 @@ class NetPicture(SVGPicture):
         with Task("The picture was not drawn"):
             return resized(drawn_stages(self.net, self.tokens, positions=self.positions), self.pixels)
 
-    @cached_property
-    def png(self) -> bytes:
-        """The picture as PNG."""
-        with Task("The picture was not drawn"):
-            parts = parts_of(self.net, self.positions, steering_of(self.net.system))
-            tokens = (0,) * len(self.net.places) if self.tokens is None else self.tokens
-            width, height = final_size(parts.width, parts.height, self.pixels)
-            factor = enlargement(parts.width, parts.height, self.pixels)
-            sheet = Sheet(width, height)
-            left, top = (width - factor * parts.width) / 2, (height - factor * parts.height) / 2
-            paint_stages(sheet.part(left, top, factor), parts, tokens)
-            return sheet.png
+    def save(self, path: str | Path, *, dpi: object = None) -> None:
+        """Write the picture to an .svg, .png or .pdf file, or the net to a .pnml file for Petri-net tools (see `pnml`).
 
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg or .png file, or the net to a .pnml file for Petri-net tools (see `pnml`).
+        Parameters
+        ----------
+        path
+            The file, whose name says the format.
+        dpi
+            For .png files the dots of an inch of paper.
 
         Raises
         ------
         ModelFileError
             The extension is unknown, or the file cannot be written.
+        ModelValueError
+            The dots are no number from 24 to 2400, or the file is no .png file.
         """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png),
-                             ".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))})
+        net = {".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))}
+        save_as(Path(path), self._encoders(Path(path), dpi) | net)
 
     def __repr__(self) -> str:
         return unescape(self.svg.split('aria-label="')[1].split('"')[0])
-
-
-def plotted(picture: Picture, ax: Axes) -> Axes:
-    """The axes with the picture drawn into them, without frame, with equal scales."""
-    if picture.size > current().figure:
-        raise ModelLimitError(f"The figure would have {picture.size:,} shapes; the limit is {current().figure:,}",
-                              limit=current().figure, needed=picture.size,
-                              hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).")
-    with Task("The figure was not drawn"), supervised():
-        return _plotted(picture, ax)
-
-
-def _plotted(picture: Picture, ax: Axes) -> Axes:
-    if len(picture.scene.cells):
-        plot_rows(ax, picture.rows, picture.look, picture.colour_of)
-    else:
-        plot_turtle(ax, picture.scene, picture.colour_of)
-    ax.set_aspect("equal")
-    ax.autoscale_view()
-    ax.set_axis_off()
-    return ax
-
-
-def _pdf(picture: Picture) -> bytes:
-    with Task("The PDF was not written"), supervised():
-        return _pdf_bytes(picture)
-
-
-def _pdf_bytes(picture: Picture) -> bytes:
-    from matplotlib import rc_context
-
-    buffer = io.BytesIO()
-    sheet = plotted(picture, new_axes()).get_figure(root=True)
-    assert sheet is not None
-    facts = {"CreationDate": None, "Title": picture.text, "Creator": KIT_MARK.decode()}
-    with rc_context({"pdf.fonttype": 42}):  # embedded fonts, so that text can be searched and edited
-        sheet.savefig(buffer, format="pdf", bbox_inches="tight", metadata=facts)
-    return buffer.getvalue()

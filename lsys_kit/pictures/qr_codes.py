@@ -6,11 +6,8 @@ import io
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
-from pathlib import Path
 
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
-from lsys_kit.files import marked_png, marked_xml
-from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.svg import background, document
@@ -75,16 +72,6 @@ class QRCode(SVGPicture):
                     found.append((along * SIDE, down * SIDE, wide * SIDE))
                 along += wide
         return found
-
-    def save(self, path: str | Path) -> None:
-        """Write the code to an .svg or .png file.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png)})
 
     def __repr__(self) -> str:
         return f"QR code of {len(self.text):,} characters, {len(self.rows)} by {len(self.rows)}"

@@ -6,11 +6,14 @@ the same on every machine.
 
 from __future__ import annotations
 
+import base64
+import io
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import groupby
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +25,9 @@ from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 
 def document(body: str, width: int, height: int, description: str, parts: int = 10) -> str:
@@ -53,6 +59,15 @@ def resized(svg: str, size: Size | None) -> str:
     corner_and_size = 'x="{}" y="{}" width="{}" height="{}"'.format(*box.split())
     paper = f'<rect {corner_and_size} fill="{PAPER}"/>' if any(more) else ""
     return svg.replace("</title>", f"</title>{paper}", 1)
+
+
+def embedded(width: int, height: int, image: Image, corner: tuple[int, int] | None = None) -> str:
+    """An image in a picture, as broad and high as it is there, perhaps with its left upper corner at some place."""
+    buffer = io.BytesIO()
+    image.save(buffer, "PNG")
+    data = base64.b64encode(buffer.getvalue()).decode()
+    place = "" if corner is None else 'x="{}" y="{}" '.format(*corner)
+    return f'<image {place}width="{width}" height="{height}" href="data:image/png;base64,{data}"/>'
 
 
 def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], marked: Collection[int] = ()) -> str:

@@ -65,4 +65,4 @@ def test_the_hierarchy_is_kept_as_svg(tmp_path: Path) -> None:
     assert (tmp_path / "hierarchy.svg").read_text(encoding="utf-8").startswith("<svg")
     assert draw_hierarchy()._repr_mimebundle_()["image/svg+xml"] == draw_hierarchy().svg
     with pytest.raises(ModelFileError, match=r"Let the name end in .svg"):
-        draw_hierarchy().save(tmp_path / "hierarchy.png")
+        draw_hierarchy().save(tmp_path / "hierarchy.glb")

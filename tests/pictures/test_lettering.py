@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw, ImageFont
 
-from lsys_kit.pictures.formats.lettering import advance, glyph
 from lsys_kit.pictures.formats.sheet import Sheet, corners_of, label_width
+from lsys_kit.pictures.formats.vector.lettering import advance, glyph
 from lsys_kit.pictures.nets.parts import rounded_path
 from lsys_kit.pictures.style.palette import INK
 

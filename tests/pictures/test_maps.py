@@ -147,8 +147,8 @@ def test_a_picture_is_kept_as_svg(tmp_path) -> None:  # type: ignore[no-untyped-
     picture.save(tmp_path / "map.svg")
     assert (tmp_path / "map.svg").read_text().startswith(f"{picture.svg}\n")
     assert picture._repr_mimebundle_()["text/plain"] == str(picture)
-    with pytest.raises(ModelFileError, match=re.escape("Let the name end in .svg")):
-        picture.save(tmp_path / "map.png")
+    with pytest.raises(ModelFileError, match=re.escape("Let the name end in .svg, .png or .pdf")):
+        picture.save(tmp_path / "map.glb")
 
 
 def test_a_picture_with_too_many_walls_is_refused() -> None:

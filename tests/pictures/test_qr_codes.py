@@ -53,13 +53,13 @@ def test_the_link_of_a_system_of_the_catalogue_is_a_code_that_can_be_projected(i
     assert len(code.rows) <= most
 
 
-def test_a_code_is_saved_as_svg_and_png_only(tmp_path) -> None:
+def test_a_code_is_saved_as_it_is(tmp_path) -> None:
     code = qr_code("A")
     code.save(tmp_path / "a.svg")
     code.save(tmp_path / "a.png")
     code.save(tmp_path / "a.png")
     assert painted(Image.open(tmp_path / "a.png")) == wanted("A")
-    with pytest.raises(ModelFileError, match=r"\.svg or \.png"):
+    with pytest.raises(ModelFileError, match=r"\.svg, \.png or \.pdf"):
         code.save(tmp_path / "a.gif")
 
 

@@ -12,8 +12,8 @@ from typing import NamedTuple
 from PIL import Image
 
 from lsys_kit.classroom.panel.view_model import StepView
-from lsys_kit.pictures.formats.lettering import advance
 from lsys_kit.pictures.formats.sheet import Sheet, label_width
+from lsys_kit.pictures.formats.vector.lettering import advance
 from lsys_kit.pictures.nets.painting import paint_stages
 from lsys_kit.pictures.nets.parts import parts_of, steering_of
 from lsys_kit.pictures.style.labels import label_parts, values_text

@@ -1,21 +1,17 @@
-"""Scenes in matplotlib figures, to be combined with other plots or printed as PDF."""
+"""Scenes in matplotlib figures, in their own units, to be combined with other plots."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Scene
-from lsys_kit.pictures.filaments import wall_colour, wall_width
 from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineRun
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
-from lsys_kit.pictures.style.palette import GREEN, INK, cell_fill
-from lsys_kit.pictures.svg import FilamentRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -90,38 +86,3 @@ def frame_in(ax: Axes, scene: Scene) -> ViewFrame:
     assert sheet is not None
     width, height = 72 * sheet.get_size_inches() * ax.get_position().size
     return frame_around([scene], max(width, 4 * MARGIN), max(height, 4 * MARGIN))
-
-
-def plot_rows(ax: Axes, rows: Sequence[FilamentRow], look: str, colour_of: Mapping[int, str]) -> None:
-    """Filaments below one another, centred."""
-    from matplotlib.patches import Ellipse, FancyArrowPatch, FancyBboxPatch, Patch
-
-    pitch = (1.8 if any(len(row.scene.walls) for row in rows) else 1.4) * max(row.scene.height for row in rows)
-    for place, row in enumerate(rows):
-        cells, y = row.scene.cells, -pitch * place
-        for (x, _), (length, width), way, shade, state in zip(
-                cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(), cells.shades.tolist(),
-                cells.states.tolist(), strict=True):
-            colour = colour_of.get(state, GREEN)
-            centre, style = x - row.scene.width / 2, f"round,pad=0,rounding_size={min(length, width) / 2}"
-            shape: Patch = Ellipse((centre, y), length, width) if look == "ellipses" else \
-                FancyBboxPatch((centre - length / 2, y - width / 2), length, width, boxstyle=style)
-            shape.set(facecolor=cell_fill(colour, shade), edgecolor=colour, linewidth=0.6)
-            ax.add_patch(shape)
-            reach = 0.29 * length * way
-            if way:
-                ax.add_patch(FancyArrowPatch((centre - reach, y), (centre + reach, y), arrowstyle="->", color=INK, shrinkA=0,
-                                             shrinkB=0, linewidth=0.5, mutation_scale=4))
-        _plot_walls(ax, row, y, colour_of)
-
-
-def _plot_walls(ax: Axes, row: FilamentRow, y: float, colour_of: Mapping[int, str]) -> None:
-    """The walls of a filament, with their ages."""
-    walls = row.scene.walls
-    for x, height, age, shade, state in zip((walls.places - row.scene.width / 2).tolist(), walls.heights.tolist(),
-                                            walls.ages.tolist(), walls.shades.tolist(), walls.states.tolist(), strict=True):
-        ax.plot([x, x], [y - 0.55 * height, y + 0.55 * height], color=wall_colour(colour_of.get(state, GREEN), shade),
-                linewidth=0.6 * wall_width(shade))
-        if not math.isnan(age):
-            ax.annotate(f"{age:.4g}", (x, y + 0.55 * height), (0, 1), textcoords="offset points", ha="center", color=INK,
-                        fontsize=5)

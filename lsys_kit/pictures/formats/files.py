@@ -12,6 +12,8 @@ from lsys_kit.files import save_file
 
 Encoders: TypeAlias = Mapping[str, Callable[[], bytes]]
 """For each extension a function that encodes the picture."""
+FILMS = (".gif", ".apng", ".mp4")
+"""The extensions of films."""
 
 
 def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
@@ -33,16 +35,16 @@ def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
     """
     if path.suffix.lower() not in formats:
         raise ModelFileError(f'This picture cannot be written to "{quotable(path.name)}"',
-                             hint=f"Let the name end in {_listed(formats)}. {hint}".rstrip())
+                             hint=f"Let the name end in {listed(formats)}. {hint}".rstrip())
     with Task("The file was not written"):
         content = formats[path.suffix.lower()]()
     save_file(path, content)
 
 
-def _listed(endings: Iterable[str]) -> str:
+def listed(endings: Iterable[str]) -> str:
     """The extensions, in a sentence.
 
-    >>> _listed([".svg", ".png", ".pdf"])
+    >>> listed([".svg", ".png", ".pdf"])
     '.svg, .png or .pdf'
     """
     *most, last = endings

@@ -4,20 +4,42 @@ from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from lsys_kit.files import marked_xml
+from lsys_kit.budget import Task, supervised
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.errors import ModelValueError
+from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.pictures.formats.files import save_as
+from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.pdf.page import pdf
+from lsys_kit.pictures.formats.raster import encoded
+from lsys_kit.pictures.formats.vector.axes import plot_drawing
+from lsys_kit.pictures.formats.vector.reading import drawing_of
+from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.sizes import Size
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from PIL.Image import Image
+
+INCH = 96
+"""The pixels of an inch, as CSS has them."""
+DOTS = 300
+"""The dots of an inch of what is pixels in a PDF."""
+LEAST_DOTS, MOST_DOTS = 24, 2_400
+"""The least and the greatest number of dots of an inch of a PNG."""
 
 
 @dataclass(frozen=True)
 class SVGPicture(ABC):
-    """A picture that is written as SVG; its text alternative is what `repr` says of it.
+    """A picture that is written as SVG, from which its other formats are painted; its text alternative is what `repr` says of
+    it.
 
     Attributes
     ----------
@@ -32,18 +54,84 @@ class SVGPicture(ABC):
     def svg(self) -> str:
         """The picture as SVG text."""
 
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg file.
+    @cached_property
+    def png(self) -> bytes:
+        """The picture as PNG."""
+        return encoded(self.image())
+
+    @cached_property
+    def pdf(self) -> bytes:
+        """The picture as PDF, whose text can be selected."""
+        with Task("The PDF was not written"):
+            return pdf(self.drawing(DOTS / INCH))
+
+    def image(self, enlarged: float = 1.0) -> Image:
+        """The picture as an image, perhaps enlarged."""
+        with Task("The picture was not drawn"):
+            return painted(self.drawing(enlarged), enlarged)
+
+    def film_images(self) -> Sequence[Image]:
+        """The images of a film of the picture, all of the same size: its steps, if it has any."""
+        return [self.image()]
+
+    def drawing(self, enlarged: float = 1.0) -> Drawing:
+        """The shapes of the picture; what of it is pixels has so many in each direction of its own."""
+        return drawing_of(self.svg)
+
+    def plot_into(self, ax: Axes) -> None:
+        """Paint the picture into axes of a matplotlib figure, whose units are pixels then."""
+        with supervised():
+            plot_drawing(ax, self.drawing())
+
+    def save(self, path: str | Path, *, dpi: object = None) -> None:
+        """Write the picture to an .svg, .png or .pdf file.
+
+        Parameters
+        ----------
+        path
+            The file, whose name says the format.
+        dpi
+            For .png files the dots of an inch of paper: with 300 the picture has 300/96 of its size in pixels.
 
         Raises
         ------
         ModelFileError
             The extension is unknown, or the file cannot be written.
+        ModelValueError
+            The dots are no number from 24 to 2400, or the file is no .png file.
         """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg)})
+        save_as(Path(path), self._encoders(Path(path), dpi))
+
+    def _encoders(self, path: Path, dpi: object = None) -> dict[str, Callable[[], bytes]]:
+        """For each extension what encodes the picture."""
+        dots = dots_from(dpi, path)
+        return {".svg": lambda: marked_xml(self.svg),
+                ".png": lambda: marked_png(self.png if dots is None else encoded(self.image(dots / INCH)), dots),
+                ".pdf": lambda: self.pdf}
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return svg_bundle(self.svg, repr(self))
+
+
+def dots_from(value: object, path: Path) -> float | None:
+    """The dots of an inch that a person wants, for a file of a name.
+
+    >>> dots_from("300", Path("plant.png")), dots_from(None, Path("plant.svg"))
+    (300.0, None)
+
+    Raises
+    ------
+    ModelValueError
+        They are no number, too few or too many; or they mean nothing in this file.
+    """
+    if value is None:
+        return None
+    if path.suffix.lower() != ".png":
+        raise ModelValueError("Dots per inch are chosen for .png files", hint="Other formats are as sharp as the paper.")
+    dots = real_from(value, "dpi")
+    if not LEAST_DOTS <= dots <= MOST_DOTS:
+        raise ModelValueError(f"A picture can have {LEAST_DOTS} to {MOST_DOTS:,} dots per inch, not {dots:g}")
+    return dots
 
 
 def svg_bundle(svg: str, text: str) -> dict[str, Any]:

@@ -51,11 +51,17 @@ MOST_SPREADS, FEW_RUNS = 6, 2_000
 """Lines of so many widths are painted at once, width after width; of more widths, those with few lines are painted in turn."""
 
 
-def turtle_png(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None) -> bytes:
+def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
     """A scene of a turtle as PNG."""
+    return encoded(turtle_picture(scene, colour_of))
+
+
+def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None, enlarged: float = 1.0) -> Image:
+    """A scene of a turtle as an image of a size, perhaps enlarged."""
     frame = frame_around([scene])
-    image = turtle_image(scene, colour_of, frame, enlargement(frame.width, frame.height, size))
-    return encoded(centred(image, final_size(frame.width, frame.height, size)))
+    wide, high = final_size(frame.width, frame.height, size)
+    image = turtle_image(scene, colour_of, frame, enlarged * enlargement(frame.width, frame.height, size))
+    return centred(image, (wide, high) if enlarged == 1 else (round(wide * enlarged), round(high * enlarged)))
 
 
 def centred(image: Image, size: tuple[int, int]) -> Image:

@@ -12,12 +12,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self, TypeAlias
 
 from lsys_kit.budget import check_bytes
-from lsys_kit.pictures.formats.lettering import advance, curve, glyph
 from lsys_kit.pictures.formats.raster import FINE
+from lsys_kit.pictures.formats.vector.lettering import advance, curve, glyph
 from lsys_kit.pictures.style.palette import INK, PAPER
 
 if TYPE_CHECKING:
-    from PIL.Image import Image
+    from PIL import Image
+    from PIL.ImageDraw import ImageDraw
 
 Point: TypeAlias = tuple[float, float]
 PIXEL_BYTES = 3 * (FINE ** 2 + 1)
@@ -49,6 +50,16 @@ class Sheet:
     def size(self) -> tuple[int, int]:
         """Its width and height in pixels."""
         return self._size
+
+    @property
+    def grid(self) -> Image.Image:
+        """The fine grid of points that is painted on."""
+        return self._image
+
+    @property
+    def pen(self) -> ImageDraw:
+        """What paints on the grid."""
+        return self._pen
 
     def part(self, x: float, y: float, unit: float = 1.0) -> Self:
         """The same sheet, measured from another point with another unit."""
@@ -98,7 +109,7 @@ class Sheet:
         """A filled polygon."""
         self._pen.polygon([self._at(*corner) for corner in corners], fill)
 
-    def picture(self, x: float, y: float, image: Image) -> None:
+    def picture(self, x: float, y: float, image: Image.Image) -> None:
         """A picture in its own pixels, above everything else."""
         across, down = self._at(x, y)
         self._pasted.append((image, (round(across / FINE), round(down / FINE))))
@@ -106,13 +117,19 @@ class Sheet:
     @property
     def png(self) -> bytes:
         """The sheet as PNG."""
+        buffer = io.BytesIO()
+        self.image.save(buffer, "PNG")
+        return buffer.getvalue()
+
+    @property
+    def image(self) -> Image.Image:
+        """The sheet as an image."""
         from PIL import Image
 
-        image, buffer = self._image.resize(self._size, Image.Resampling.BOX), io.BytesIO()
+        image = self._image.resize(self._size, Image.Resampling.BOX)
         for pasted, corner in self._pasted:
             image.paste(pasted, corner)
-        image.save(buffer, "PNG")
-        return buffer.getvalue()
+        return image
 
     def _at(self, x: float, y: float) -> Point:
         """A point on the fine grid."""

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import number_from
@@ -24,14 +25,19 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import svg_label, values_text
-from lsys_kit.pictures.style.palette import INK, QUIET, VERMILION, tinted
+from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, VERMILION, tinted
 from lsys_kit.pictures.svg import background, document, resized
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
 THICK, THIN, LATE = 24, 11, 90
 """Widths of lines, in tenths of a pixel."""
 LATE_LOOK = f'stroke="{VERMILION}" stroke-width="{LATE}" stroke-opacity="0.35"'
+LABEL = 6
+"""How far the figures of a time reach below its line, in pixels."""
 MOST_LINES, MOST_TICKS = 400, 14
 """The greatest numbers of cells at the end, and of times on the axis."""
 
@@ -56,6 +62,18 @@ class LineagePicture(SVGPicture):
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
             return resized(drawn_lineage(self.lineage, self.intervals), self.pixels)
+
+    def film_images(self) -> Sequence[Image]:
+        """The tree as it grows, one time after another; at the end with what stands below it."""
+        from PIL import Image
+
+        whole, tree = self.image(), tree_of(self.lineage, BRACKET * len(self.intervals))
+        enlarged, images = whole.width / WIDTH, []
+        for time in self.lineage.times[:-1]:
+            image = Image.new("RGB", whole.size, PAPER)
+            image.paste(whole.crop((0, 0, whole.width, round((tree.y(time) + LABEL) * enlarged))))
+            images.append(image)
+        return [*images, whole]
 
     def __repr__(self) -> str:
         return f"lineage of {self.lineage}"

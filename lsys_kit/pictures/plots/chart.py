@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import io
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task
 from lsys_kit.errors import ModelValueError
-from lsys_kit.files import KIT_MARK, marked_png, marked_xml
-from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET
@@ -103,31 +99,6 @@ class Plot(SVGPicture):
             height = self.chart.height
             body = svg_elements(_figure(self.chart), WIDTH, height)
             return document(background(WIDTH, height) + body, WIDTH, height, self.text)
-
-    @cached_property
-    def png(self) -> bytes:
-        """The plot as PNG, two pixels of which are one of the SVG."""
-        return self._encoded("png", {"Software": None}, 144)
-
-    def save(self, path: str | Path) -> None:
-        """Write the plot to an .svg, .png or .pdf file.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        facts = {"CreationDate": None, "Title": self.text, "Creator": KIT_MARK.decode()}
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self.png),
-                             ".pdf": lambda: self._encoded("pdf", facts, 72)})
-
-    def _encoded(self, form: str, facts: dict[str, str | None], dots: int) -> bytes:
-        from matplotlib import rc_context
-
-        buffer = io.BytesIO()
-        with Task("The plot was not drawn"), rc_context({"pdf.fonttype": 42, "mathtext.fontset": "dejavusans"}):
-            _figure(self.chart).savefig(buffer, format=form, dpi=dots, metadata=facts)
-        return buffer.getvalue()
 
     def __repr__(self) -> str:
         return self.text

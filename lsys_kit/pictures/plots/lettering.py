@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from html import escape
 from typing import NamedTuple
 
-from lsys_kit.pictures.formats.lettering import advance
+from lsys_kit.pictures.formats.vector.lettering import advance
 from lsys_kit.pictures.style.labels import visible
 
 SUBSCRIPT, LOWERED = 0.7, 0.25

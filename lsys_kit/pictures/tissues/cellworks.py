@@ -72,6 +72,15 @@ def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None =
     return picture_at(what[:], points, lit, side)
 
 
+def cellwork_steps(what: CellworkSystem | CellworkDevelopment, n: int | None = None, **forces: object) -> list[CellworkPicture]:
+    """The pictures of all steps of a cellwork system, or of a development, for a film."""
+    if isinstance(what, CellworkSystem):
+        what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
+    _check_size(what)
+    places = place_cellworks(what, forces_of(forces, SPACE_FORCES, "cellwork"))
+    return [picture_at(what[:step + 1], points, range(len(what[step].cells)), SIDE) for step, points in enumerate(places)]
+
+
 def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View) -> CellworkPicture:
     """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
@@ -23,10 +23,15 @@ from lsys_kit.geometry.tissues.map_layout import equilibria, relaxation_steps, s
 from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
 from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
 from lsys_kit.pictures.svg import background, described, document, resized
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 WIDTH, HIGHEST = 760, 400
 """The greatest width of a line of maps and height of a map, in pixels."""
@@ -95,6 +100,23 @@ class MapPicture(SVGPicture):
             width, height = panels[0].frame.width, panels[0].frame.height
             words = described([self.text, self._colours])
             return resized(document(background(width, height) + body, width, height, words), self.pixels)
+
+    def film_images(self) -> Sequence[Image]:
+        """The maps one after another, on one scale, each in the middle."""
+        scale = min(LARGE, *(min((WIDTH - 2 * MARGIN) / scene.width, HIGHEST / scene.height) for scene in self.scenes))
+        wide, high = (max(sides) * scale for sides in zip(*((scene.width, scene.height) for scene in self.scenes), strict=True))
+        size = math.ceil(wide - ROUNDING) + 2 * MARGIN, math.ceil(high + CAPTION - ROUNDING) + 2 * MARGIN
+        with Task("The film was not finished"):
+            return [self._one(place, scale, wide, high, size) for place in range(len(self.maps))]
+
+    def _one(self, place: int, scale: float, wide: float, high: float, size: tuple[int, int]) -> Image:
+        """One map by itself, in the middle of some room."""
+        scene = self.scenes[place]
+        left, _, _, top = scene.box
+        corner = left - (wide / scale - scene.width) / 2, top + (high / scale - scene.height) / 2
+        panel = Panel(ViewFrame(scale, *corner, *size), 5 * size[0], round(10 * (MARGIN + high + NUMBER + 3)))
+        body = panel_svg(self.maps[place], self.places[place], scene, panel, self.numbers[place], self.labels)
+        return painted(drawing_of(resized(document(background(*size) + body, *size, self.text), self.pixels)))
 
     @property
     def _colours(self) -> str:

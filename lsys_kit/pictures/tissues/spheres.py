@@ -9,25 +9,27 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lsys_kit.budget import Task, counted, supervised
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError
-from lsys_kit.files import marked_png, marked_xml
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
 from lsys_kit.notation.model.maps import Edge, MapSystem
-from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.spheres import SphereShapes, spheres_file
+from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.rendering.view import View, axes, view_from
 from lsys_kit.pictures.style.palette import INK, QUIET
 from lsys_kit.pictures.svg import background, described, document, resized
 from lsys_kit.pictures.tissues.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 SIDE = 20, 25
 """From where spheres are seen, in degrees: somewhat from the right, and from above."""
@@ -67,31 +69,24 @@ class SpherePicture(MapPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"):
-            many = len(self.views)
-            radius = min(LARGEST, (WIDTH - 2 * MARGIN - GAP * (many - 1)) / (2 * many))
-            spheres = [_sphere_svg(found, view, MARGIN + radius + number * (2 * radius + GAP), MARGIN + radius, radius, step)
-                       for number, (found, view, step) in enumerate(zip(self.maps, self.views, self.numbers, strict=True))]
-            width = math.ceil(2 * MARGIN + many * 2 * radius + (many - 1) * GAP)
-            height = math.ceil(2 * MARGIN + 2 * radius + CAPTION)
-            body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
-            words = described([self.text, "cells of one colour have the same walls around them"])
-            return resized(document(body, width, height, words), self.pixels)
+            return self._side_by_side(range(len(self.views)))
 
-    def save(self, path: str | Path) -> None:
-        """Write the picture to an .svg, .png or .pdf file.
+    def film_images(self) -> Sequence[Image]:
+        """The spheres one after another."""
+        with Task("The film was not finished"):
+            return [painted(drawing_of(self._side_by_side([place]))) for place in range(len(self.views))]
 
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        """
-        save_as(Path(path), {".svg": lambda: marked_xml(self.svg), ".png": lambda: marked_png(self._file("png")),
-                             ".pdf": lambda: self._file("pdf")})
-
-    def _file(self, kind: str) -> bytes:
-        with Task("The picture was not written"), supervised():
-            shapes = map(_shapes, self.maps, self.views, self.numbers)
-            return spheres_file([*shapes], self.text, kind, self.pixels)
+    def _side_by_side(self, places: Sequence[int]) -> str:
+        """Some of the spheres as SVG."""
+        many = len(places)
+        radius = min(LARGEST, (WIDTH - 2 * MARGIN - GAP * (many - 1)) / (2 * many))
+        spheres = [_sphere_svg(self.maps[place], self.views[place], MARGIN + radius + number * (2 * radius + GAP),
+                               MARGIN + radius, radius, self.numbers[place]) for number, place in enumerate(places)]
+        width = math.ceil(2 * MARGIN + many * 2 * radius + (many - 1) * GAP)
+        height = math.ceil(2 * MARGIN + 2 * radius + CAPTION)
+        body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
+        words = described([self.text, "cells of one colour have the same walls around them"])
+        return resized(document(body, width, height, words), self.pixels)
 
 
 def sphere_picture(what: MapSystem | Development, n: int | None = None, *, view: object = SIDE,
@@ -134,14 +129,6 @@ def wall_arcs(found: Map, points: Floats, longitudes: Mapping[int, float]) -> It
 def _shares(angle: float) -> Floats:
     """The shares of the way at which the straight pieces of an arc end."""
     return np.linspace(0, 1, 2 + math.ceil(angle / STRAIGHT))
-
-
-def _shapes(found: Map, view: SphereView, step: int) -> SphereShapes:
-    """A sphere as it is seen, for files of pixels and of paper."""
-    cells = [([outline[::-1] if number else outline for number, outline in enumerate(_seen_outlines(around))], _fill(kind))
-             for around, kind in _around_cells(found, view)]
-    walls = [arc[at:at + 2, :2] for arc in view.arcs for at in range(len(arc) - 1) if (arc[at:at + 2, 2] >= 0).all()]
-    return SphereShapes(cells, walls, step)
 
 
 def _around_cells(found: Map, view: SphereView) -> Iterator[tuple[Floats, int]]:

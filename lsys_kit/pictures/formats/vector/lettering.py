@@ -1,4 +1,4 @@
-"""Text as pixels that are the same on every machine: letters of DejaVu Sans, filled from their outlines.
+"""Text as pixels that are the same on every machine: letters of the DejaVu fonts, filled from their outlines.
 
 Programs that set text differ in how they round the shapes of letters, and so do their versions. Here the outlines are read from
 the font in its own whole units, and a point of the grid is inside where a ray to the left crosses them an odd number of times.
@@ -15,13 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.errors import printable
+from lsys_kit.pictures.formats.vector.shapes import Font
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
 
 Mask: TypeAlias = NDArray[np.bool_]
-FONT = "mpl-data/fonts/ttf/DejaVuSans.ttf"
-"""Where matplotlib keeps the font."""
+FONTS = "mpl-data/fonts/ttf"
+"""Where matplotlib keeps its fonts."""
+FAMILIES = {"sans-serif": "DejaVuSans", "serif": "DejaVuSerif", "monospace": "DejaVuSansMono"}
+"""The fonts of families of letters."""
+PLAIN = Font()
+"""The usual font."""
 PIECES = 6
 """The straight pieces of a curve."""
 SLANT = 0.2
@@ -36,34 +41,44 @@ class Glyph(NamedTuple):
     top: int
 
 
-def advance(text: str, size: float) -> float:
+def advance(text: str, size: float, face: Font = PLAIN) -> float:
     """The width of a text.
 
     >>> advance("step", 10) == sum(advance(letter, 10) for letter in "step") > 20
     True
     """
-    font = _font()
-    units: int = sum(font["hmtx"][name][0] for name in map(_name, text))
-    return units * size / int(font["head"].unitsPerEm)
+    units = sum(_width(letter, face) for letter in text)
+    return units * size / int(font_of(face)["head"].unitsPerEm)
+
+
+@cache
+def _width(letter: str, face: Font) -> int:
+    """How far the next letter stands, in units of the font."""
+    units: int = font_of(face)["hmtx"][glyph_name(letter, face)][0]
+    return units
 
 
 @lru_cache(maxsize=2_048)
-def glyph(letter: str, size: float, italic: bool = False) -> Glyph:
+def glyph(letter: str, size: float, italic: bool = False, face: Font = PLAIN) -> Glyph:
     """A letter of a size in points of the grid.
 
     >>> glyph("l", 20).mask.shape, glyph(" ", 20).mask.size
     ((16, 3), 0)
     """
-    scale = size / _font()["head"].unitsPerEm
-    contours = [np.array(contour) * (scale, -scale) for contour in _contours(_name(letter))]
-    if italic:
-        contours = [points - [[SLANT * y, 0] for y in points[:, 1]] for points in contours]
+    contours = outlines(letter, size, italic, face)
     corners = np.concatenate(contours) if contours else np.zeros((1, 2))
     (left, top), (right, bottom) = np.floor(corners.min(0)).astype(int), np.ceil(corners.max(0)).astype(int)
     mask = np.zeros((bottom - top, right - left), bool)
     for points in contours:
         _cross(mask, points - (left, top))
     return Glyph(mask, int(left), int(top))
+
+
+def outlines(letter: str, size: float, italic: bool = False, face: Font = PLAIN) -> list[NDArray[Any]]:
+    """The outlines of a letter as closed lines of corners, from the beginning of its baseline."""
+    scale = size / font_of(face)["head"].unitsPerEm
+    contours = [np.array(contour) * (scale, -scale) for contour in _contours(glyph_name(letter, face), face)]
+    return [points - [[SLANT * y, 0] for y in points[:, 1]] for points in contours] if italic else contours
 
 
 def _cross(mask: Mask, contour: NDArray[Any]) -> None:
@@ -75,29 +90,35 @@ def _cross(mask: Mask, contour: NDArray[Any]) -> None:
             mask[row, max(0, round(across)):] ^= True
 
 
-@cache
-def _font() -> TTFont:
-    from fontTools.ttLib import TTFont
-
+def font_path(face: Font) -> Path:
+    """The file of a font."""
     package = find_spec("matplotlib")
     assert package is not None
     assert package.origin is not None
-    return TTFont(Path(package.origin).parent / FONT, lazy=True)
+    return Path(package.origin).parent / FONTS / f"{FAMILIES[face.family]}{'-Bold' * face.bold}.ttf"
 
 
 @cache
-def _name(letter: str) -> str:
+def font_of(face: Font) -> TTFont:
+    """A font, to be read only."""
+    from fontTools.ttLib import TTFont
+
+    return TTFont(font_path(face), lazy=True)
+
+
+@cache
+def glyph_name(letter: str, face: Font) -> str:
     """The name of a letter's glyph; that of an empty box where the font has none, of a "?" for what cannot be seen."""
-    found: str = _font().getBestCmap().get(ord(printable(letter)), ".notdef")
+    found: str = font_of(face).getBestCmap().get(ord(printable(letter)), ".notdef")
     return found
 
 
 @cache
-def _contours(name: str) -> tuple[tuple[tuple[float, float], ...], ...]:
+def _contours(name: str, face: Font) -> tuple[tuple[tuple[float, float], ...], ...]:
     """The outlines of a glyph as closed lines of corners, in units of the font."""
     from fontTools.pens.recordingPen import DecomposingRecordingPen
 
-    glyphs = _font().getGlyphSet()
+    glyphs = font_of(face).getGlyphSet()
     pen = DecomposingRecordingPen(glyphs)
     glyphs[name].draw(pen)
     contours: list[list[tuple[float, float]]] = []
