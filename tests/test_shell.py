@@ -234,7 +234,7 @@ def test_link_writes_a_qr_code(shell, tmp_path):
 
     said = shell("link", "J4", "-n", "9", "--qr", str(tmp_path / "j4.svg"))
     assert qr_code(said.out.strip()).svg in (tmp_path / "j4.svg").read_text()
-    refused(shell("link", "J4", "--qr", "j4.txt"), "j4.txt", ".svg or .png")
+    refused(shell("link", "J4", "--qr", "j4.txt"), "j4.txt", ".svg, .png or .pdf")
 
 
 def test_link_refuses_what_the_model_has_not(shell):

@@ -16,6 +16,7 @@ from lsys_kit.geometry.scene import Scene
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.formats.vector.lettering import advance
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.picture import Picture
@@ -85,7 +86,8 @@ class SmallMultiples(SVGPicture):
     def _written(self, most: int, enlarged: float = 1.0) -> str:
         """The picture as SVG; if it has more shapes than the most, its drawings are pixels, so many in each direction of its
         own."""
-        panels = arranged([each.scene for each in self.pictures], self.columns)
+        broadest = max(advance(caption, TEXT) for caption in self.captions)
+        panels = arranged([each.scene for each in self.pictures], self.columns, broadest)
         frame = panels[0].frame
         factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
         pixels = sum(each.size for each in self.pictures) > most
@@ -105,8 +107,9 @@ def own_frame(scene: Scene, scale: float) -> ViewFrame:
     return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
-def arranged(scenes: Sequence[Scene], columns: int = 0) -> list[Panel]:
-    """The places of drawings, on the greatest scale on which all fit: in lines of as many, on a common ground.
+def arranged(scenes: Sequence[Scene], columns: int = 0, broadest: float = 0.0) -> list[Panel]:
+    """The places of drawings, on the greatest scale on which all fit: in lines of as many, on a common ground; none is narrower
+    than the broadest caption, in pixels.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.geometry.drawing import scene_of
@@ -117,17 +120,19 @@ def arranged(scenes: Sequence[Scene], columns: int = 0) -> list[Panel]:
     """
     boxes = [painted_box(scene) for scene in scenes]
     wide, high = max(right - left for left, _, right, _ in boxes), max(top - bottom for _, bottom, _, top in boxes)
-    choices = [columns] if columns else range(len(boxes), 0, -1)
+    narrow = broadest + GAP
+    choices = [columns] if columns else [many for many in range(len(boxes), 0, -1) if many * narrow <= WIDTH or many == 1]
     columns = max(choices, key=lambda many: _scale(wide, high, len(boxes), many))
     scale = _scale(wide, high, len(boxes), columns)
     lines = -(-len(boxes) // columns)
-    across, down = wide * scale + GAP, high * scale + CAPTION
+    room = max(wide * scale, broadest)
+    across, down = room + GAP, high * scale + CAPTION
     width, height = round(columns * across - GAP) + 2 * MARGIN, round(lines * down) + 2 * MARGIN
     parts = max(in_fine_parts(own_frame(scene, scale), scene).parts for scene in scenes)
     panels = []
     for number, (left, bottom, right, _) in enumerate(boxes):
         line, column = divmod(number, columns)
-        middle, ground = MARGIN + column * across + wide * scale / 2, MARGIN + line * down + high * scale
+        middle, ground = MARGIN + column * across + room / 2, MARGIN + line * down + high * scale
         corner = (left + right) / 2 - (middle - MARGIN) / scale, bottom + (ground - MARGIN) / scale
         panels.append(Panel(ViewFrame(scale, *corner, width, height, parts), middle, ground))
     return panels

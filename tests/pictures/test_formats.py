@@ -109,6 +109,12 @@ def test_a_page_is_sound_and_the_same_every_time(picture: Any) -> None:
     assert again == picture.pdf
 
 
+def test_nothing_is_painted_at_the_border(picture: Any) -> None:
+    image = np.asarray(Image.open(io.BytesIO(picture.png)).convert("L"))
+    for edge in (image[0], image[-1], image[:, 0], image[:, -1]):
+        assert edge.min() == 255
+
+
 def test_the_text_of_a_page_can_be_found(picture: Any) -> None:
     text = page_of(picture.pdf).get_textpage()
     found = sorted("".join(text.get_text_range().split()))

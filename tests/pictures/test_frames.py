@@ -15,6 +15,7 @@ from PIL import Image
 
 from lsys_kit import animate, derive, draw, figure, read, system
 from lsys_kit.geometry.scene import OWN
+from lsys_kit.pictures.rendering.frames import frame_around
 from lsys_kit.pictures.rendering.painters_order import BROADEST_CASING
 from lsys_kit.pictures.style.palette import PAPER
 
@@ -149,3 +150,13 @@ def test_rounding_bends_strokes_by_less_than_is_seen(id, step):
     drawn = np.sort(np.degrees(np.arctan2(end_y - start_y, end_x - start_x)))
     off = np.abs(found - drawn)
     assert np.minimum(off, 360 - off).mean() < 0.5
+
+
+@pytest.mark.parametrize("short", [10, 1, 0.1, 0.02])
+def test_numbers_are_rounded_to_a_fiftieth_of_the_median_stroke(short):
+    picture = draw(derive(read("angle: 25\naxiom: F(1000)" + f"+F({short})" * 5), 0))
+    units, width = map(int, re.search(r'viewBox="0 0 (\d+) .*? width="(\d+)"', picture.svg).groups())
+    median = short * frame_around([picture.scene]).scale * units / width
+    assert median >= 50  # of the units in which numbers are whole
+    places = np.array(re.findall(r"M(-?\d+) (-?\d+)L(-?\d+) (-?\d+)", picture.svg), float)
+    assert np.median(np.hypot(*(places[:, 2:] - places[:, :2]).T)) == pytest.approx(median, abs=1.5)

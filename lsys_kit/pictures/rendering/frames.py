@@ -15,7 +15,7 @@ WIDTH, HEIGHT = 600, 400
 """The size of the largest picture, in pixels."""
 MARGIN = 12
 """White space around a drawing, in pixels."""
-PARTS, LEAST_PARTS = (10, 100, 1_000), 50
+PARTS, LEAST_PARTS = (10, 100, 1_000, 10_000), 50
 """Into how many parts a pixel may be divided, and how many of these the median stroke has at least."""
 
 
