@@ -8,7 +8,7 @@ import pytest
 from ipywidgets import FloatSlider, IntSlider, link
 from PIL import Image
 
-from lsys_kit import LSystemError, ModelValueError, derive, explore, limits, read, system
+from lsys_kit import LSystemError, ModelNameError, ModelValueError, compare, derive, explore, limits, linked, read, system
 from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
@@ -63,6 +63,49 @@ def test_a_value_between_those_of_a_slider_is_the_nearest():
     assert str(panel.sight.word) == "A(2.8)"
     panel.dt = 99
     assert (panel.dt, panel.settings) == (1, {"dt": "1"})
+
+
+def test_only_what_is_named_has_a_slider():
+    panel = explore("P6", 4, dt=1, t_l="0.3", sliders="dt")
+    assert panel.settings == {"dt": "1"}
+    assert [each["name"] for each in panel.model["constants"]] == ["dt"]
+    assert panel.model["fixed"] == "Fixed: t_div = 1, t_s = 0, t_l = 0.3, a = 2.1673."
+    assert str(panel.sight.word) == str(derive(system("P6"), 4, dt=1, t_l="0.3")[-1])
+    assert not hasattr(panel, "t_l")
+
+
+def test_what_has_no_slider_has_none_on_a_page_and_stands_in_the_link():
+    panel = explore("K26", 3, turn=40, sliders=[])
+    data = panel.page_data()
+    assert (data["model"]["constants"], data["model"]["chance"], data["model"]["seeds"]) == ([], False, [])
+    assert data["model"]["fixed"] == "Fixed on this page: turn = 40, short = 1, seed = 0."
+    assert linked(panel.link).settings["turn"] == 40
+
+
+def test_a_force_without_a_slider_goes_on_acting():
+    free, held = explore("K28", 2, pressure=1), explore("K28", 2, pressure=1, sliders=["rest"])
+    assert [*held.settings] == ["rest"]
+    assert held.model["book"]["maps"] == free.model["book"]["maps"]
+    assert held.page_data()["fixed"] == {"stiffness": "1", "pressure": "1", "damping": "1"}
+
+
+def test_what_has_no_slider_gets_none_when_rules_are_typed(monkeypatch):
+    panel = explore("J4", 3, sliders="lifeTimeA")
+    text = "more = 2 in 1 .. 3\n" + str(panel.system).replace("lifeTimeB = 2", "lifeTimeB = 4")
+    assert answer(panel, monkeypatch, kind="rules", text=text)["opened"]
+    assert {*panel.settings} == {"lifeTimeA", "more"}
+    assert panel.model["fixed"] == "Fixed: lifeTimeB = 4."
+
+
+def test_sliders_of_both_sides_are_chosen_at_once():
+    both = compare("P5", "P6", step=4, sliders=["dt"])
+    assert [*both.left.settings] == [*both.right.settings] == ["dt"]
+
+
+@pytest.mark.parametrize("sliders", ["lifetimeA", ["lifeTimeA", "dt"], [3]])
+def test_there_are_no_other_sliders(sliders):
+    with pytest.raises(ModelNameError, match="There is no slider"):
+        explore("J4", 3, sliders=sliders)
 
 
 def test_a_plant_in_space_is_seen_from_a_side():

@@ -5,16 +5,20 @@ from __future__ import annotations
 import ast
 import re
 import tomllib
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
 import nbformat
 import pytest
 
+import lsys_kit
+from lsys_kit import compare, explore, limits
 from lsys_kit.classroom.catalogue import entry
 from lsys_kit.classroom.lessons.declared import declared, names
 from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.vote import LETTERS
+from lsys_kit.classroom.panel.explorer import Explorer
 from tests.notebooks.rebuild import ROOT
 
 LESSONS = ROOT / "notebooks"
@@ -24,6 +28,10 @@ POINTS = tomllib.loads((ROOT / "tests" / "classroom" / "points.toml").read_text(
 SECTIONS = ("Minutes", "On the board", "Misconceptions", "Answers", "Rubric", "Going on", "Sources")
 """The sections of a teacher's page."""
 MOST_LINES = 6
+MOST_CONTROLS = 3
+"""The sliders of a panel beside that of the step."""
+FEW = 2_000
+"""The modules of a panel whose sliders are counted, so that its steps are few."""
 FIRST_WITH_PYTHON = 8
 """Before this lesson nothing is asked of a student's Python but names, numbers and texts."""
 PLAIN = (ast.Module, ast.ImportFrom, ast.alias, ast.Expr, ast.Assign, ast.Call, ast.keyword, ast.Name, ast.Load, ast.Store,
@@ -116,6 +124,37 @@ def test_something_is_predicted_filled_in_and_moved(name: str) -> None:
     assert [given(call) for _, call in calls(name, "worksheet")] == [[name[:2], each.id] for each in declared(name).tables]
     assert declared(name).tables
     assert [*calls(name, "explore"), *calls(name, "compare")]
+
+
+@pytest.mark.slow
+@every_lesson
+def test_a_panel_has_three_sliders_at_most_beside_the_step(name: str) -> None:
+    for panel in panels(name):
+        assert len(controls(panel)) <= MOST_CONTROLS, controls(panel)
+
+
+def panels(name: str) -> Iterator[Explorer]:
+    """The panels of a lesson, with few steps."""
+    known = {each: getattr(lsys_kit, each) for each in lsys_kit.__all__}
+    known["explore"] = lambda what, step=None, **choices: explore(what, **choices)
+    known["compare"] = lambda *what, step=None, **choices: compare(*what, **choices)
+    for number, call in calls(name, "read"):
+        for made in ast.parse(code(name)[number]).body:
+            if isinstance(made, ast.Assign) and ast.dump(made.value) == ast.dump(call):
+                exec(ast.unparse(made), known)
+    with limits(modules=FEW):
+        for function in ("explore", "compare"):
+            for _, call in calls(name, function):
+                panel = eval(ast.unparse(call), known)
+                yield from (panel,) if function == "explore" else (panel.left, panel.right)
+
+
+def controls(panel: Explorer) -> list[str]:
+    """The sliders of a panel, beside that of the step."""
+    model, book = panel.model, panel.model["book"]
+    angle = ["angle"] if (book.get("turtle") or {}).get("uses angle") and "angle" not in model["without"] else []
+    side = ["around", "above"] if book["mode"] in ("space", "tissue") else []
+    return [*(each["name"] for each in model["constants"]), *angle, *side, *(["seed"] if model["chance"] else [])]
 
 
 @every_lesson

@@ -15,7 +15,7 @@ OPTIONS = 4
 """How many options a vote has."""
 _NAME = re.compile(r"\d\d_[a-z0-9_]+")
 _ID = re.compile(r"[a-z0-9-]+")
-_PICTURE = ("system", "rules", "step", "angle", "cells")
+_PICTURE = ("system", "rules", "step", "angle", "cells", "view")
 
 
 def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:

@@ -136,7 +136,7 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
     if not choices:
         return {}
     drawn = draw(_pictured(choices), choices.get("step"),
-                 **{name: value for name, value in choices.items() if name in ("angle", "cells")})
+                 **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")})
     return svg_bundle(drawn.svg, repr(drawn))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import anywidget
@@ -10,7 +10,8 @@ import traitlets
 from ipywidgets import widget_serialization
 
 from lsys_kit.classroom.panel.bundle import bundled, style
-from lsys_kit.classroom.panel.explorer import Explorer, explore
+from lsys_kit.classroom.panel.explore import explore
+from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
@@ -19,7 +20,7 @@ from lsys_kit.notation.model.system import LSystem
 
 def compare(what: LSystem | MapSystem | CellworkSystem | str,
             *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
-            step: int | None = None) -> Comparison:
+            step: int | None = None, sliders: str | Collection[str] | None = None) -> Comparison:
     """Show two systems, or one under two settings of its constants, side by side with one step slider.
 
     Where the words differ is marked, and said in words below.
@@ -33,11 +34,15 @@ def compare(what: LSystem | MapSystem | CellworkSystem | str,
         system as it is.
     step
         The step shown first; by default that of the first system.
+    sliders
+        What has a slider on both sides, as for `explore`; by default everything has one.
 
     Raises
     ------
     ModelValueError
         It is not clear what is compared with what.
+    ModelNameError
+        One of the two has no slider of that name.
 
     Examples
     --------
@@ -58,8 +63,8 @@ def compare(what: LSystem | MapSystem | CellworkSystem | str,
         case _:
             raise ModelValueError("Two systems are compared, or one system under two settings",
                                   hint='For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).')
-    left = explore(sides[0][0], step, **_named(sides[0][1]))
-    return Comparison(left, explore(sides[1][0], left.step, **_named(sides[1][1])))
+    left = explore(sides[0][0], step, sliders=sliders, **_named(sides[0][1]))
+    return Comparison(left, explore(sides[1][0], left.step, sliders=sliders, **_named(sides[1][1])))
 
 
 def _named(settings: Mapping[str, object]) -> dict[str, Any]:

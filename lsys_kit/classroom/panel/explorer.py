@@ -7,8 +7,7 @@ sliders have come to rest, so that other widgets can be linked to the panel.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -17,74 +16,18 @@ import anywidget
 import traitlets
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
-from lsys_kit.classroom.catalogue import system as catalogued
-from lsys_kit.classroom.link import linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
+from lsys_kit.classroom.panel.held import fixed_text
 from lsys_kit.classroom.panel.opened.kinds import opened
-from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing, read_any
+from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
-from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-
-_ID = re.compile(r"[\w-]+(\.[\w-]+)?")
-
-
-def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
-            **constants: object) -> Explorer:
-    """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
-
-    Parameters
-    ----------
-    what
-        An L-system, a map system or a cellwork system, the id or name of one in the catalogue, the text of a model, or a link.
-    step
-        The step shown first; by default the system's own.
-    angle
-        Degrees by which the turtle turns at first.
-    seed
-        The seed of the random numbers.
-    **constants
-        First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
-        `damping`.
-
-    Raises
-    ------
-    ModelValueError
-        A first value lies outside its slider's range.
-    ModelSyntaxError
-        The text makes no sense.
-
-    Examples
-    --------
-    >>> panel = explore("J4", 3)
-    >>> panel.step = 9
-    >>> print(panel.text)
-    Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
-9 cells, width 14, height 1.
-    """
-    if "field" in constants:
-        raise ModelValueError("The explorer takes no field of Python: its pages and links hold the text of the model alone",
-                              hint='Name a field in the text, as in "field: light", or draw or animate with field=...')
-    title = ""
-    if isinstance(what, str) and _ID.fullmatch(what.strip()):
-        title = entry(what.strip()).id
-        what = map_system(title) if is_map_system(title) else cellwork_system(title) if is_cellwork_system(title) \
-            else catalogued(title)
-    if isinstance(what, str) and is_link(what):
-        there = linked(what)
-        given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
-        return explore(there.system, **given)
-    system = read_any(what) if isinstance(what, str) else what
-    if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
-        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
-    return Explorer(opened(system, title, constants), step, angle, seed)
 
 
 class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
@@ -100,7 +43,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     mark
         The label of the stage that is marked, as "A(2)"; empty for none.
     settings
-        The values of the constants, or of the forces of a map, as texts; each is also an attribute of its own name, a number.
+        The values of the constants, or of the forces of a map, that have a slider, as texts; each is also an attribute of its
+        own name, a number.
     """
 
     _esm = bundled("widget")
@@ -114,12 +58,12 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     seed = traitlets.Int().tag(sync=True)
     settings = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, opened: Opened, step: int | None, angle: object, seed: int) -> None:
+    def __init__(self, opened: Opened, step: int | None, angle: object, seed: int, without: Collection[str] = ()) -> None:
         first = opened.steps if step is None else whole_number(step, "The step")
         turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
-        self._ready, self._opened, self._given = False, opened, opened
+        self._ready, self._opened, self._given, self._without = False, opened, opened, frozenset(without)
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened), around=opened.side[0],
                          above=opened.side[1])
         with self._limited(), Task("The step was not shown"):
@@ -210,8 +154,10 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """What the browser needs of a system: its sliders and its first book."""
         sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
         made = what.book(what.first, self.seed, first)
-        return {"book": made, "constants": sliders, "chance": made["chance"], "step": min(first, made["steps"]),
-                "angle": self.angle, "around": self.around, "above": self.above, "seed": self.seed}
+        return {"book": made, "constants": sliders, "chance": made["chance"] and "seed" not in self._without,
+                "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
+                "step": min(first, made["steps"]), "angle": self.angle, "around": self.around, "above": self.above,
+                "seed": self.seed}
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""
@@ -254,7 +200,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """Show the system of a text that was typed; its sliders start anew, the step and the angle stay where they can."""
         system = self._opened.read(content["text"])
-        new, old = opened(system, self._given.title if system == self._given.system else ""), self._opened
+        title = self._given.title if system == self._given.system else ""
+        new, old = opened(system, title, without=self._without), self._opened
         found = {**self._model_of(new, new.steps), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found

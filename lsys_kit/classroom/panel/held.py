@@ -176,7 +176,7 @@ the other sliders then go back to their first values.'
              if name != SEED and len(each) < len(all_values[name])]
     seeds = _seeds_text(held.values[SEED]) if SEED in held.values else ()
     holds = [f"{'It' if fixed else 'This page'} holds {_listed([*fewer, *seeds])}."] if fewer or seeds else []
-    return " ".join((*_fixed_text(fixed), *holds, *_alone_text(held)))
+    return " ".join((*fixed_text(fixed, "Fixed on this page"), *holds, *_alone_text(held)))
 
 
 def _seeds_text(seeds: Sequence[Value]) -> Iterator[str]:
@@ -184,10 +184,15 @@ def _seeds_text(seeds: Sequence[Value]) -> Iterator[str]:
     yield f"the seeds {number_text(seeds[0])} to {number_text(seeds[-1])}" if whole else f"{len(seeds)} seeds"
 
 
-def _fixed_text(fixed: Mapping[str, Value]) -> Iterator[str]:
+def fixed_text(fixed: Mapping[str, Value], said: str = "Fixed") -> Iterator[str]:
+    """What does not move, if there is anything.
+
+    >>> [*fixed_text({"t": 1, "k": 2})], [*fixed_text({})]
+    (['Fixed: t = 1, k = 2.'], [])
+    """
     values = [f"{slider_name(name)} = {number_text(value)}" for name, value in fixed.items()]
     if values:
-        yield f"Fixed on this page: {', '.join(values)}."
+        yield f"{said}: {', '.join(values)}."
 
 
 def _alone_text(held: Held) -> Iterator[str]:

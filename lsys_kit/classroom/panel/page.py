@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -88,7 +88,7 @@ def not_needed(*modes: str) -> frozenset[str]:
 
 def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed: int = 0, *, title: str = "",
               step: int | None = None, angle: object = None, around: int = 0, above: int = 0,
-              asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+              asked: Sequence[Mapping[str, object]] = (), without: Collection[str] = ()) -> dict[str, Any]:
     """What a page says of a system: its sliders, and the books of their settings.
 
     Parameters
@@ -107,6 +107,8 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     asked
         Settings that the page shall hold before all others, each the values of one slider or of several together; the seed is
         called `seed`. What is no value of a slider is passed over.
+    without
+        What has no slider: names of constants, `angle`, `seed`.
 
     Raises
     ------
@@ -120,13 +122,14 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     wanted = first_step(system) if step is None else step
     shelf = _Shelf(system, start, title, wanted)
     first = shelf.first()
-    values = {name: slider_values(span) for name, span in ranges.items()}
-    held = _held(shelf, values, seed if first["chance"] else None, asked)
+    values = {name: slider_values(span) for name, span in ranges.items() if name not in without}
+    held = _held(shelf, values, seed if first["chance"] and "seed" not in without else None, asked)
     fixed = {name: value for name, value in start.items() if name not in held.values and (name != SEED or first["chance"])}
     turn = real_from(angle, "angle") if angle is not None else float(system.angle)
     model = {"constants": [slider(name, held.values[name], start[name]) for name in values if name in held.values],
-             "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))], "together": held.together,
-             "fixed": held_text(fixed, held, values), "step": min(wanted, first["steps"]),
+             "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))],
+             "together": held.together, "fixed": held_text(fixed, held, values), "without": sorted(without),
+             "step": min(wanted, first["steps"]),
              "angle": round(turn, 1), "around": around, "above": above, "seed": seed}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
     kept = {name: number_text(value) for name, value in fixed.items() if name != SEED}

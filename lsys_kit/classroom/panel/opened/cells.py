@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
@@ -122,13 +122,16 @@ class OpenedCells(Generic[Found]):
         There is no such force, or it is too small or too great.
     """
 
-    def __init__(self, system: Any, title: str, changes: Mapping[str, object] | None, of: Kind[Found]) -> None:
+    def __init__(self, system: Any, title: str, changes: Mapping[str, object] | None, without: Collection[str],
+                 of: Kind[Found]) -> None:
         self.system, self.title, self._of = system, title, of
         self.kind, self.side, self.hint = of.page, of.view, f"the force of cells and {of.sides}:"
         forces = forces_of(dict(changes or {}), of.usual, of.called)
-        self.first: Mapping[str, Value] = {name: exact(getattr(forces, name)) for name in VALUES}
+        given = {name: exact(getattr(forces, name)) for name in VALUES}
+        self.first: Mapping[str, Value] = {name: value for name, value in given.items() if name not in without}
+        self.fixed: Mapping[str, Value] = {name: value for name, value in given.items() if name in without}
         self.values: Mapping[str, Sequence[Value]] = {
-            name: tuple(sorted({*values, self.first[name]})) for name, values in of.values.items()}
+            name: tuple(sorted({*of.values[name], value})) for name, value in self.first.items()}
         self._kept = Cache[tuple[Forces, int], Found](of.size, SHARE)
 
     @property
@@ -146,11 +149,12 @@ class OpenedCells(Generic[Found]):
         return 0.0
 
     def link(self, chosen: Viewing) -> str:
-        return link(self.system, {STEP: chosen.step, **chosen.values})
+        return link(self.system, {STEP: chosen.step, **self.fixed, **chosen.values})
 
     def at_rest(self, values: Mapping[str, Value], least: int) -> Found:
         """The cells under some forces, up to the usual step or to a later one."""
-        forces, usual = Forces(**{name: float(value) for name, value in values.items()}), self.steps
+        forces = Forces(**{name: float(value) for name, value in {**self.fixed, **values}.items()})
+        usual = self.steps
         found = self._kept.found((forces, usual), lambda: self._of.at_rest(self.system, forces, 0))
         if found.last >= least:
             return found

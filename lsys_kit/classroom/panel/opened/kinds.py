@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from lsys_kit.classroom.panel.opened.maps import OpenedMap
 from lsys_kit.classroom.panel.opened.opened import Opened
@@ -14,7 +14,7 @@ from lsys_kit.notation.model.system import LSystem
 
 
 def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
-           changes: Mapping[str, object] | None = None) -> Opened:
+           changes: Mapping[str, object] | None = None, without: Collection[str] = ()) -> Opened:
     """A system of any kind, opened.
 
     Parameters
@@ -25,6 +25,8 @@ def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
         What it is called in the catalogue.
     changes
         First values of its constants, or of its forces.
+    without
+        Those of them that have no slider, and stay as they are; what is no constant or force of this system is passed over.
 
     Raises
     ------
@@ -32,5 +34,5 @@ def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
         A value makes no sense.
     """
     if isinstance(system, CellworkSystem) or (isinstance(system, MapSystem) and system.sphere):
-        return OpenedTissue(system, title, changes)
-    return OpenedMap(system, title, changes) if isinstance(system, MapSystem) else OpenedSystem(system, title, changes)
+        return OpenedTissue(system, title, changes, without)
+    return (OpenedMap if isinstance(system, MapSystem) else OpenedSystem)(system, title, changes, without)

@@ -56,6 +56,8 @@ class Opened(Protocol):
         The system, and what it is called in the catalogue; empty where it is not in it.
     first, values
         For each slider its first value, and all its values.
+    fixed
+        The values of those constants or forces that could have a slider, and have none.
     hint
         What the sliders are, for a tip: "the constant".
     kind
@@ -66,6 +68,7 @@ class Opened(Protocol):
     title: str
     first: Mapping[str, Value]
     values: Mapping[str, Sequence[Value]]
+    fixed: Mapping[str, Value]
     hint: str
     kind: str
 

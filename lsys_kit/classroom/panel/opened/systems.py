@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -38,12 +38,15 @@ class OpenedSystem:
 
     hint, kind = "the constant", "L-system"
 
-    def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
-        self.system, self.title = system, title
+    def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None,
+                 without: Collection[str] = ()) -> None:
+        self.system, self.title, self._without = system, title, without
         ranges = slider_ranges(system, changes or {})
-        self.first: Mapping[str, Value] = {name: span.value for name, span in ranges.items()}
-        self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in ranges.items()}
-        self._fixed = {name: value for name, value in (changes or {}).items() if name not in ranges}
+        moving = {name: span for name, span in ranges.items() if name not in without}
+        self.first: Mapping[str, Value] = {name: span.value for name, span in moving.items()}
+        self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in moving.items()}
+        self.fixed: Mapping[str, Value] = {name: span.value for name, span in ranges.items() if name in without}
+        self._fixed = {**{name: value for name, value in (changes or {}).items() if name not in ranges}, **self.fixed}
         self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed))
 
     @property
@@ -86,7 +89,7 @@ class OpenedSystem:
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         return page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
-                         angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked)
+                         angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked, without=self._without)
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}

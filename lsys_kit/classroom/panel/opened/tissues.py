@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
@@ -19,7 +19,7 @@ from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
 from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES
 from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
-from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.rendering.view import View
@@ -52,8 +52,9 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
         There is no such force, or it is too small or too great.
     """
 
-    def __init__(self, system: TissueSystem, title: str = "", changes: Mapping[str, object] | None = None) -> None:
-        super().__init__(system, title, changes, CELLWORKS if isinstance(system, CellworkSystem) else SPHERES)
+    def __init__(self, system: TissueSystem, title: str = "", changes: Mapping[str, object] | None = None,
+                 without: Collection[str] = ()) -> None:
+        super().__init__(system, title, changes, without, CELLWORKS if isinstance(system, CellworkSystem) else SPHERES)
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
         return tissue_book(self.at_rest(values, least), values, self.title)
@@ -69,7 +70,8 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         """On a page the forces stay as they are: cells come to rest in the kernel."""
         made = self.book(chosen.values, 0, chosen.step)
-        fixed, said = made["settings"], held_text(chosen.values, Held(), {})
+        forces = {**self.fixed, **chosen.values}
+        fixed, said = {name: number_text(value) for name, value in forces.items()}, held_text(forces, Held(), {})
         model = {"constants": [], "chance": False, "fixed": said, "step": min(chosen.step, made["steps"]), "angle": 0,
                   "around": chosen.around, "above": chosen.above, "seed": 0}
         return {"model": model, "mode": "tissue", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}

@@ -79,7 +79,7 @@ export function pageHost(data, books, linked, alone = true) {
 // The book of a map under some forces; the page holds that under the first ones.
 function relaxedTo(book, settings) {
   if (Object.keys(book.settings).every((name) => book.settings[name] === settings[name])) return { book };
-  const forces = Object.fromEntries(Object.entries(settings).map(([name, text]) => [name, numberOf(text)]));
+  const forces = { ...book.forces, ...Object.fromEntries(Object.entries(settings).map(([name, text]) => [name, numberOf(text)])) };
   return relaxedBook(book, settings, forces, LONGEST);
 }
 

@@ -127,7 +127,7 @@ export function openPanel(element, host, compared = null) {
       }),
     }));
     const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
-    bottom.replaceChildren(...constants.map((each) => each.control.element), ...(model.book.turtle?.["uses angle"] ? [angle.element] : []),
+    bottom.replaceChildren(...constants.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
       ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
     seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(host.get("seed")))));
     view.seeds.offer(model.chance);
@@ -158,6 +158,7 @@ export function openPanel(element, host, compared = null) {
     show();
   }
 
+  const turns = () => model.book.turtle?.["uses angle"] && !model.without?.includes("angle");
   const place = (name) => book.data.net.places.find((each) => each.name === name);
 
   function toggleMark(number) {
@@ -281,6 +282,7 @@ export function openPanel(element, host, compared = null) {
     const first = book.data.title ? JSON.stringify(book.data.title) : `${reader ?? "read"}(${JSON.stringify(book.data.text)}${notation})`;
     const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
       ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
+      ...(model.without?.length ? [`sliders=${JSON.stringify([...constants.map((each) => each.name), ...(turns() ? ["angle"] : []), ...(model.chance ? ["seed"] : [])])}`] : []),
       ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];
     return `explore(${[first, ...more].join(", ")})`;
   }

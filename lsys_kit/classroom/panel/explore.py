@@ -1,0 +1,93 @@
+"""Open a panel: of a system, of one in the catalogue, of a text, or of a link."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from typing import Any
+
+from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
+from lsys_kit.classroom.catalogue import system as catalogued
+from lsys_kit.classroom.link import linked, settings_given
+from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.opened.kinds import opened
+from lsys_kit.classroom.panel.opened.opened import read_any
+from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.fragments import is_link
+from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem
+
+_ID = re.compile(r"[\w-]+(\.[\w-]+)?")
+
+
+def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
+            sliders: str | Collection[str] | None = None, **constants: object) -> Explorer:
+    """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
+
+    Parameters
+    ----------
+    what
+        An L-system, a map system or a cellwork system, the id or name of one in the catalogue, the text of a model, or a link.
+    step
+        The step shown first; by default the system's own.
+    angle
+        Degrees by which the turtle turns at first.
+    seed
+        The seed of the random numbers.
+    sliders
+        What has a slider besides the step: names of constants or forces, `angle`, `seed`. All else stays as it is, and the
+        panel says which constants do. By default everything has one.
+    **constants
+        First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
+        `damping`.
+
+    Raises
+    ------
+    ModelValueError
+        A first value lies outside its slider's range.
+    ModelNameError
+        There is no slider of that name.
+    ModelSyntaxError
+        The text makes no sense.
+
+    Examples
+    --------
+    >>> panel = explore("J4", 3)
+    >>> panel.step = 9
+    >>> print(panel.text)
+    Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
+9 cells, width 14, height 1.
+    >>> explore("P6", 4, dt=1, sliders="dt").settings
+    {'dt': '1'}
+    """
+    if "field" in constants:
+        raise ModelValueError("The explorer takes no field of Python: its pages and links hold the text of the model alone",
+                              hint='Name a field in the text, as in "field: light", or draw or animate with field=...')
+    title = ""
+    if isinstance(what, str) and _ID.fullmatch(what.strip()):
+        title = entry(what.strip()).id
+        what = map_system(title) if is_map_system(title) else cellwork_system(title) if is_cellwork_system(title) \
+            else catalogued(title)
+    if isinstance(what, str) and is_link(what):
+        there = linked(what)
+        given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
+        return explore(there.system, sliders=sliders, **given)
+    system = read_any(what) if isinstance(what, str) else what
+    if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
+        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    found = opened(system, title, constants)
+    without = frozenset() if sliders is None else _without(sliders, (*found.values, "angle", "seed"))
+    return Explorer(opened(system, title, constants, without) if without else found, step, angle, seed, without)
+
+
+def _without(sliders: str | Collection[str], offered: Collection[str]) -> frozenset[str]:
+    """What has no slider, if some have."""
+    asked = (sliders,) if isinstance(sliders, str) else sliders
+    require(asked, Collection, "Names of sliders")
+    for name in asked:
+        if not isinstance(name, str) or name not in offered:
+            raise ModelNameError(f"There is no slider {shown(name)}", hint=suggestion(str(name), offered)
+                                 or f"The sliders are: {', '.join(offered)}.")
+    return frozenset(offered) - frozenset(asked)
