@@ -97,6 +97,22 @@ def test_a_diagram_that_nobody_could_read_is_grouped() -> None:
     assert stages(read(text.format(41))).grouped
 
 
+def test_what_is_grouped_can_be_unfolded() -> None:
+    system = read("axiom: A(1)\nA(t) : t < 41 -> A(t+1)\nA(t) -> A(1) A(2)")
+    net = stages(system, unfold=True)
+    assert not net.grouped
+    assert len(net.places) == 41
+    follows(net, system, 50)
+    assert len(stages(catalogued("K19"), unfold=True).places) > len(stages(catalogued("K19")).places)
+
+
+@pytest.mark.parametrize("text", ["axiom: A(1)\nA(t) : t > 0 -> A(t+1)", "axiom: A B\nA > B -> B",
+                                  "axiom: A(1)\nA(t) : t < 401 -> A(t+1)\nA(t) -> A(1)"])
+def test_states_that_are_too_many_or_have_neighbours_cannot_be_unfolded(text: str) -> None:
+    with pytest.raises(ModelValueError, match="cannot be unfolded"):
+        stages(read(text), unfold=True)
+
+
 def test_states_without_a_successor_are_grouped_too() -> None:
     net = stages(read("axiom: A(3)\nA(t) : 1/t > 0 -> A(t - 1) B"))
     assert net.grouped

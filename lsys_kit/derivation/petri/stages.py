@@ -12,7 +12,7 @@ In a timed system a place is a stage of a module's life (see `life_stages`), and
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
@@ -37,6 +37,8 @@ from lsys_kit.notation.model.system import LSystem
 
 MOST_PLACES, MOST_ARCS = 40, 400
 """A diagram with more states or arcs than this is grouped by symbol, to be legible."""
+MOST_UNFOLDED = 400
+"""A diagram that is not to be grouped may have so many states."""
 MOST_LUMPED = 16
 """So is a diagram that leaves out parameters and still has more transitions than this."""
 
@@ -52,7 +54,8 @@ class _Table:
     most: int = 10 * MOST_PLACES
 
 
-def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False, **constants: object) -> Stages:
+def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False, unfold: bool = False,
+           **constants: object) -> Stages:
     """The stage diagram of a system.
 
     Parameters
@@ -64,14 +67,16 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     durations
         Whether transitions take the time for which a module lives, which may be many steps or part of one. A timed system's
         always do.
+    unfold
+        Whether each state has a place of its own, up to 400. By default more than 40 are grouped by symbol.
     **constants
         New values for declared constants.
 
     Raises
     ------
     ModelValueError
-        A value cannot be computed, a timed system is given new constants, or the productions of a system whose durations are
-        asked for do not tell how long modules live.
+        A value cannot be computed, the stages cannot be unfolded, a timed system is given new constants, or the productions of
+        a system whose durations are asked for do not tell how long modules live.
     ModelLimitError
         The modules of a timed system are born at too many different ages.
 
@@ -91,37 +96,50 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     b(0) -> a(0) after 1
     """
     with Task("The stages were not found"):
-        return _stages(system, polarity, durations, constants)
+        return _stages(system, polarity, durations, unfold, constants)
 
 
-def _stages(system: LSystem | Timed, polarity: bool, durations: bool, constants: dict[str, object]) -> Stages:
+def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: bool, constants: dict[str, object]) -> Stages:
     require(polarity, bool, 'True or False for "polarity"')
     require(durations, bool, 'True or False for "durations"')
+    require(unfold, bool, 'True or False for "unfold"')
+    most = MOST_UNFOLDED if unfold else MOST_PLACES
     if isinstance(system, Timed):
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
                                   hint="Write stages(timed(system, name=value)).")
-        return _timed_net(system.ages, polarity)
+        return _timed_net(system.ages, polarity, most)
     states = States(system, constants)
     if durations:
-        return _timed_net(age_model(states), polarity)
-    nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants))
-    return next((net for net, most in nets if len(net.places) <= MOST_PLACES and len(net.transitions) <= most
+        return _timed_net(age_model(states), polarity, most)
+    nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
+    if unfold:
+        return _unfolded(net for net, _ in nets)
+    return next((net for net, legible in nets if len(net.places) <= most and len(net.transitions) <= legible
                  and len(net.arcs) <= MOST_ARCS), None) or by_symbol(states)
 
 
-def _timed_net(ages: AgeModel, polarity: bool) -> Stages:
+def _unfolded(nets: Iterable[Stages]) -> Stages:
+    """The first net whose places can be shown."""
+    net = next((net for net in nets if len(net.places) <= MOST_UNFOLDED), None)
+    if net is None:
+        raise ModelValueError("The stages of this system cannot be unfolded",
+                              hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.")
+    return net
+
+
+def _timed_net(ages: AgeModel, polarity: bool, most: int) -> Stages:
     """The net whose transitions take as long as a stretch of life."""
-    found = life_stages(ages, MOST_PLACES) if polarity else life_stages(ages, MOST_PLACES, partial(_appearance, ages.states))
+    found = life_stages(ages, most) if polarity else life_stages(ages, most, partial(_appearance, ages.states))
     net = _net(_Table(ages.states, found.modules, found.outcomes, found.stage), ages.states, polarity)
     late = f"derived in steps of {number_text(ages.step or 1)}, lives shorter than that end late"
     besides = (late,) if found.is_late else ()
     return replace(net, besides=besides)
 
 
-def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
-    """The states of a system, then those without the parameters that decide nothing; each only where they are finitely many."""
-    for outcomes in _finite_outcomes(states):
+def _tables(states: States, constants: dict[str, object], limit: int) -> Iterator[_Table]:
+    """The states of a system, then those without the parameters that decide nothing; each if they are within a limit."""
+    for outcomes in _finite_outcomes(states, limit):
         yield _Table(states, states.modules, outcomes, {module: row for row, module in enumerate(states.modules)}.get)
     system, kept = states.system, deciding_positions(states.system)
     model = slice_system(system)
@@ -129,15 +147,15 @@ def _tables(states: States, constants: dict[str, object]) -> Iterator[_Table]:
         return
     whole = tuple(rule for rule in system.interpretation if without_arguments(rule.predecessor, kept) == rule.predecessor)
     fewer = States(replace(model, interpretation=whole), constants)
-    for outcomes in _finite_outcomes(fewer):
+    for outcomes in _finite_outcomes(fewer, limit):
         rows = {module: row for row, module in enumerate(fewer.modules)}
         yield _Table(fewer, fewer.modules, outcomes, lru_cache(4096)(partial(_row_without, rows, kept)), MOST_LUMPED)
 
 
-def _finite_outcomes(states: States) -> Iterator[list[tuple[Outcome, ...]]]:
-    """The outcomes of all states, if these are finitely many and no neighbour decides."""
+def _finite_outcomes(states: States, limit: int) -> Iterator[list[tuple[Outcome, ...]]]:
+    """The outcomes of all states, if these are no more than a limit and no neighbour decides."""
     with suppress(ModelValueError):  # some state has no successor; the sliced system may still have a diagram
-        outcomes = all_outcomes(states, 4 * MOST_PLACES) if states.traits.s0l else None
+        outcomes = all_outcomes(states, limit) if states.traits.s0l else None
         if outcomes is not None:
             yield outcomes
 

@@ -90,8 +90,8 @@ def shown_places(net: Stages, steering: Collection[str]) -> tuple[int, ...]:
     return tuple(i for i, place in enumerate(net.places) if i in moved or place.symbol not in steering)
 
 
-def rows_of(net: Stages, shown: Collection[int]) -> tuple[tuple[int, ...], ...]:
-    """The rows of places: one for each symbol with several stages, one for all others; long rows are wrapped.
+def rows_of(net: Stages, shown: Collection[int], longest: int = LONGEST_ROW) -> tuple[tuple[int, ...], ...]:
+    """The rows of places: one for each symbol with several stages, one for all others; longer rows than allowed are wrapped.
 
     >>> from lsys_kit.derivation.petri.stages import stages
     >>> from lsys_kit.notation.read import read
@@ -103,7 +103,7 @@ def rows_of(net: Stages, shown: Collection[int]) -> tuple[tuple[int, ...], ...]:
     groups: dict[str, list[int]] = {}
     for place, base in bases.items():
         groups.setdefault(base if list(bases.values()).count(base) > 1 else "", []).append(place)
-    return tuple(row for group in groups.values() for row in _wrapped(_chained(net, group)))
+    return tuple(row for group in groups.values() for row in _wrapped(_chained(net, group), longest))
 
 
 def _chained(net: Stages, group: Sequence[int]) -> list[int]:
@@ -135,9 +135,9 @@ def _leads(net: Stages, group: Sequence[int], sole: bool = False) -> dict[int, l
     return found
 
 
-def _wrapped(chain: Sequence[int]) -> list[tuple[int, ...]]:
+def _wrapped(chain: Sequence[int], longest: int) -> list[tuple[int, ...]]:
     """A chain as rows of nearly equal length."""
-    size = ceil(len(chain) / ceil(len(chain) / LONGEST_ROW))
+    size = ceil(len(chain) / ceil(len(chain) / longest))
     return [tuple(chain[i:i + size]) for i in range(0, len(chain), size)]
 
 
