@@ -83,11 +83,14 @@ def _argument_parser() -> argparse.ArgumentParser:
     draw.add_argument("--seeds", type=_numbers, default=(), metavar="S,S,...", help="draw plants of several seeds side by side")
     draw.add_argument("--view", type=_numbers, metavar="AROUND,ABOVE",
                       help="the side from which a plant in space is seen, in degrees (default: 30,15)")
+    _add_looks(draw)
     draw.add_argument("--size", type=_numbers, metavar="WIDTH[,HEIGHT]", help="the size of a picture or film in pixels")
     draw.add_argument("--turntable", action="store_true", help="let the film show a plant in space from all sides")
     _add_film(draw)
     stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
+    stages.add_argument("--unfold", action="store_true", help="show each of many stages, and do not group them by symbol")
+    _add_looks(stages)
     stages.add_argument("-o", "--output", required=True, metavar="FILE",
                         help="a picture (.svg, .png, .pdf), a film of the tokens (.gif, .apng, .mp4), or a net for Petri-net "
                              "tools (.pnml)")
@@ -166,6 +169,16 @@ def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_ste
                         help="float uses doubles, as other programs do")
 
 
+def _add_looks(parser: argparse.ArgumentParser) -> None:
+    """The options that say how a picture looks."""
+    parser.add_argument("--labels", action=argparse.BooleanOptionalAction, help="whether names and steps are written")
+    parser.add_argument("--colours", type=_colours, metavar="KIND",
+                        help="natural, symbols, or colours of symbols, as in A=seagreen,B=#cc79a7")
+    parser.add_argument("--widths", metavar="KIND", help="order, constant, or a factor of the widths of strokes")
+    parser.add_argument("--legend", action=argparse.BooleanOptionalAction, help="whether a legend stands below")
+    parser.add_argument("--background", metavar="COLOUR", help="light, dark, none or a colour (default: light)")
+
+
 def _add_model(parser: argparse.ArgumentParser) -> None:
     """The options that say which system, with which constants."""
     parser.add_argument("system", metavar="SYSTEM",
@@ -228,6 +241,15 @@ def _numbers(text: str) -> list[int]:
         return [int(each[:20]) for each in text.split(",")]
     except ValueError:
         raise argparse.ArgumentTypeError(f'whole numbers with commas between them are needed, not "{text[:40]}"') from None
+
+
+def _colours(text: str) -> str | dict[str, str]:
+    """A kind of colours, or those of some symbols.
+
+    >>> _colours("natural"), _colours("A=navy,B=#cc79a7")
+    ('natural', {'A': 'navy', 'B': '#cc79a7'})
+    """
+    return dict(_constant_setting(each) for each in text.split(",")) if "=" in text else text
 
 
 def _constant_setting(text: str) -> tuple[str, str]:

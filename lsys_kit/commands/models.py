@@ -121,9 +121,17 @@ def _save(shown: AnyPicture | Film, options: argparse.Namespace) -> None:
 
 
 def _seen(options: argparse.Namespace) -> dict[str, Any]:
-    """The side from which something is seen, and the size of the picture, as far as they are given."""
+    """The side from which something is seen, the size of the picture and how it looks, as far as they are given."""
     size = options.size[0] if options.size and len(options.size) == 1 else options.size
-    return {name: value for name, value in (("view", options.view), ("size", size)) if value is not None}
+    given = {"view": options.view, "size": size, **_looks(options)}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def _looks(options: argparse.Namespace) -> dict[str, Any]:
+    """How a picture looks, as `draw` takes it; None for what is not given."""
+    from lsys_kit.pictures.options import OPTIONS
+
+    return {name: getattr(options, name) for name in OPTIONS}
 
 
 def _steps(options: argparse.Namespace) -> dict[str, Any]:
@@ -138,9 +146,10 @@ def draw_stages(options: argparse.Namespace) -> None:
     from lsys_kit.pictures.films import animate
 
     system = system_with_constants(options)
-    net, film = stages(system, durations=options.durations), _film(options)
+    net, film = stages(system, durations=options.durations, unfold=options.unfold), _film(options)
     word = None if options.steps is None or film else _derivation(system, options)[-1]
-    _save(animate(net, options.steps, **film) if film else draw(net, tokens=word), options)
+    looks = _looks(options)
+    _save(animate(net, options.steps, **film, **looks) if film else draw(net, tokens=word, **looks), options)
 
 
 def convert(options: argparse.Namespace) -> None:

@@ -13,7 +13,7 @@ from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 
 
-def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
+def scene_of(what: Derivation | Word, angle: float | None = None, colours: str = "") -> Scene:
     """The scene of a word, or of the last word of a derivation.
 
     Parameters
@@ -22,6 +22,8 @@ def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
         A word; or a derivation, whose last word is often not even built.
     angle
         The turning angle in degrees; by default the system's.
+    colours
+        Whether strokes without a chosen colour have "natural" ones; by default as the system says.
 
     Raises
     ------
@@ -40,7 +42,7 @@ def scene_of(what: Derivation | Word, angle: float | None = None) -> Scene:
     >>> print(scene_of(plant[2], 90))
     25 segments, width 6, height 9
     """
-    return coloured(_scene_of(what, angle), what.states.system)
+    return coloured(_scene_of(what, angle), what.states.system, colours)
 
 
 def _scene_of(what: Derivation | Word, angle: float | None) -> Scene:

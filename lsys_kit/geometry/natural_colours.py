@@ -1,4 +1,7 @@
-"""Natural colours of strokes: from bark to leaves, by their width where the turtle has set one, else by their branch order."""
+"""Natural colours of strokes: from bark to leaves, by their width where the turtle has set one, else by their branch order.
+
+Plants in space have them, if neither the model nor whoever draws says otherwise.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +10,29 @@ from dataclasses import replace
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, initial_colour
+from lsys_kit.geometry.turtle.actions import Effect
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, commands_of, initial_colour
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem
 
 
-def coloured(scene: Scene, system: LSystem) -> Scene:
-    """A scene of a system, in which strokes without a chosen colour have natural ones if the system says so.
+def has_natural_colours(system: LSystem) -> bool:
+    """Whether strokes have natural colours, if they have no others: as the system says, else if it branches in space.
+
+    >>> from lsys_kit.notation.read import read
+    >>> [has_natural_colours(read(text)) for text in ("axiom: F[&F]", "axiom: F[+F]", "colours: natural\\naxiom: F[+F]")]
+    [True, False, True]
+    """
+    if system.colours:
+        return system.colours == "natural"
+    branches = any(Effect.OPENS in command.effects for command, _ in commands_of(system))
+    return branches and drawing_mode(system) is DrawingMode.SPACE
+
+
+def coloured(scene: Scene, system: LSystem, colours: str = "") -> Scene:
+    """A scene of a system, in which strokes without a chosen colour have natural ones if those of the system have.
+
+    Whoever draws can choose "natural" ones.
 
     Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
 
@@ -25,7 +45,7 @@ def coloured(scene: Scene, system: LSystem) -> Scene:
     """
     if initial_colour(system) == RAMP_START:
         return _stretched(scene)
-    return _by_width_or_order(scene) if system.colours == "natural" else scene
+    return _by_width_or_order(scene) if colours == "natural" or has_natural_colours(system) else scene
 
 
 def _stretched(scene: Scene) -> Scene:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.maps.development import Development
@@ -16,7 +18,6 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
@@ -25,16 +26,20 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
 from lsys_kit.pictures.filaments import LOOKS
-from lsys_kit.pictures.formats.axes import new_axes
+from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.kinds import coloured_symbols, kind_of
+from lsys_kit.pictures.legends import legend_of, letters_of
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
+from lsys_kit.pictures.options import KINDS, LINEAGE, SPHERE, STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.rendering.line_widths import in_units
 from lsys_kit.pictures.rendering.view import project, view_from
 from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.style.palette import colour_of
+from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
 from lsys_kit.pictures.tissues.maps import MapPicture, map_picture
@@ -51,21 +56,24 @@ MOST_ROWS = 24
 
 @overload
 def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False,
-         size: object = None) -> NetPicture: ...
+         size: object = None, labels: bool | None = None, colours: object = None, background: object = None) -> NetPicture: ...
 @overload
 def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, object]] = (),
-         size: object = None) -> LineagePicture: ...
+         size: object = None, labels: bool | None = None, colours: object = None, legend: bool | None = None,
+         background: object = None) -> LineagePicture: ...
 @overload
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
          view: object = None, steps: Sequence[int] = (), seeds: Sequence[int] = (), size: object = None,
-         **constants: object) -> Picture: ...
+         labels: bool | None = None, colours: object = None, widths: object = None, legend: bool | None = None,
+         background: object = None, **constants: object) -> Picture: ...
 @overload
-def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (), labels: bool = True,
-         size: object = None, **forces: object) -> MapPicture: ...
+def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (), labels: bool | None = None,
+         size: object = None, background: object = None, **forces: object) -> MapPicture: ...
 @overload
 def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = ..., cell: int | None = None,
-         generation: int | None = None, size: object = None, **forces: object) -> CellworkPicture: ...
+         generation: int | None = None, size: object = None, colours: object = None, legend: bool | None = None,
+         background: object = None, **forces: object) -> CellworkPicture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
@@ -88,21 +96,34 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
         Steps, and seeds, that are drawn side by side on one scale, each with a caption; of a filament the rows.
     size
         The width of the picture in pixels, or its width and height; all of it is enlarged, with its strokes and its text.
+    labels
+        False leaves out names, numbers of steps, times and ages. The cells of a filament have letters where these are more
+        than two; True writes them in any case.
+    colours
+        "symbols": each has its own, the same in all pictures. "natural": strokes are brown to green, from the stem to the tips,
+        by their width or branch order, as those of plants in space are by themselves, as far as the model chooses none. Or the
+        colours of some symbols, by names of CSS or hexadecimal: `colours={"L": "seagreen", "B": "#cc79a7"}`.
+    widths
+        A factor by which strokes are broader; "order", by which each is as broad as its branch order says, whatever the model
+        says; or "constant". By default strokes are as broad as the model says, and by branch order where it says nothing.
+    legend
+        Whether there is a legend below: which colour stands for which symbol, and which commands the turtle passed over.
+    background
+        "light" or "dark" paper, "none", or a colour. On dark paper lines are lighter.
     **choices
         For a system `seed`, `arithmetic`, `field` and new values of constants, as for `derive`; `marked`, the states whose
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
-        For a map system `iterations`, after which its last step is shown on the way to rest; `labels`, whether walls of a map
-        in the plane have theirs; and new values of the forces that shape it: `stiffness`, `rest`, `pressure`, `damping`. A
-        cellwork system has all of these but `labels`, too; and `cell`, a number, or `generation`, the number of divisions
-        behind cells, to light these alone.
+        For a map system `iterations`, after which its last step is shown on the way to rest; and new values of the forces that
+        shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has all of these, too; and `cell`, a number, or
+        `generation`, the number of divisions behind cells, to light these alone.
 
     Raises
     ------
     ModelValueError
-        It cannot be drawn, or the choices do not apply to it.
+        It cannot be drawn, or the choices do not apply to it, or mean nothing for this kind of picture.
     ModelNameError
-        There is no such choice.
+        There is no such choice, or no such symbol.
 
     Examples
     --------
@@ -115,32 +136,35 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
 
 def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
-    """The picture in the size that was chosen."""
-    pixels, picture = size_from(size), _in_usual_size(what, n, **choices)
-    return picture if pixels is None else replace(picture, pixels=pixels)
+    """The picture in the size and with the looks that were chosen."""
+    given, choices = split_options(choices)
+    pixels, options = size_from(size), options_from(given, kind_of(what, choices), coloured_symbols(what))
+    with drawn_on(options.theme):
+        picture = _in_usual_size(what, n, options, **choices)
+    return replace(picture, pixels=pixels, theme=options.theme)
 
 
-def _in_usual_size(what: Any, n: int | None, **choices: Any) -> AnyPicture:
+def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -> AnyPicture:
     if isinstance(what, Stages):
-        _check_options(choices, ("tokens", "positions"))
-        return _net_picture(what, **choices)
+        _check_choices(choices, ("tokens", "positions"), STAGES)
+        return _net_picture(what, options.labels is not False, **choices)
     if isinstance(what, MapSystem | Development):
-        system = what if isinstance(what, MapSystem) else what.system
-        return (sphere_picture if system.sphere else map_picture)(what, n, **choices)
+        draws = sphere_picture if kind_of(what, choices) == SPHERE else partial(map_picture, labels=options.labels is not False)
+        return draws(what, n, **choices)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        return cellwork_picture(what, n, **choices)
+        return cellwork_picture(what, n, legend=bool(options.legend), **choices)
     if isinstance(what, Lineage):
-        _check_options(choices, ("intervals",))
-        return lineage_picture(what, **choices)
+        _check_choices(choices, ("intervals",), LINEAGE)
+        return lineage_picture(what, labels=options.labels is not False, legend=options.legend is not False, **choices)
     if isinstance(what, LSystem):
-        options = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
-        _check_options(choices, options, [each.name for each in what.constants])
-    return _drawing(what, n, **choices)
+        names = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
+        _check_choices(choices, names, kind_of(what, choices), [each.name for each in what.constants])
+    return _drawing(what, n, options, **choices)
 
 
-def _check_options(given: Iterable[str], options: Sequence[str], constants: Sequence[str] = ()) -> None:
-    """Every choice is an option of the picture, or a constant of the system."""
-    options = [*options, "size"]
+def _check_choices(given: Iterable[str], options: Sequence[str], kind: str, constants: Sequence[str] = ()) -> None:
+    """Every choice is one of the picture, or a constant of the system."""
+    options = [*options, "size", *KINDS[kind]]
     for name in given:
         if name not in options and name not in constants:
             declared = f" Constants of the system are: {', '.join(constants)}." if constants else ""
@@ -148,14 +172,14 @@ def _check_options(given: Iterable[str], options: Sequence[str], constants: Sequ
             raise ModelNameError(f'There is no option "{name}" here', hint=hint)
 
 
-def _net_picture(net: Stages, tokens: Word | None = None, positions: bool = False) -> NetPicture:
+def _net_picture(net: Stages, labels: bool, tokens: Word | None = None, positions: bool = False) -> NetPicture:
     require(positions, bool, 'True or False for "positions"')
-    return NetPicture(net, None if tokens is None else net.tokens(tokens), positions)
+    return NetPicture(net, None if tokens is None else net.tokens(tokens), positions, labels)
 
 
-def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object = None, marked: Collection[int] = (),
-             cells: str | None = None, view: object = None, steps: object = (), seeds: object = (),
-             **choices: Any) -> AnyPicture:
+def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options, *, angle: object = None,
+             marked: Collection[int] = (), cells: str | None = None, view: object = None, steps: object = (),
+             seeds: object = (), **choices: Any) -> AnyPicture:
     if not isinstance(what, LSystem | Derivation | Word):
         raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}")
@@ -164,28 +188,39 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, *, angle: object 
     drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
     system = drawn[0].word.states.system
     if drawing_mode(system) is DrawingMode.FILAMENT:
-        return _sequence(drawn, states, cells)
+        return _sequence(drawn, states, cells, options)
     turn = real_from(angle, "angle") if angle is not None else float(system.angle)
-    scenes = in_units([scene_of(each.word, turn) for each in drawn], system)
+    scenes = in_units([seen_as(each.word, turn, options) for each in drawn], system)
     pictures = [Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states,
                         scene if scene.dimension == 3 else None)
                 for each, scene, seen in zip(drawn, scenes, project(scenes, side), strict=True)]
+    legend = legend_of([each.word.states for each in drawn], scenes) if options.legend else None
     if not drawn[0].caption:
-        return pictures[0]
+        return replace(pictures[0], legend=legend)
     columns = len({each.step for each in drawn}) if len({each.seed for each in drawn}) > 1 else 0
-    return SmallMultiples(pictures, [each.caption for each in drawn], columns if columns > 1 else 0)
+    captions = [each.caption for each in drawn]
+    return SmallMultiples(pictures, captions, columns if columns > 1 else 0, options.labels is not False, legend=legend)
 
 
-def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None) -> Picture:
+def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None, options: Options) -> Picture:
     """A filament's steps below one another; a word alone."""
     last = drawn[-1].word
     if isinstance(last, Word):
-        return filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells)
+        alone = filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells)
+        return _with_options(alone, last.states, options)
     if len({each.seed for each in drawn}) > 1:
         raise ModelValueError("The rows of a filament are the steps of one seed", hint="Draw one seed at a time.")
     steps = [each.step for each in drawn] if drawn[0].caption else range(max(0, last.steps + 1 - MOST_ROWS), last.steps + 1)
     rows = tuple(FilamentRow(step, filament(last.to(max(steps))[step])) for step in steps)
-    return filament_picture(last, rows, steps[-1], marked, cells)
+    return _with_options(filament_picture(last, rows, steps[-1], marked, cells), last.states, options)
+
+
+def _with_options(picture: Picture, states: States, options: Options) -> Picture:
+    """A picture of filaments with labels and a legend as they were chosen."""
+    scenes = [row.scene for row in picture.rows]
+    legend = legend_of([states] * len(scenes), scenes) if options.legend else None
+    letters = letters_of(states, scenes, options.labels)
+    return replace(picture, labels=options.labels, letters=letters, legend=legend)
 
 
 def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], current: int | None, marked: Collection[int] = (),
@@ -246,10 +281,12 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
             raise ModelNameError(f'There is no option "{next(iter(choices))}" here',
                                  hint="What a plot shows is chosen when it is made.")
         return painted(what, new_axes() if ax is None else ax)
-    picture, axes = what if isinstance(what, SVGPicture) else draw(what, **choices), new_axes() if ax is None else ax
-    with Task("The figure was not drawn"):
+    picture = what if isinstance(what, SVGPicture) else draw(what, **choices)
+    axes = new_axes(picture.theme.ground) if ax is None else ax
+    with Task("The figure was not drawn"), drawn_on(picture.theme):
         picture.plot_into(axes)
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.set_axis_off()
+    set_ground(axes, picture.theme.ground)
     return axes

@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import pairwise
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +20,9 @@ import numpy as np
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
-from lsys_kit.pictures.style.palette import GREEN, INK, MARK, MARK_EDGE, OLDEST, QUIET, cell_fill, shaded
+from lsys_kit.pictures.style.colour_values import mixed
+from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
+from lsys_kit.pictures.style.themes import line, theme
 from lsys_kit.pictures.svg import FilamentRow
 
 LOOKS = ("rectangles", "ellipses")
@@ -30,6 +33,8 @@ TALLEST, FILLED = 46.0, 0.66
 """The greatest distance of rows, in pixels, and the part of it that cells fill."""
 MARKED = 3.2
 """The width of the edges of marked cells, in pixels."""
+LETTER = 11
+"""The size of letters in cells, in pixels."""
 LEGIBLE = 28
 """Ages of walls are written where the distance of rows is greater than this, in pixels."""
 
@@ -121,7 +126,8 @@ class FilamentLayout:
         return self.gutter + (WIDTH - self.gutter - MARGIN - row.scene.width * self.scale) / 2
 
 
-def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None) -> FilamentLayout:
+def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None,
+                    written: bool = True) -> FilamentLayout:
     """The layout of some rows.
 
     Parameters
@@ -132,22 +138,24 @@ def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: V
         Whether the rows are labelled with their steps.
     time
         The duration of a step; rows are labelled with times too, if that is not 1.
+    written
+        Whether there is any text.
     """
     time = time if numbered and time != 1 else None
     gutter, head = MARGIN + STEPS * numbered + TIMES * (time is not None), HEAD * numbered
     longest = max(max(row.scene.width for row in rows), 1e-9)
     tallest = max(max(row.scene.height for row in rows), 1e-9)
     most = min(TALLEST, (HEIGHT - 2 * MARGIN - head) / len(rows))
-    above = AGES if most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
+    above = AGES if written and most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
     scale = min((WIDTH - gutter - 2 * MARGIN) / longest, (FILLED * most - above) / tallest)
     pitch = max(14.0, min(most, (tallest * scale + above) / FILLED))
     return FilamentLayout(rows, numbered, time, scale, gutter, head, above, pitch)
 
 
 def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], current: int | None = None,
-             marked: Collection[int] = (), image: str = "") -> str:
+             marked: Collection[int] = (), image: str = "", letters: Mapping[int, str] = MappingProxyType({})) -> str:
     """Filaments below one another, centred, with a common scale; the current row on a tinted band. An image, if there is one,
-    stands for the band and for all cells."""
+    stands for the band and for all cells. Letters are written into cells, as far as they fit."""
     body = [image, _heading(sheet)] if sheet.numbered else [image]
     for place, row in enumerate(sheet.rows):
         middle = sheet.middle(place)
@@ -155,7 +163,9 @@ def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], cur
             body += [_band(sheet, place)] if row.step == current and not image else []
             body.append(_row_labels(sheet, row.step, middle, row.step == current))
         if not image:
-            body.append(filament_svg(list(sheet.cells(row)), look, middle, colour_of, marked))
+            cells = list(sheet.cells(row))
+            body.append(filament_svg(cells, look, middle, colour_of, marked))
+            body.append(_letters_svg(cells, middle, colour_of, letters))
             body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
     return "".join(body)
 
@@ -166,7 +176,7 @@ def _heading(sheet: FilamentLayout) -> str:
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
     return "".join(f'<text x="{tenths(x)}" y="{y}" font-size="110" text-anchor="end" font-family="sans-serif" '
-                   f'fill="{QUIET}">{text}</text>' for x, text in texts)
+                   f'fill="{theme().quiet}">{text}</text>' for x, text in texts)
 
 
 def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, float, float]:
@@ -178,7 +188,7 @@ def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, flo
 def _band(sheet: FilamentLayout, place: int) -> str:
     left, top, right, _, corner = band_of(sheet, place)
     return (f'<rect x="{tenths(left)}" y="{tenths(top)}" width="{tenths(right - left)}" height="{tenths(sheet.pitch)}" '
-            f'rx="{tenths(corner)}" fill="{MARK}"/>')
+            f'rx="{tenths(corner)}" fill="{theme().mark}"/>')
 
 
 def _row_labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
@@ -186,7 +196,7 @@ def _row_labels(sheet: FilamentLayout, step: int, middle: float, current: bool) 
     size, texts = tenths(min(14.0, 0.8 * sheet.pitch)), [(MARGIN + STEPS - 8, str(step))]
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, time_text(step * sheet.time)))
-    weight = f'fill="{INK}" font-weight="bold"' if current else f'fill="{QUIET}"'
+    weight = f'fill="{theme().ink}" font-weight="bold"' if current else f'fill="{theme().quiet}"'
     return "".join(f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
                    f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>' for x, text in texts)
 
@@ -208,15 +218,35 @@ def filament_svg(cells: Sequence[DrawnCell], look: str, middle: float, colour_of
     y, shapes, arrows = tenths(middle), [], []
     for cell in cells:
         x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
-        edge = f'{MARK_EDGE}" stroke-width="{10 * MARKED:.0f}' if cell.state in marked else colour_of.get(cell.state, GREEN)
+        own = line(colour_of.get(cell.state, GREEN))
+        edge = f'{theme().mark_edge}" stroke-width="{10 * MARKED:.0f}' if cell.state in marked else own
         shape = (f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"' if look == "ellipses" else
                  f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"')
         shapes.append(f'{shape} fill="{fills[cell.state, cell.shade]}" stroke="{edge}"/>')
         if cell.way and rx > 25:
             arrows.append(arrow(x, y, rx, ry, cell.way))
     return (f'<g stroke-width="10">{"".join(shapes)}</g>'
-            f'<path d="{"".join(arrows)}" fill="none" stroke="{INK}" stroke-width="10" stroke-linecap="round" '
+            f'<path d="{"".join(arrows)}" fill="none" stroke="{theme().ink}" stroke-width="10" stroke-linecap="round" '
             f'stroke-linejoin="round"/>')
+
+
+def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
+    """Whether there is room for the letters of all cells."""
+    return all(_fits(cell, letters) for row in sheet.rows for cell in sheet.cells(row))
+
+
+def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[int, str], letters: Mapping[int, str]) -> str:
+    """The letters in cells, where there is room, each on its cell's own colour."""
+    y = tenths(middle + 0.36 * LETTER)
+    texts = [f'<text x="{tenths(cell.x)}" y="{y}" stroke="{cell_fill(colour_of.get(cell.state, GREEN), cell.shade)}">'
+             f"{escape(letters[cell.state])}</text>" for cell in cells if letters.get(cell.state) and _fits(cell, letters)]
+    return (f'<g font-size="{10 * LETTER}" font-family="sans-serif" font-style="italic" text-anchor="middle" '
+            f'fill="{theme().ink}" stroke-width="40" paint-order="stroke">{"".join(texts)}</g>') if texts else ""
+
+
+def _fits(cell: DrawnCell, letters: Mapping[int, str]) -> bool:
+    """Whether there is room for the letter of a cell, besides its arrow."""
+    return cell.length > LETTER * (0.4 * len(letters.get(cell.state, "")) + 0.7 * (cell.way != 0)) and cell.width > 0.6 * LETTER
 
 
 def arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
@@ -232,8 +262,8 @@ def wall_width(shade: float) -> float:
 
 
 def wall_colour(colour: str, shade: float) -> str:
-    """The colour of a wall, given that of its symbol: the older, the darker."""
-    return shaded(colour, 1 - (1 - OLDEST) * shade)
+    """The colour of a wall, given that of its symbol: the older, the nearer to that of ink."""
+    return mixed(line(colour), theme().ink, 1 - (1 - OLDEST) * shade)
 
 
 def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str],
@@ -242,11 +272,11 @@ def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of:
     parts = []
     for wall in walls:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
-        colour = MARK_EDGE if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
+        colour = theme().mark_edge if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
         parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
     if aged and _ages_fit(walls):
         parts += [f'<text x="{tenths(_age_place(wall))}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" '
-                  f'text-anchor="middle" font-family="sans-serif" fill="{INK}">{wall.age}</text>' for wall in walls]
+                  f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">{wall.age}</text>' for wall in walls]
     return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
 
 

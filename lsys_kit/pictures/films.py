@@ -17,7 +17,6 @@ from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require
-from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.cellworks import CellworkSystem
@@ -28,11 +27,15 @@ from lsys_kit.pictures.draw import draw, state_colours
 from lsys_kit.pictures.formats.film import SECONDS, Film
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.raster import centred, turtle_image
+from lsys_kit.pictures.kinds import coloured_symbols, kind_of
+from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
+from lsys_kit.pictures.options import Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import frame_around
 from lsys_kit.pictures.rendering.line_widths import in_units
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project, view_from
 from lsys_kit.pictures.sizes import enlargement, final_size, size_from
+from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
 
 if TYPE_CHECKING:
@@ -62,7 +65,8 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
     turntable
         Whether the last step is shown from all sides, rather than the steps from one.
     view, size, **choices
-        As for `draw`. On a turntable the first picture has this view.
+        As for `draw`, with `labels`, `colours`, `widths`, `legend` and `background`, but a film has a background. On a
+        turntable the first picture has this view.
 
     Raises
     ------
@@ -84,31 +88,43 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
     size_from(size)  # which is wrong before anything is made
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
-    side = None if view is None else view_from(view)
-    with Task("The film was not finished"):
+    side, (given, choices) = None if view is None else view_from(view), split_options(choices)
+    options = _options(what, given)
+    with Task("The film was not finished"), drawn_on(options.theme):
         if turntable:
-            return _turned(what, n, pace, side, size, choices)
-        text, images = _shown(what, n, side, size, choices)
+            return _turned(what, n, pace, side, size, choices | given)
+        text, images = _shown(what, n, side, size, choices, given, options)
         return Film(text, tuple(images), pace)
 
 
-def _shown(what: Any, n: int | None, side: View | None, size: object,
-           choices: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
+def _options(what: Any, given: Mapping[str, Any]) -> Options:
+    """How the pictures of a film look."""
+    if given and isinstance(what, SVGPicture | list | tuple):
+        raise ModelValueError("How a picture looks is chosen when it is drawn", hint=f"Give {next(iter(given))}= to draw(...).")
+    options = options_from(given, kind_of(what, {}), coloured_symbols(what))
+    if options.theme.transparent:
+        raise ModelValueError("A film has a background", hint='Give background="light", "dark" or a colour.')
+    return options
+
+
+def _shown(what: Any, n: int | None, side: View | None, size: object, choices: Mapping[str, Any], given: Mapping[str, Any],
+           options: Options) -> tuple[str, Sequence[Image]]:
     """What a film shows, in words, and its pictures."""
     if isinstance(what, LSystem | Derivation):
         derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-            return _filmed(draw(derivation, size=size))
-        return _turtle_film(derivation, choices.get("angle"), side, size)
+            return _filmed(draw(derivation, size=size, **given))
+        return _turtle_film(derivation, choices.get("angle"), side, size, options)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        steps = cellwork_steps(what, n, **choices)
+        steps = cellwork_steps(what, n, legend=bool(options.legend), **choices)
         scenes = project([step.solid for step in steps if step.solid is not None], side or SIDE)
-        return f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}", _framed(scenes, steps[-1].colour_of, size)
+        told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
+        return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
     if isinstance(what, MapSystem | Development | Lineage):
         seen = {} if side is None else {"view": side}
-        return _filmed(draw(what, n, size=size, **choices, **seen))
+        return _filmed(draw(what, n, size=size, **choices, **seen, **given))
     if isinstance(what, Stages):
-        return _net_film(what, n, size, choices)
+        return _net_film(what, n, size, choices, given)
     return _pictures_film(what, size)
 
 
@@ -126,15 +142,17 @@ def _too_long(pictures: int) -> ModelLimitError:
 
 
 def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
-    return repr(picture), picture.film_images()
+    with drawn_on(picture.theme):
+        return repr(picture), picture.film_images()
 
 
-def _net_film(net: Stages, n: int | None, size: object, choices: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
+def _net_film(net: Stages, n: int | None, size: object, choices: Mapping[str, Any],
+              given: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
     """A stage diagram with the tokens of each step."""
     own = {name: value for name, value in choices.items() if name != "positions"}
     derivation = _derived(net.system, n, own)
     told = {"positions": choices["positions"]} if "positions" in choices else {}
-    pictures = [draw(net, tokens=word, size=size, **told) for word in derivation]
+    pictures = [draw(net, tokens=word, size=size, **told, **given) for word in derivation]
     return f"steps 0 to {derivation.steps}; the last: {pictures[-1]!r}", [picture.image() for picture in counted(pictures, 1)]
 
 
@@ -156,23 +174,26 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
         for picture, image in zip(what, images, strict=True)]
 
 
-def _turtle_film(derivation: Derivation, angle: object, view: View | None,
-                 size: object) -> tuple[str, Sequence[Image]]:
+def _turtle_film(derivation: Derivation, angle: object, view: View | None, size: object,
+                 options: Options) -> tuple[str, Sequence[Image]]:
     """What the turtle draws, step after step."""
     turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
-        steps.append(scene_of(derivation.to(step), turn))
+        steps.append(seen_as(derivation.to(step), turn, options))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
     scenes = project(in_units(steps, derivation.states.system), view)
-    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size)
+    legend = legend_of([derivation.states] * len(scenes), scenes) if options.legend else None
+    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size, legend)
 
 
-def _framed(scenes: Sequence[Scene], colour_of: Mapping[int, str], size: object) -> list[Image]:
-    """Scenes as images in a common frame."""
+def _framed(scenes: Sequence[Scene], colour_of: Mapping[int, str], size: object, legend: Legend | None = None) -> list[Image]:
+    """Scenes as images in a common frame, each with the legend below."""
     frame, found = frame_around(scenes), size_from(size)
-    enlarged, whole = enlargement(frame.width, frame.height, found), final_size(frame.width, frame.height, found)
-    return [centred(turtle_image(scene, colour_of, frame, enlarged), whole) for scene in counted(scenes, 1)]
+    width, more = legend.size(frame.width) if legend else (frame.width, 0)
+    enlarged, whole = enlargement(width, frame.height + more, found), final_size(width, frame.height + more, found)
+    images = (turtle_image(scene, colour_of, frame, enlarged) for scene in counted(scenes, 1))
+    return [centred(image_with_legend(image, legend, enlarged), whole) for image in images]
 
 
 def _turned(what: Any, n: int | None, pace: float, view: View | None, size: object, choices: Mapping[str, Any]) -> Film:
@@ -182,7 +203,7 @@ def _turned(what: Any, n: int | None, pace: float, view: View | None, size: obje
         raise ModelValueError("A turntable shows what is in space, and this lies in the plane",
                               hint="Animate its steps: without turntable=True.")
     scenes = list(_around(picture.solid, view or FROM_THE_RIGHT))
-    return Film(f"{picture!r}; from all sides", tuple(_framed(scenes, picture.colour_of, size)), pace, 1)
+    return Film(f"{picture!r}; from all sides", tuple(_framed(scenes, picture.colour_of, size, picture.legend)), pace, 1)
 
 
 def _around(solid: Scene, view: View) -> Iterator[Scene]:

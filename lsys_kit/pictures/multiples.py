@@ -6,7 +6,7 @@ Source: E. R. Tufte, The Visual Display of Quantitative Information, 1983, on sm
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,13 +16,15 @@ from lsys_kit.geometry.scene import Scene
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.formats.transparency import on_ground
 from lsys_kit.pictures.formats.vector.lettering import advance
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
+from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
 from lsys_kit.pictures.sizes import enlargement
-from lsys_kit.pictures.style.palette import QUIET
+from lsys_kit.pictures.style.themes import drawn_on, theme
 from lsys_kit.pictures.svg import background, described, document, embedded, resized, turtle_svg
 
 if TYPE_CHECKING:
@@ -57,11 +59,17 @@ class SmallMultiples(SVGPicture):
         For each what stands below it.
     columns
         How many stand in a line; 0 for as many as make them largest.
+    labels
+        Whether they have their captions.
+    legend
+        What stands below them all, or None.
     """
 
     pictures: Sequence[Picture]
     captions: Sequence[str]
     columns: int = 0
+    labels: bool = True
+    legend: Legend | None = field(default=None, kw_only=True, repr=False)
 
     @cached_property
     def text(self) -> str:
@@ -71,31 +79,33 @@ class SmallMultiples(SVGPicture):
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        with Task("The picture was not drawn"):
+        with Task("The picture was not drawn"), drawn_on(self.theme):
             return self._written(current().segments)
 
     def image(self, enlarged: float = 1.0) -> Image:
         """The picture as an image, perhaps enlarged."""
-        with Task("The picture was not drawn"):
-            return painted(drawing_of(self._written(0, enlarged)), enlarged)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return on_ground(lambda: painted(drawing_of(self._written(0, enlarged)), enlarged))
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
-        return drawing_of(self._written(current().figure, enlarged))
+        with drawn_on(self.theme):
+            return drawing_of(self._written(current().figure, enlarged))
 
     def _written(self, most: int, enlarged: float = 1.0) -> str:
         """The picture as SVG; if it has more shapes than the most, its drawings are pixels, so many in each direction of its
         own."""
-        broadest = max(advance(caption, TEXT) for caption in self.captions)
+        captions = self.captions if self.labels else [""] * len(self.captions)
+        broadest = max(advance(caption, TEXT) for caption in captions)
         panels = arranged([each.scene for each in self.pictures], self.columns, broadest)
         frame = panels[0].frame
         factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
         pixels = sum(each.size for each in self.pictures) > most
         body = "".join(_panel_svg(*each, factor if pixels else 0.0)
-                       for each in zip(self.pictures, panels, self.captions, strict=True))
+                       for each in zip(self.pictures, panels, captions, strict=True))
         whole = document(background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text,
                          frame.parts)
-        return resized(whole, self.pixels)
+        return resized(with_legend(whole, self.legend), self.pixels)
 
     def __repr__(self) -> str:
         return self.text
@@ -152,7 +162,8 @@ def _panel_svg(picture: Picture, panel: Panel, caption: str, pixels: float) -> s
     drawn = turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked) if not pixels else \
         _panel_image(picture, panel, pixels)
     return (f'{drawn}<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" '
-            f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" fill="{QUIET}">{escape(caption)}</text>')
+            f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" '
+            f'fill="{theme().quiet}">{escape(caption)}</text>')
 
 
 def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> str:

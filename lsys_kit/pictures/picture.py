@@ -18,7 +18,7 @@ from lsys_kit.geometry.meshes.mesh import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments import LOOKS, filament_layout, rows_svg
+from lsys_kit.pictures.filaments import LOOKS, filament_layout, letters_fit, rows_svg
 from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.filament_raster import rows_image
 from lsys_kit.pictures.formats.files import FILMS, listed, save_as
@@ -26,12 +26,15 @@ from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import turtle_image, turtle_picture
+from lsys_kit.pictures.formats.transparency import on_ground
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
+from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.sizes import enlargement
+from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, resized, turtle_svg
 
 if TYPE_CHECKING:
@@ -59,6 +62,12 @@ class Picture(SVGPicture):
         How cells are drawn: as "rectangles" or "ellipses".
     time
         The duration of a step of a filament, if its system defines one.
+    labels
+        Whether the rows of a filament are labelled; True if letters are wanted in its cells.
+    letters
+        What is written into cells, by their states.
+    legend
+        What stands below it, or None.
     """
 
     rows: tuple[FilamentRow, ...]
@@ -68,6 +77,9 @@ class Picture(SVGPicture):
     solid: Scene | None = None
     look: str = LOOKS[0]
     time: Value | None = None
+    labels: bool | None = None
+    letters: Mapping[int, str] = field(default_factory=dict, kw_only=True, repr=False)
+    legend: Legend | None = field(default=None, kw_only=True, repr=False)
 
     @property
     def scene(self) -> Scene:
@@ -88,19 +100,24 @@ class Picture(SVGPicture):
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        with Task("The picture was not drawn"):
+        with Task("The picture was not drawn"), drawn_on(self.theme):
             return self._written(current().segments)
 
     def image(self, enlarged: float = 1.0) -> Image:
         """The picture as an image, perhaps enlarged."""
-        with Task("The picture was not drawn"):
-            if len(self.scene.cells):
-                return painted(drawing_of(self._written(current().segments, enlarged)), enlarged)
-            return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return on_ground(lambda: self._image(enlarged))
+
+    def _image(self, enlarged: float) -> Image:
+        if len(self.scene.cells) or self.legend:
+            most = current().segments if len(self.scene.cells) else 0
+            return painted(drawing_of(self._written(most, enlarged)), enlarged)
+        return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
-        return drawing_of(self._written(current().figure, enlarged))
+        with drawn_on(self.theme):
+            return drawing_of(self._written(current().figure, enlarged))
 
     def plot_into(self, ax: Axes) -> None:
         """Paint the picture into axes: what a turtle has drawn in its own units, a filament in pixels."""
@@ -111,8 +128,10 @@ class Picture(SVGPicture):
         if len(self.scene.cells):
             super().plot_into(ax)
         else:
-            with supervised():
+            with supervised(), drawn_on(self.theme):
                 plot_turtle(ax, self.scene, self.colour_of)
+                if self.legend is not None:
+                    plot_legend(ax, self.legend)
 
     def _written(self, most: int, enlarged: float = 1.0) -> str:
         """The picture as SVG; if it has more shapes than the most, these are pixels, so many in each direction of its own."""
@@ -122,7 +141,7 @@ class Picture(SVGPicture):
         frame = in_fine_parts(usual, self.scene)
         if self.size > most:
             factor = enlarged * enlargement(usual.width, usual.height, self.pixels)
-            image = turtle_image(self.scene, self.colour_of, usual, factor)
+            image = on_ground(lambda: turtle_image(self.scene, self.colour_of, usual, factor))
             body = embedded(frame.width * frame.parts, frame.height * frame.parts, image)
         else:
             body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
@@ -137,18 +156,21 @@ class Picture(SVGPicture):
 
     def _sequence_written(self, pixels: bool, enlarged: float, shown: int = 0) -> str:
         """The rows of a filament, whose cells may be pixels; perhaps as if so many of them were all."""
-        layout, image = filament_layout(self.rows, self.current is not None, self.time), ""
+        labelled = self.labels is not False
+        layout, image = filament_layout(self.rows, labelled and self.current is not None, self.time, labelled), ""
         height, now = layout.height, self.rows[shown - 1].step if shown else self.current
         sheet = replace(layout, rows=self.rows[:shown]) if shown else layout
         if pixels:
             factor = enlarged * enlargement(WIDTH, height, self.pixels)
-            cells = rows_image(sheet, self.look, self.colour_of, now, self.marked, factor)
+            cells = on_ground(lambda: rows_image(sheet, self.look, self.colour_of, now, self.marked, factor))
             image = embedded(10 * WIDTH, 10 * sheet.height, cells)
-        body = rows_svg(sheet, self.look, self.colour_of, now, self.marked, image)
+        letters = self.letters if self.labels or letters_fit(layout, self.letters) else {}
+        body = rows_svg(sheet, self.look, self.colour_of, now, self.marked, image, letters)
         return self._framed(body, WIDTH, height, 10)
 
     def _framed(self, body: str, width: int, height: int, parts: int) -> str:
-        return resized(document(background(width, height, parts) + body, width, height, self.text, parts), self.pixels)
+        whole = document(background(width, height, parts) + body, width, height, self.text, parts)
+        return resized(with_legend(whole, self.legend), self.pixels)
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -202,17 +224,20 @@ class NetPicture(SVGPicture):
         The number of modules in each place, or None.
     positions
         Whether arcs are labelled with the positions of their modules in the successor.
+    labels
+        Whether stages have their names.
     """
 
     net: Stages
     tokens: tuple[int, ...] | None = None
     positions: bool = False
+    labels: bool = True
 
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        with Task("The picture was not drawn"):
-            return resized(drawn_stages(self.net, self.tokens, positions=self.positions), self.pixels)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return resized(drawn_stages(self.net, self.tokens, positions=self.positions, labels=self.labels), self.pixels)
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to an .svg, .png or .pdf file, or the net to a .pnml file for Petri-net tools (see `pnml`).

@@ -24,7 +24,7 @@ from lsys_kit.pictures.rendering.looks import stroke_scale
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
-from lsys_kit.pictures.style.palette import MARK_EDGE, PAPER
+from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -57,7 +57,7 @@ def resized(svg: str, size: Size | None) -> str:
     box = f"{-more[0]} {-more[1]} {across + 2 * more[0]} {down + 2 * more[1]}"
     svg = f'{svg[:found.start()]}viewBox="{box}" width="{wide}" height="{high}"{svg[found.end():]}'
     corner_and_size = 'x="{}" y="{}" width="{}" height="{}"'.format(*box.split())
-    paper = f'<rect {corner_and_size} fill="{PAPER}"/>' if any(more) else ""
+    paper = f'<rect {corner_and_size} fill="{theme().ground}"/>' if any(more) and not theme().transparent else ""
     return svg.replace("</title>", f"</title>{paper}", 1)
 
 
@@ -146,7 +146,7 @@ def _lines_svg(lines: Lines, points: Integers, runs: Sequence[LineRun], look: tu
     if marked:
         numbers = np.concatenate([run.numbers for run in runs])
         chosen = points[numbers[np.isin(lines.states[numbers], list(marked))]]
-        body += [f'<path class="marked" d="{_path(chosen)}" stroke="{MARK_EDGE}" stroke-width="{broad * parts:.0f}" '
+        body += [f'<path class="marked" d="{_path(chosen)}" stroke="{theme().mark_edge}" stroke-width="{broad * parts:.0f}" '
                  'stroke-opacity="0.45"/>'] * bool(len(chosen))
     for run in runs:
         body.append(f'<path d="{_path(points[run.numbers])}" stroke="{run.colour}" stroke-width="{run.width * parts // 10}"/>')
@@ -166,8 +166,9 @@ class FilamentRow:
 
 
 def background(width: int, height: int, parts: int = 10) -> str:
-    """White paper, so that a picture can be read on a dark page too."""
-    return f'<rect width="{width * parts}" height="{height * parts}" fill="{PAPER}"/>'
+    """Paper, so that a picture can be read on any page; nothing where it is to lie on that of the page."""
+    ground = theme().ground
+    return "" if theme().transparent else f'<rect width="{width * parts}" height="{height * parts}" fill="{ground}"/>'
 
 
 def described(parts: Iterable[str]) -> str:

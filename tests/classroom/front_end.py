@@ -12,6 +12,7 @@ from playwright.sync_api import Page
 import lsys_kit.classroom.panel
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.natural_colours import has_natural_colours
 from lsys_kit.geometry.turtle.commands import initial_colour, initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions
 from lsys_kit.geometry.turtle.mode import drawing_mode
@@ -51,7 +52,7 @@ def book_of(words: Sequence[Word]) -> dict[str, Any]:
         "symbols": [[str(state), "", colour_of[state], 0] for state in numbers], "states": [[state] for state in numbers],
         "turtle": {
             "side": dialect.left, "length": initial_step(system), "width": dialect.width,
-            "colour": initial_colour(system), "natural": system.colours == "natural", "heading": float(system.heading),
+            "colour": initial_colour(system), "natural": has_natural_colours(system), "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"),
             "calls": [[call_of(each) for each in compiled[state]] for state in numbers],
             "surfaces": {name: surface.faces for name, surface in surfaces().items()}, "colours": CHOSEN}}

@@ -29,9 +29,13 @@ def test_an_unbranched_stem_is_green_and_a_chosen_colour_stays():
     assert colours("colours: natural\naxiom: F ;(3) F") == [23, 3]
 
 
-@pytest.mark.parametrize("setting", ["", "colours: symbols\n"])
-def test_without_the_setting_colours_are_those_of_symbols(setting):
-    assert set(colours(setting + TREE)) == {OWN}
+@pytest.mark.parametrize("text", ["colours: symbols\n" + TREE, "axiom: F[+F]", "axiom: F&F/F"])
+def test_colours_are_those_of_symbols_where_the_model_says_so_or_nothing_branches_in_space(text):
+    assert set(colours(text)) == {OWN}
+
+
+def test_plants_in_space_have_them_by_themselves():
+    assert colours(TREE) == colours("colours: natural\n" + TREE)
 
 
 def test_parts_that_are_drawn_once_and_copied_have_them_too():
@@ -51,7 +55,8 @@ def test_the_setting_is_kept_in_what_is_written():
     system = read("colors: natural\naxiom: F")
     assert system.colours == "natural"
     assert read(write(system)).colours == "natural"
-    assert "colours" not in write(read("colours: symbols\naxiom: F"))
+    assert "colours" not in write(read("axiom: F[&F]"))
+    assert "colours: symbols" in write(read("colours: symbols\naxiom: F[&F]"))
 
 
 def test_other_colours_are_an_error_that_says_which_there_are():

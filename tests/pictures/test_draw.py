@@ -148,13 +148,13 @@ def test_names_of_a_model_never_become_markup():
 
 
 @pytest.mark.parametrize(("what", "hint"), [
-    (system("K5"), "Options are: angle, seed, arithmetic, marked, cells, field, view, steps, seeds, size."),
+    (system("K5"), "marked, cells, field, view, steps, seeds, size, colours, widths, legend, background."),
     (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
-    (stages(system("P2")), "Options are: tokens, positions, size."),
-    (lineage(system("P6"), 2), "Options are: intervals, size."),
+    (stages(system("P2")), "Options are: tokens, positions, size, labels, colours, background."),
+    (lineage(system("P6"), 2), "Options are: intervals, size, labels, colours, legend, background."),
 ])
 def test_an_option_that_there_is_not_is_named(what, hint):
     with pytest.raises(ModelNameError) as caught:
-        draw(what, colour="red")
-    assert caught.value.message == 'There is no option "colour" here'
+        draw(what, material="wood")
+    assert caught.value.message == 'There is no option "material" here'
     assert caught.value.hint.endswith(hint)

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations, pairwise
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit import read, stages, system, systems
+from lsys_kit import draw, read, stages, system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.nets import parts
 from lsys_kit.pictures.nets.layers import Layers, layered
 from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
-from lsys_kit.pictures.nets.parts import clearest_layout, steering_of
+from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout, steering_of
 from lsys_kit.pictures.nets.routes import rows_of, shown_places
 
 
 @st.composite
-def graphs(draw: st.DrawFn) -> tuple[int, list[tuple[int, int]]]:
+def graphs(drawn: st.DrawFn) -> tuple[int, list[tuple[int, int]]]:
     """Graphs without loops, as those of places and bars are."""
-    count = draw(st.integers(1, 9))
+    count = drawn(st.integers(1, 9))
     vertex = st.integers(0, count - 1)
-    return count, [(a, b) for a, b in draw(st.lists(st.tuples(vertex, vertex), max_size=16)) if a != b]
+    return count, [(a, b) for a, b in drawn(st.lists(st.tuples(vertex, vertex), max_size=16)) if a != b]
 
 
 def layers_of(graph: tuple[int, list[tuple[int, int]]]) -> Layers:
@@ -76,6 +77,29 @@ def layout(name: str) -> Layout | None:
 def test_arcs_cross_seldom() -> None:
     layouts = [found for name in systems() if (found := layout(name))]
     assert sum(map(crossings, layouts)) <= 45
+
+
+def smallest_text_on_a_page(svg: str) -> float:
+    """The size of the smallest text of a picture that is made as small as a page is wide."""
+    sizes = [float(size) for size in re.findall(r'<text [^>]*font-size="([\d.]+)"', svg)]
+    sizes += [LABEL_SIZE * float(share) / 100 for share in re.findall(r'font-size="(\d+)%"', svg)]
+    width = int(re.findall(r'width="(\d+)"', svg)[0])
+    return min(sizes) * min(1.0, PAGE / width)
+
+
+@pytest.mark.parametrize("name", ["J6", "K12", "K15", "P5", "ABOP-3.2", "ABOP-5.12b"])
+def test_text_is_legible_on_a_page(name: str) -> None:
+    assert smallest_text_on_a_page(draw(stages(system(name))).svg) >= LEGIBLE
+
+
+@pytest.mark.parametrize("name", ["K12", "ABOP-3.2"])
+def test_what_would_be_too_wide_stands_in_rows_that_are_narrow_enough(name: str) -> None:
+    net = stages(system(name))
+    shown = rows_of(net, shown_places(net, steering_of(net.system)))
+    texts = Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {})
+    wide, narrow, line = (clearest_layout(net, shown, texts, widest) for widest in (10_000, 980, 1))
+    assert line.width < narrow.width <= 980 < wide.width
+    assert crossings(wide) < crossings(narrow)
 
 
 def test_a_row_of_stages_without_crossings_stays_a_row() -> None:

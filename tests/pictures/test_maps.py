@@ -10,7 +10,7 @@ import pytest
 from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, derive, draw, limits
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.pictures.style.palette import SERIES
-from lsys_kit.pictures.tissues.maps import FILLS, MOST_MAPS, MapPicture
+from lsys_kit.pictures.tissues.maps import FILLS, MOST_MAPS, MapPicture, cell_colour
 
 SVG = "{http://www.w3.org/2000/svg}"
 K28 = read_map("map: ABAB\nA -> B[-A][+A]B\nB -> A")
@@ -41,7 +41,7 @@ def test_a_picture_says_what_its_colours_mean_and_is_the_same_every_time() -> No
 
 def test_cells_of_one_kind_have_one_colour() -> None:
     fills = [polygon.get("fill") for polygon in parsed(draw(K30)).findall(f".//{SVG}polygon")]
-    assert fills[:6] == [FILLS[kind] for kind in (0, 0, 1, 0, 1, 2)]
+    assert fills[:6] == [cell_colour(kind) for kind in (0, 0, 1, 0, 1, 2)]
     assert len({*FILLS}) == 2 * len(SERIES)
 
 

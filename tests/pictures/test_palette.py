@@ -8,31 +8,32 @@ WCAG 2.2.
 
 from __future__ import annotations
 
-import re
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-import lsys_kit.classroom.panel
 from lsys_kit import stages, system
+from lsys_kit.classroom.panel.bundle import style
 from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
+from lsys_kit.pictures.legends import MOST_WITHOUT_LETTERS
+from lsys_kit.pictures.lineages.tree import DASHES
 from lsys_kit.pictures.nets.parts import parts_of, steering_of
 from lsys_kit.pictures.style.palette import (
     CHOSEN,
     INK,
     LABELLED,
-    MARK_EDGE,
+    NATURAL,
     PALEST,
     PAPER,
-    QUIET,
     RAMP,
     SERIES,
     STRONGEST,
     cell_fill,
     tinted,
 )
+from lsys_kit.pictures.style.themes import DARK, DARK_LINES, GROUNDS, LIGHT, drawn_on, line, theme_from
+from lsys_kit.pictures.tissues.maps import FILLS as KINDS
 
 VISION = {
     "all cones": np.eye(3),
@@ -48,8 +49,7 @@ CONES = np.array([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0.6
                   [0.0883024619, 0.2817188376, 0.6299787005]])
 OKLAB = np.array([[0.2104542553, 0.7936177850, -0.0040720468], [1.9779984951, -2.4285922050, 0.4505937099],
                   [0.0259040371, 0.7827717662, -0.8086757660]])
-STYLE = (Path(lsys_kit.classroom.panel.__file__).parent / "scripts" / "colours.css").read_text(encoding="utf-8")
-(DARK_PAPER, DARK_INK), *_ = re.findall(r"--lsys-paper: (#1\w{5}); --lsys-ink: (#\w{6})", STYLE)
+DARK_PAPER, DARK_INK = DARK.paper, DARK.ink
 FILLS = pytest.mark.parametrize("strength", [PALEST, LABELLED, STRONGEST])
 
 
@@ -87,14 +87,64 @@ def test_black_and_white_differ_as_the_standards_say():
     assert least_difference(["#ff0000", "#00a000"], "deuteranopia") < least_difference(["#ff0000", "#00a000"]) / 2
 
 
-@pytest.mark.parametrize("colour", [*SERIES, QUIET, MARK_EDGE])
-def test_thin_lines_are_seen_on_paper(colour):
-    assert contrast(colour, PAPER) >= 3
+def lines_on(theme, colours=SERIES):
+    with drawn_on(theme):
+        return [line(colour) for colour in colours]
+
+
+THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+EVERY_PAPER = pytest.mark.parametrize("theme", [*GROUNDS.values(), *map(theme_from, ("beige", "navy", "#777", "black"))])
+
+
+@EVERY_PAPER
+@pytest.mark.parametrize("colour", [*SERIES, *RAMP, *CHOSEN, "#808080"])
+def test_lines_are_seen_on_every_paper(theme, colour):
+    assert contrast(*lines_on(theme, [colour]), theme.paper) >= 3
+
+
+@EVERY_PAPER
+def test_text_is_legible_on_every_paper(theme):
+    assert contrast(theme.ink, theme.paper) >= 4.5
+    assert contrast(theme.quiet, theme.paper) >= 4.5
+
+
+@THEMES
+def test_what_is_marked_is_seen_and_legible(theme):
+    assert contrast(theme.mark_edge, theme.paper) >= 3
+    assert contrast(theme.ink, theme.mark) >= 4.5
+    assert contrast(theme.quiet, theme.mark) >= 4.5
+
+
+def test_lines_on_light_paper_have_the_colours_of_symbols():
+    assert lines_on(LIGHT) == [*SERIES]
+
+
+@THEMES
+@pytest.mark.parametrize("vision", VISION)
+def test_lines_of_any_two_symbols_can_be_told_apart(theme, vision):
+    least = {LIGHT: {"all cones": 11.5}, DARK: {"all cones": 13}}[theme].get(vision, 7.3 if theme == LIGHT else 9.5)
+    assert least_difference(lines_on(theme), vision) >= least
+
+
+@THEMES
+def test_what_two_lines_differ_too_little_in_grey_differs_in_dashes_or_has_a_letter(theme):
+    greys = [grey(colour) for colour in lines_on(theme)]
+    close = [pair for pair in combinations(range(len(SERIES)), 2) if abs(greys[pair[0]] - greys[pair[1]]) < 2]
+    assert close == ([(0, 3)] if theme == LIGHT else [])
+    assert all(DASHES[one % len(DASHES)] != DASHES[other % len(DASHES)] for one, other in close)
+    assert all(max(pair) >= MOST_WITHOUT_LETTERS for pair in close)
 
 
 @pytest.mark.parametrize("vision", VISION)
-def test_lines_of_any_two_symbols_can_be_told_apart(vision):
-    assert least_difference(SERIES, vision) >= (11 if vision == "all cones" else 7)
+@pytest.mark.parametrize("paper", [PAPER, DARK_PAPER])
+def test_kinds_of_cells_in_a_map_can_be_told_apart(paper, vision):
+    assert least_difference([mixed(colour, paper, strength) for colour, strength in KINDS], vision) >= 2.8
+
+
+def test_the_panel_has_the_same_themes():
+    for theme in (LIGHT, DARK):
+        assert f"--lsys-paper: {theme.paper.lower()}; --lsys-ink: {theme.ink.lower()}; --lsys-quiet" in style()
+    assert all(f"{colour} {seen}".lower() in style() for colour, seen in DARK_LINES.items())
 
 
 @FILLS
@@ -104,11 +154,19 @@ def test_fills_of_any_two_symbols_can_be_told_apart(paper, vision, strength):
     assert least_difference([mixed(colour, paper, strength) for colour in SERIES], vision) >= 3.2
 
 
-def test_a_ramp_gets_lighter_and_its_lines_are_seen():
-    lightness = [grey(colour) for colour in RAMP]
-    assert min(np.diff(lightness)) >= 1
-    assert min(contrast(colour, PAPER) for colour in RAMP) >= 3
+@THEMES
+def test_a_ramp_gets_lighter_and_its_lines_are_seen(theme):
+    ramp = lines_on(theme, RAMP)
+    assert min(np.diff([grey(colour) for colour in ramp])) >= 1
+    assert min(contrast(colour, theme.paper) for colour in ramp) >= 3
     assert CHOSEN[RAMP_START:RAMP_END + 1] == RAMP
+
+
+@THEMES
+@pytest.mark.parametrize("vision", VISION)
+def test_bark_and_leaves_of_natural_plants_can_be_told_apart(theme, vision):
+    bark, *_, leaf = lines_on(theme, RAMP)
+    assert least_difference([bark, leaf, *lines_on(theme, [NATURAL["petal"], NATURAL["fruit"]])], vision) >= 6
 
 
 @FILLS

@@ -12,6 +12,9 @@ from functools import cache
 from graphlib import TopologicalSorter
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from string import Template
+
+from lsys_kit.pictures.style.themes import DARK, DARK_LINES, LIGHT, Theme
 
 _IMPORT = re.compile(r'^import \{[^}]*\} from "[./\w]*?(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
@@ -90,5 +93,14 @@ def _scripts() -> Mapping[str, Traversable]:
 
 @cache
 def style(name: str = "panel") -> str:
-    """The style of a sheet, after the colours that all share."""
-    return "".join((files(__package__) / "scripts" / f"{each}.css").read_text(encoding="utf-8") for each in ("colours", name))
+    """The style of a sheet, after the colours that all share, which are those of the themes of pictures."""
+    colours, own = ((files(__package__) / "scripts" / f"{each}.css").read_text(encoding="utf-8") for each in ("colours", name))
+    return Template(colours).substitute(light=_variables(LIGHT), dark=_variables(DARK)) + own
+
+
+def _variables(theme: Theme) -> str:
+    """The colours of a theme as variables of a style; on dark paper also those of lines, behind the ones that they replace."""
+    lines = " ".join(f"{colour} {seen}" for colour, seen in DARK_LINES.items()) if theme.dark else "none"
+    named = {"paper": theme.paper, "ink": theme.ink, "quiet": theme.quiet, "mark": theme.mark, "mark-edge": theme.mark_edge,
+             "lines": f'"{lines}"'}
+    return " ".join(f"--lsys-{name}: {value.lower()};" for name, value in named.items())

@@ -22,19 +22,20 @@ from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import write
 from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.pictures.style.themes import DARK, LIGHT
 
 MOST_BOOKS, MOST_CHARACTERS = 2_000, 400_000
 """A page holds no more books, and no more than about so many characters of them, deflated; nor more than can be made in the
 time of one task."""
 MOST_FOR_FEWEST = 1_100_000
 """It may have so many characters if the sliders could not move otherwise."""
-STYLE = """
-.lsys-page {
-  margin: 0 auto; padding: 8px 12px 24px; max-width: 1500px; background: #fff; color: #22303c;
+STYLE = f"""
+.lsys-page {{
+  margin: 0 auto; padding: 8px 12px 24px; max-width: 1500px; background: {LIGHT.paper}; color: {LIGHT.ink};
   font: 15px/1.5 system-ui, sans-serif;
-}
-.lsys-page h1 { font-size: 20px; font-weight: 600; margin: 4px 0 8px; overflow-wrap: anywhere; }
-@media (prefers-color-scheme: dark) { .lsys-page { background: #161b20; color: #e8edf2; } }
+}}
+.lsys-page h1 {{ font-size: 20px; font-weight: 600; margin: 4px 0 8px; overflow-wrap: anywhere; }}
+@media (prefers-color-scheme: dark) {{ .lsys-page {{ background: {DARK.paper}; color: {DARK.ink}; }} }}
 """
 _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter", "projection")), frozenset(("tissue",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))

@@ -157,8 +157,8 @@ class LSystem:
         The unit of the widths of strokes: "pixels" or "units", those of lengths; "" where that is left to the turtle. Equality
         ignores it.
     colours
-        Whose colours strokes have: those of "symbols", or "natural" ones, from bark to leaves, by their width or branch order.
-        Equality ignores it.
+        Whose colours strokes have: those of "symbols", or "natural" ones, from bark to leaves, by their width or branch order;
+        "" where that is left to whoever draws. Equality ignores it.
     notation
         The notation in which it was read and prints itself. Equality ignores it.
     source, notes
@@ -187,7 +187,7 @@ class LSystem:
     branches: str = ANY_BRANCH
     cells: str = field(default="rectangles", compare=False)
     widths: str = field(default="", compare=False)
-    colours: str = field(default="symbols", compare=False)
+    colours: str = field(default="", compare=False)
     notation: str = field(default="abop", compare=False)
     source: str = field(default="", compare=False, repr=False)
     notes: tuple[str, ...] = field(default=(), compare=False, repr=False)

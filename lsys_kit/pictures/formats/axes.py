@@ -12,6 +12,7 @@ from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineR
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
+from lsys_kit.pictures.style.palette import PAPER
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,11 +31,18 @@ class PaintedPath(NamedTuple):
     width: float
 
 
-def new_axes() -> Axes:
+def new_axes(ground: str = PAPER) -> Axes:
     """The axes of a new figure, of the size of a lesson's picture."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(6, 4), layout="constrained").add_subplot()
+    return Figure(figsize=(6, 4), layout="constrained", facecolor=ground).add_subplot()
+
+
+def set_ground(ax: Axes, ground: str) -> None:
+    """Give axes without a frame a ground, if it is not paper as usual."""
+    if ground != PAPER:
+        ax.patch.set(facecolor=ground, zorder=-1)
+        ax.add_artist(ax.patch)
 
 
 def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:

@@ -19,10 +19,12 @@ from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.pdf.page import pdf
 from lsys_kit.pictures.formats.raster import encoded
+from lsys_kit.pictures.formats.transparency import on_ground
 from lsys_kit.pictures.formats.vector.axes import plot_drawing
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.sizes import Size
+from lsys_kit.pictures.style.themes import LIGHT, Theme, drawn_on
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,9 +47,12 @@ class SVGPicture(ABC):
     ----------
     pixels
         Its width and height, if it is not of the usual size.
+    theme
+        Its colours.
     """
 
     pixels: Size | None = field(default=None, kw_only=True, repr=False)
+    theme: Theme = field(default=LIGHT, kw_only=True, repr=False)
 
     @property
     @abstractmethod
@@ -67,8 +72,9 @@ class SVGPicture(ABC):
 
     def image(self, enlarged: float = 1.0) -> Image:
         """The picture as an image, perhaps enlarged."""
-        with Task("The picture was not drawn"):
-            return painted(self.drawing(enlarged), enlarged)
+        drawing = self.drawing(enlarged)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return on_ground(lambda: painted(drawing, enlarged))
 
     def film_images(self) -> Sequence[Image]:
         """The images of a film of the picture, all of the same size: its steps, if it has any."""

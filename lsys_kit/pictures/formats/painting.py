@@ -173,7 +173,8 @@ def _stamp(sheet: Sheet, mask: Any, left: int, top: int, colour: str) -> None:
 def _raster(sheet: Sheet, shape: Raster, place: Place) -> None:
     from PIL import Image
 
-    image = Image.open(io.BytesIO(shape.png)).convert("RGB")
+    image = Image.open(io.BytesIO(shape.png)).convert("RGBA")
     left, top = _at(np.array([shape.x, shape.y]), place).tolist()
     size = round(shape.width * place.scale), round(shape.height * place.scale)
-    sheet.grid.paste(image.resize(size, Image.Resampling.BICUBIC), (round(left), round(top)))
+    seen = image.resize(size, Image.Resampling.BICUBIC)
+    sheet.grid.paste(seen.convert("RGB"), (round(left), round(top)), seen.getchannel("A"))

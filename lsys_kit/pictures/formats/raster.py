@@ -32,7 +32,7 @@ from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
-from lsys_kit.pictures.style.palette import PAPER
+from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -65,13 +65,13 @@ def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None
 
 
 def centred(image: Image, size: tuple[int, int]) -> Image:
-    """An image in the middle of white paper."""
+    """An image in the middle of paper."""
     from PIL import Image
 
     if image.size == size:
         return image
     check_bytes(3 * size[0] * size[1], lambda: "The picture was not drawn")
-    paper = Image.new("RGB", size, PAPER)
+    paper = Image.new("RGB", size, theme().ground)
     paper.paste(image, ((size[0] - image.width) // 2, (size[1] - image.height) // 2))
     return paper
 
@@ -200,7 +200,7 @@ def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePaint
 
 def _colours(shapes: DisplayList) -> Colours:
     """Red, green and blue of each number."""
-    palette = _channels([*shapes.palette, PAPER])
+    palette = _channels([*shapes.palette, theme().ground])
     found, lines = np.zeros((2 * len(shapes.numbers) + 2, 3), np.uint8), shapes.keys >= 0
     found[0] = palette[-1]
     found[2 * shapes.starts[:-1][lines] + 1] = palette[colours_and_widths(shapes.keys[lines])[0]]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Self, TypeAlias
 from lsys_kit.budget import check_bytes
 from lsys_kit.pictures.formats.raster import FINE
 from lsys_kit.pictures.formats.vector.lettering import advance, curve, glyph
-from lsys_kit.pictures.style.palette import INK, PAPER
+from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -42,7 +42,7 @@ class Sheet:
 
         check_bytes(width * height * PIXEL_BYTES, lambda: "The picture was not drawn")
         self._size, self._left, self._top, self._unit = (width, height), 0.0, 0.0, float(FINE)
-        self._image = Image.new("RGB", (width * FINE, height * FINE), PAPER)
+        self._image = Image.new("RGB", (width * FINE, height * FINE), theme().ground)
         self._pen = ImageDraw.Draw(self._image)
         self._pasted: list[tuple[Image.Image, tuple[int, int]]] = []
 
@@ -67,7 +67,7 @@ class Sheet:
         part._left, part._top, part._unit = *self._at(x, y), self._unit * unit
         return part
 
-    def text(self, x: float, y: float, text: str, size: float, colour: str = INK, italic: bool = False) -> float:
+    def text(self, x: float, y: float, text: str, size: float, colour: str = "", italic: bool = False) -> float:
         """Write a text from a point of its baseline on, and return where it ends."""
         from PIL import Image
 
@@ -75,15 +75,15 @@ class Sheet:
             mask, left, top = glyph(letter, size * self._unit, italic)
             across, down = self._at(x, y)
             if mask.size:
-                self._image.paste(colour, (round(across) + left, round(down) + top), Image.fromarray(mask))
+                self._image.paste(colour or theme().ink, (round(across) + left, round(down) + top), Image.fromarray(mask))
             x += advance(letter, size)
         return x
 
-    def centred(self, x: float, y: float, text: str, size: float, colour: str = INK) -> None:
+    def centred(self, x: float, y: float, text: str, size: float, colour: str = "") -> None:
         """Write a text with its middle at a point of its baseline."""
         self.text(x - advance(text, size) / 2, y, text, size, colour)
 
-    def label(self, x: float, y: float, label: tuple[str, str, str], size: float, colour: str = INK) -> None:
+    def label(self, x: float, y: float, label: tuple[str, str, str], size: float, colour: str = "") -> None:
         """Write a label, given as letter, subscript and values, as mathematics is set."""
         letter, subscript, values = label
         x = self.text(x, y, letter, size, colour, letter[:1].isalpha())

@@ -25,7 +25,8 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import svg_label, values_text
-from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, VERMILION, tinted
+from lsys_kit.pictures.style.palette import VERMILION, tinted
+from lsys_kit.pictures.style.themes import drawn_on, line, theme
 from lsys_kit.pictures.svg import background, document, resized
 
 if TYPE_CHECKING:
@@ -35,7 +36,6 @@ TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
 THICK, THIN, LATE = 24, 11, 90
 """Widths of lines, in tenths of a pixel."""
-LATE_LOOK = f'stroke="{VERMILION}" stroke-width="{LATE}" stroke-opacity="0.35"'
 LABEL = 6
 """How far the figures of a time reach below its line, in pixels."""
 MOST_LINES, MOST_TICKS = 400, 14
@@ -52,16 +52,22 @@ class LineagePicture(SVGPicture):
         The lineage.
     intervals
         Intervals of time that are marked beside the tree.
+    labels
+        Whether times and the modules of the last word are written.
+    legend
+        Whether it is said what lines mean.
     """
 
     lineage: Lineage
     intervals: tuple[tuple[Value, Value], ...] = ()
+    labels: bool = True
+    legend: bool = True
 
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        with Task("The picture was not drawn"):
-            return resized(drawn_lineage(self.lineage, self.intervals), self.pixels)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return resized(drawn_lineage(self.lineage, self.intervals, self.labels, self.legend), self.pixels)
 
     def film_images(self) -> Sequence[Image]:
         """The tree as it grows, one time after another; at the end with what stands below it."""
@@ -70,7 +76,7 @@ class LineagePicture(SVGPicture):
         whole, tree = self.image(), tree_of(self.lineage, BRACKET * len(self.intervals))
         enlarged, images = whole.width / WIDTH, []
         for time in self.lineage.times[:-1]:
-            image = Image.new("RGB", whole.size, PAPER)
+            image = Image.new("RGB", whole.size, theme().ground)
             image.paste(whole.crop((0, 0, whole.width, round((tree.y(time) + LABEL) * enlarged))))
             images.append(image)
         return [*images, whole]
@@ -85,7 +91,8 @@ def _interval(given: object) -> tuple[Value, Value]:
     return number_from(given[0], "interval"), number_from(given[1], "interval")
 
 
-def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = ()) -> LineagePicture:
+def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True,
+                    legend: bool = True) -> LineagePicture:
     """The picture of a lineage, with some intervals of time marked.
 
     Raises
@@ -108,19 +115,20 @@ def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]]
         if not 0 <= first < last <= lineage.times[-1]:
             raise ModelValueError(f"No interval from {time_text(first)} to {time_text(last)} can be marked",
                                   hint=f"The lineage lasts from 0 to {time_text(lineage.times[-1])}.")
-    return LineagePicture(lineage, found)
+    return LineagePicture(lineage, found, labels, legend)
 
 
-def drawn_lineage(lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = ()) -> str:
+def drawn_lineage(lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True,
+                  legend: bool = True) -> str:
     """A lineage as SVG text."""
     tree = tree_of(lineage, BRACKET * len(intervals))
     half = max((cell.width for cell in tree.row), default=8.0)
     middle = tree.y(lineage.times[-1]) + TAIL + half
-    legend, parts = _legend(tree), middle + half + 24
-    body = [_axis(tree), *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
-            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last_word(tree, middle),
-            f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{legend}</g>']
-    height = round(parts) + (MARGIN if legend else -MARGIN)
+    meaning, parts = _legend(tree) if legend else "", middle + half + 24
+    body = [_axis(tree) if labels else "", *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
+            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last_word(tree, middle, labels),
+            f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{meaning}</g>']
+    height = round(parts) + (MARGIN if meaning else -MARGIN)
     return document(background(WIDTH, height) + "".join(body), WIDTH, height, f"Lineage of {lineage}")
 
 
@@ -129,11 +137,12 @@ def _axis(tree: Tree) -> str:
     lineage = tree.lineage
     whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
     name = "step" if whole else '<tspan font-style="italic">t</tspan>'
-    parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{QUIET}">{name}</text>']
+    quiet, fine = theme().quiet, tinted(theme().quiet, 0.3)
+    parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{quiet}">{name}</text>']
     for time in _ticks(lineage):
         y = tenths(tree.y(time))
-        parts.append(f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{tinted(QUIET, 0.3)}" stroke-width="8"/>'
-                     f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{QUIET}">{time_text(time)}</text>')
+        parts.append(f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{fine}" stroke-width="8"/>'
+                     f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{quiet}">{time_text(time)}</text>')
     return f'<g text-anchor="end" font-family="sans-serif">{"".join(parts)}</g>'
 
 
@@ -149,8 +158,8 @@ def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
     """An interval beside the tree, with its length."""
     x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
     return (f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
-            f'stroke="{INK}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
-            f'font-size="130" font-family="sans-serif" fill="{INK}">{time_text(last - first)}</text>')
+            f'stroke="{theme().ink}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
+            f'font-size="130" font-family="sans-serif" fill="{theme().ink}">{time_text(last - first)}</text>')
 
 
 def _line(tree: Tree, number: int) -> str:
@@ -159,14 +168,19 @@ def _line(tree: Tree, number: int) -> str:
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
     late = "" if cell.due is None else (f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" '
-                                        f'{LATE_LOOK} fill="none"/>')
+                                        f'{_late_look()} fill="none"/>')
     start, turned = _branch_path(tree, number, bottom)
-    look = f'fill="none" stroke="{kind.colour}" stroke-linecap="round"{kind.broken}'
+    look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
     if seen <= turned or not tree.lineage.stepwise:
         return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
     thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
     return thin + (f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
                    if bottom > seen else "")
+
+
+def _late_look() -> str:
+    """How the time is shown by which a cell divides late."""
+    return f'stroke="{line(VERMILION)}" stroke-width="{LATE}" stroke-opacity="0.35"'
 
 
 def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
@@ -190,10 +204,10 @@ def _flags(tree: Tree) -> str:
         if way and end - top > 16:
             x, y = tenths(tree.x[number]), tenths(top + 7)
             parts.append(f"M{x} {y}L{x + way * 65} {y + 32}L{x} {y + 64}Z")
-    return f'<path d="{"".join(parts)}" fill="{INK}"/>'
+    return f'<path d="{"".join(parts)}" fill="{theme().ink}"/>'
 
 
-def _last_word(tree: Tree, middle: float) -> str:
+def _last_word(tree: Tree, middle: float, labels: bool) -> str:
     """The last word below the tree: its cells as they are drawn, else their names where there is room."""
     lineage, system = tree.lineage, tree.lineage.states.system
     if tree.row:
@@ -201,10 +215,10 @@ def _last_word(tree: Tree, middle: float) -> str:
     modules = [lineage.cells[cell].modules[-1][1] for cell in lineage.words[-1]]
     places = [tree.x[cell] for cell in lineage.words[-1]]
     longest = max((len(str(module)) for module in modules), default=0)
-    if any(after - before < 7 * longest for before, after in pairwise(places)):
+    if not labels or any(after - before < 7 * longest for before, after in pairwise(places)):
         return ""
     return "".join(f'<text transform="translate({tenths(x)} {tenths(middle + 6)}) scale(10)" font-size="13" '
-                   f'text-anchor="middle" font-family="sans-serif" fill="{INK}">'
+                   f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">'
                    f"{svg_label(module.symbol, system, values_text(module))}</text>"
                    for x, module in zip(places, modules, strict=True))
 
@@ -213,15 +227,15 @@ def _legend(tree: Tree) -> str:
     """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
     cells, entries = tree.lineage.cells, []
     if len(tree.kinds) > 1:
-        entries += [(f'stroke="{kind.colour}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}', kind.label,
+        entries += [(f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}', kind.label,
                      kind.characters) for kind in tree.kinds]
     if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
-        entries.append((f'stroke="{QUIET}" stroke-width="{THIN}"', "within a step", 13))
+        entries.append((f'stroke="{theme().quiet}" stroke-width="{THIN}"', "within a step", 13))
     if any(cell.due is not None for cell in cells):
-        entries.append((LATE_LOOK, "should have divided", 19))
+        entries.append((_late_look(), "should have divided", 19))
     parts, x = [], 0
     for look, label, characters in entries:
-        parts.append(f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{INK}">'
+        parts.append(f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">'
                      f"{label}</text>")
         x += 360 + 65 * characters + 280
     return "".join(parts)

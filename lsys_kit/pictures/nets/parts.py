@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from string import punctuation
 
@@ -24,8 +24,14 @@ LABEL_SIZE, SMALL = 14, 11
 """Font sizes, in pixels."""
 LINE = 16.0
 """The height of a line below the diagram."""
+SUBSCRIPT = 0.7
+"""The size of a subscript, relative to its label."""
 MOST_CROSSINGS, MOST_LAYERED = 1, 60
 """So many crossings are allowed in rows of places; nets with more arcs than so many stand in rows all the same."""
+PAGE, LEGIBLE = 900, 9
+"""The width of a page, in pixels, on which a wider diagram is made smaller; and the least size that its text may have then."""
+SHORTER_ROWS = (6, 5, 4, 3, 2, 1)
+"""How many places rows may have at most where longer ones are too wide."""
 
 
 @dataclass(frozen=True)
@@ -109,6 +115,11 @@ class Parts:
     footnotes: tuple[str, ...]
     foot: float
 
+    @property
+    def nameless(self) -> Parts:
+        """The same without the names of stages."""
+        return replace(self, places=tuple(replace(place, letter="", subscript="", values="") for place in self.places))
+
 
 def steering_of(system: LSystem) -> frozenset[str]:
     """The symbols that only steer the turtle, and so are no stages.
@@ -123,8 +134,8 @@ def steering_of(system: LSystem) -> frozenset[str]:
 
 
 @lru_cache(maxsize=64)
-def parts_of(net: Stages, positions: bool, steering: frozenset[str]) -> Parts:
-    """The parts of the diagram of a net; `positions` and `steering` as for `drawn_stages`."""
+def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tuple[tuple[str, str], ...] = ()) -> Parts:
+    """The parts of the diagram of a net; `positions` and `steering` as for `drawn_stages`, and chosen colours of symbols."""
     rows = rows_of(net, shown_places(net, steering))
     order = tuple(place for row in rows for place in row)
     names = {place: place_text(net.places[place], net.system) for place in order}
@@ -133,10 +144,10 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str]) -> Parts:
     texts = Texts({place: width_of(name, LABEL_SIZE) for place, name in names.items()},
                   {number: width_of(text, SMALL) for number, text in terms.items()},
                   {arc: width_of(text, SMALL) for arc, text in notes.items()})
-    layout = clearest_layout(net, rows, texts)
+    layout = clearest_layout(net, rows, texts, widest_legible(net, order, texts))
     besides = tuple(f"besides: {readable(text)}" for text in net.besides)
     footnotes = (*numbered, *besides)
-    fills = _fills(net, order)
+    fills = _fills(net, order, dict(chosen))
     return Parts(
         math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in footnotes)])),
         math.ceil(layout.height + LINE * len(footnotes)), _description([*names.values()], besides),
@@ -155,13 +166,34 @@ def positions_in(net: Stages) -> dict[str, Point]:
         f"t{part.transition}": (part.x, part.y) for part in parts.bars}
 
 
-def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts) -> Layout:
-    """Rows of places as in print, unless their arcs are few enough, cross more than once, and less often in layers."""
-    in_rows = layout_of(net, planned(net, rows), texts)
-    if len(in_rows.arcs) > MOST_LAYERED or (count := crossings(in_rows)) <= MOST_CROSSINGS:
-        return in_rows
-    in_layers = layered_layout(net, [place for row in rows for place in row], texts)
-    return in_layers if crossings(in_layers) < count else in_rows
+def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
+    """How wide a diagram may be, in pixels, for its smallest text to be legible on a page."""
+    smallest = SMALL if texts.terms or texts.notes else LABEL_SIZE
+    if any(place_parts(net.places[place], net.system)[1] for place in places):
+        smallest = min(smallest, SUBSCRIPT * LABEL_SIZE)
+    return PAGE * smallest / LEGIBLE
+
+
+def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts, widest: float = math.inf) -> Layout:
+    """Rows of places as in print, unless their arcs are few enough, cross more than once, and less often in layers.
+
+    What is too wide, in rows or in layers, stands in shorter rows.
+    """
+    in_rows, places = layout_of(net, planned(net, rows), texts), [place for row in rows for place in row]
+    if len(in_rows.arcs) <= MOST_LAYERED and (count := crossings(in_rows)) > MOST_CROSSINGS:
+        in_layers = layered_layout(net, places, texts)
+        if crossings(in_layers) < count:
+            return in_layers if in_layers.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
+    return in_rows if in_rows.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
+
+
+def _in_shorter_rows(net: Stages, in_rows: Layout, places: Sequence[int], texts: Texts, widest: float) -> Layout:
+    """Of the layouts in rows that are no wider than allowed the one with the fewest crossings; else the narrowest."""
+    wrapped = [in_rows, *(layout_of(net, planned(net, rows_of(net, places, longest)), texts) for longest in SHORTER_ROWS)]
+    fitting = [layout for layout in wrapped if layout.width <= widest]
+    if not fitting:
+        return min(wrapped, key=lambda layout: layout.width)
+    return min(fitting, key=crossings) if len(in_rows.arcs) <= MOST_LAYERED else fitting[0]
 
 
 def _description(names: Sequence[str], besides: Sequence[str]) -> str:
@@ -177,9 +209,9 @@ def _place(net: Stages, number: int, name: str, layout: Layout, colour: str, str
     return PlacePart(number, *layout.circles[number], *label, values, name, title, colour, strength)
 
 
-def _fills(net: Stages, order: Sequence[int]) -> dict[int, tuple[str, float]]:
+def _fills(net: Stages, order: Sequence[int], chosen: Mapping[str, str]) -> dict[int, tuple[str, float]]:
     """The colour of each circle and how strong its fill is; fills of one symbol darken with its values."""
-    palette = colours(net.system)
+    palette = {**colours(net.system), **chosen}
     groups: dict[str, list[int]] = {}
     for place in sorted(order, key=lambda place: _rank(net.places[place])):
         groups.setdefault(palette.get(net.places[place].symbol, QUIET), []).append(place)

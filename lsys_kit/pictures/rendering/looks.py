@@ -8,6 +8,7 @@ import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Integers, Segments
 from lsys_kit.pictures.style.palette import CHOSEN, GREEN
+from lsys_kit.pictures.style.themes import theme
 
 STROKES = (2.4, 1.7, 1.3, 1.0)
 """Stroke widths by branch order, in pixels; deeper branches have the last."""
@@ -23,7 +24,7 @@ they are short; and in space, where one sees each by itself, the least and the g
 def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
     """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
     branch order, and are made finer by a factor."""
-    by_order = np.array([round(10 * width * thin) for width in STROKES])
+    by_order = np.array([round(10 * width * thin * theme().boldness) for width in STROKES])
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
     if (segments.widths != OWN).any():
         given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)

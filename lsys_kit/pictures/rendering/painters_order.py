@@ -27,7 +27,8 @@ from lsys_kit.pictures.rendering.display_list import (
 from lsys_kit.pictures.rendering.looks import BOLDEST, BROADEST, STURDY, numbered_colours, stroke_scale, stroke_widths
 from lsys_kit.pictures.rendering.view import MOST_CYLINDERS, ProjectedScene, far_to_near
 from lsys_kit.pictures.style.lighting import BRIGHT, DIM, EDGE, OWN, brightness, paper_number, shade_numbers, shades
-from lsys_kit.pictures.style.palette import PAPER, tinted
+from lsys_kit.pictures.style.palette import tinted
+from lsys_kit.pictures.style.themes import line, theme
 
 FILLED = 0.7
 """The strength of the colour inside a surface in the plane."""
@@ -78,7 +79,7 @@ def _in_the_plane(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> D
         lines, Areas(polygons.points, polygons.starts, of_polygons + len(names), of_polygons),
         Rounds(discs.centres, discs.radii, np.where(discs.kinds == CIRCLE, paper, of_discs + len(names)), of_discs,
                np.zeros(len(discs), bool)),
-        [*names, *(tinted(name, FILLED) for name in names), PAPER], np.concatenate([*runs.values()]),
+        [*map(line, names), *(tinted(name, FILLED) for name in names), theme().ground], np.concatenate([*runs.values()]),
         np.cumsum([0, *map(len, runs.values())]), np.array([*runs]))
 
 
@@ -133,7 +134,7 @@ def _colours(scene: ProjectedScene, colour_of: Mapping[int, str]) -> tuple[list[
     """The colours in use, and those of polygons, strokes and discs, by their numbers."""
     kinds = (scene.polygons, scene.segments, scene.discs)
     found = [numbered_colours(each.states, np.broadcast_to(each.colours, len(each)), colour_of) for each in kinds]
-    return found[0][0], np.concatenate([numbers for _, numbers in found])
+    return [*map(line, found[0][0])], np.concatenate([numbers for _, numbers in found])
 
 
 def _first_slots(scene: ProjectedScene, toned: NDArray[np.bool_], cased: bool) -> Sequence[Integers]:

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from lsys_kit.geometry.scene import Floats, Integers
-from lsys_kit.pictures.style.palette import PAPER, shaded, tinted
+from lsys_kit.pictures.style.colour_values import BLACK, WHITE, mixed
+from lsys_kit.pictures.style.themes import theme
 
 LIGHT = np.array([-0.5, 0.65, 0.57]) / np.linalg.norm([-0.5, 0.65, 0.57])
 """The direction to the light: right, up, towards the viewer."""
@@ -59,14 +60,14 @@ def shades(names: Sequence[str], numbers: Sequence[int]) -> list[str]:
     ['#800000', '#c08080']
     """
     paper = paper_number(names)
-    return [PAPER if number == paper else _shade(names[number // _SHADES], number % _SHADES) for number in numbers]
+    return [theme().ground if number == paper else _shade(names[number // _SHADES], number % _SHADES) for number in numbers]
 
 
 def _shade(colour: str, number: int) -> str:
     near, bright = divmod(number, STEPS + 1)
-    lit = tinted(colour, 1 - LIGHTEST * (bright - OWN) / (STEPS - OWN)) if bright > OWN else \
-        shaded(colour, 1 - DARKEST * (OWN - bright) / OWN)
-    return tinted(lit, 1 - HAZE * (1 - near / STEPS))
+    lit = mixed(colour, WHITE, 1 - LIGHTEST * (bright - OWN) / (STEPS - OWN)) if bright > OWN else \
+        mixed(colour, BLACK, 1 - DARKEST * (OWN - bright) / OWN)
+    return mixed(lit, theme().paper, 1 - HAZE * (1 - near / STEPS))
 
 
 def sphere_tones(colour: str) -> list[tuple[float, str]]:

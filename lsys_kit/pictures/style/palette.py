@@ -12,7 +12,9 @@ from functools import lru_cache
 
 from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.style.colour_values import BLACK, mixed
 from lsys_kit.pictures.style.labels import polar_symbols
+from lsys_kit.pictures.style.themes import LIGHT, theme
 
 GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#28A964", "#AF7605", "#0658A0", "#B97FB3", "#B3482B", "#337CCD"
 SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
@@ -30,24 +32,28 @@ PALEST, LABELLED, STRONGEST = 0.45, 0.58, 0.85
 label; the greatest."""
 OLDEST = 0.6
 """How light the line of the oldest wall is, compared with its colour."""
-INK = "#22303C"
-"""Text and arrows."""
-QUIET = "#7A8794"
-"""Brackets, turns and captions: what steers the turtle and is no part of the organism."""
-PAPER = "#FFFFFF"
-MARK = "#FFF2C2"
-"""Behind what is marked: the chosen stage, the current row."""
-MARK_EDGE = "#B8860B"
+INK, QUIET, PAPER = LIGHT.ink, LIGHT.quiet, LIGHT.paper
+"""On light paper: text and arrows; brackets, turns and captions, which are no part of the organism; the paper."""
+MARK, MARK_EDGE = LIGHT.mark, LIGHT.mark_edge
+"""There: behind what is marked, as the chosen stage or the current row; and around it."""
 
 
-@lru_cache(maxsize=64)
 def colours(system: LSystem) -> Mapping[str, str]:
     """A colour for each letter, digit or name that is a symbol; both polarities of a cell share theirs, and leaves are green.
+
+    Symbols for which a person has chosen a colour have that.
 
     >>> from lsys_kit.notation.read import read
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
     {'ar': '#28A964', 'al': '#28A964', 'br': '#AF7605', 'bl': '#AF7605'}
     """
+    chosen = theme().symbols
+    return {**_own_colours(system), **dict(chosen)} if chosen else _own_colours(system)
+
+
+@lru_cache(maxsize=64)
+def _own_colours(system: LSystem) -> Mapping[str, str]:
+    """The colours of symbols where nobody has chosen any."""
     pairs = polar_symbols(system)
     found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
     free = [colour for colour in SERIES if colour not in found.values()]
@@ -79,14 +85,12 @@ def cell_fill(colour: str, age: float) -> str:
 
 
 def tinted(colour: str, strength: float) -> str:
-    """A colour mixed with white: 0 is white, 1 the colour itself.
+    """A colour mixed with the paper of the theme: 0 is the paper, 1 the colour itself.
 
     >>> tinted("#0072B2", 0.5)
     '#80b9d9'
     """
-    strength = min(1.0, max(0.0, strength))
-    channels = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
-    return "#" + "".join(f"{int(255 - strength * (255 - channel) + 0.5):02x}" for channel in channels)
+    return mixed(colour, theme().paper, strength)
 
 
 def shaded(colour: str, light: float) -> str:
@@ -95,5 +99,4 @@ def shaded(colour: str, light: float) -> str:
     >>> shaded("#0072B2", 0.5)
     '#003959'
     """
-    light = min(1.0, max(0.0, light))
-    return "#" + "".join(f"{int(light * int(colour[i:i + 2], 16) + 0.5):02x}" for i in (1, 3, 5))
+    return mixed(colour, BLACK, light)

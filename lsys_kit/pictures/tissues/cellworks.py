@@ -19,9 +19,11 @@ from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
 from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.pictures.legends import Entry, Legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.view import View, project, view_from
-from lsys_kit.pictures.style.palette import QUIET, SERIES, tinted
+from lsys_kit.pictures.style.palette import SERIES, tinted
+from lsys_kit.pictures.style.themes import theme
 from lsys_kit.pictures.svg import FilamentRow, described
 from lsys_kit.pictures.tissues.maps import forces_of
 
@@ -59,7 +61,8 @@ class CellworkPicture(Picture):
 
 
 def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = SIDE,
-                     cell: int | None = None, generation: int | None = None, **forces: object) -> CellworkPicture:
+                     cell: int | None = None, generation: int | None = None, legend: bool = False,
+                     **forces: object) -> CellworkPicture:
     """The picture of a cellwork system after `n` steps, or of the last step of a development."""
     if isinstance(what, CellworkSystem):
         what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
@@ -69,26 +72,32 @@ def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None =
     _check_size(what)
     side = view_from(view)
     *_, points = place_cellworks(what, chosen)
-    return picture_at(what[:], points, lit, side)
+    return picture_at(what[:], points, lit, side, legend)
 
 
-def cellwork_steps(what: CellworkSystem | CellworkDevelopment, n: int | None = None, **forces: object) -> list[CellworkPicture]:
+def cellwork_steps(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, legend: bool = False,
+                   **forces: object) -> list[CellworkPicture]:
     """The pictures of all steps of a cellwork system, or of a development, for a film."""
     if isinstance(what, CellworkSystem):
         what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     _check_size(what)
     places = place_cellworks(what, forces_of(forces, SPACE_FORCES, "cellwork"))
-    return [picture_at(what[:step + 1], points, range(len(what[step].cells)), SIDE) for step, points in enumerate(places)]
+    return [picture_at(what[:step + 1], points, range(len(what[step].cells)), SIDE, legend)
+            for step, points in enumerate(places)]
 
 
-def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View) -> CellworkPicture:
-    """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices."""
+def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View,
+               legend: bool = False) -> CellworkPicture:
+    """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices; perhaps with what
+    the colours of walls mean."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
     solid = cellwork_scene(last, points, labels, lit, len(labels))
     solid = replace(solid, segments=replace(solid.segments, widths=np.array([EDGE])))
     [seen] = project([solid], view)
-    return CellworkPicture((FilamentRow(len(cellworks) - 1, seen),), _colours(labels), solid=solid, counts=last.counts,
-                           lit=len(lit))
+    colours = _colours(labels)
+    meaning = Legend(tuple(Entry((colours[number],), ("", "", label)) for label, number in labels.items())) if legend else None
+    return CellworkPicture((FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit),
+                           legend=meaning)
 
 
 def lit_cells(development: CellworkDevelopment, cell: int | None = None, generation: int | None = None) -> Collection[int]:
@@ -117,6 +126,12 @@ def _check_size(development: CellworkDevelopment) -> None:
                               limit=current().figure, needed=shapes, hint="Take fewer steps, or set limits(figure=...).")
 
 
+def labels_of_walls(system: CellworkSystem) -> Collection[str]:
+    """The labels that the walls of a system can have."""
+    after = {label for marker in system.markers for label in (*marker.daughters, marker.new_wall)}
+    return {wall.label for wall in system.walls} | after
+
+
 def wall_labels(cellworks: Sequence[Cellwork]) -> Mapping[str, str]:
     """The labels of walls, in the order of their first occurrence, each with its colour."""
     labels = dict.fromkeys(wall.label for found in cellworks for wall in found.walls)
@@ -124,5 +139,7 @@ def wall_labels(cellworks: Sequence[Cellwork]) -> Mapping[str, str]:
 
 
 def _colours(labels: Mapping[str, int]) -> Mapping[int, str]:
-    """The colours of the states: of the labels, then of edges."""
-    return dict(enumerate((*(SERIES[number % len(SERIES)] for number in labels.values()), tinted(QUIET, 0.6))))
+    """The colours of the states: of the labels, those that a person has chosen or others; then of edges."""
+    chosen = dict(theme().symbols)
+    walls = (chosen.get(label, SERIES[number % len(SERIES)]) for label, number in labels.items())
+    return dict(enumerate((*walls, tinted(theme().quiet, 0.6))))

@@ -27,7 +27,8 @@ from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
 from lsys_kit.pictures.style.labels import letter_svg
-from lsys_kit.pictures.style.palette import INK, PAPER, QUIET, SERIES, tinted
+from lsys_kit.pictures.style.palette import PALEST, SERIES, STRONGEST, tinted
+from lsys_kit.pictures.style.themes import drawn_on, theme
 from lsys_kit.pictures.svg import background, described, document, resized
 
 if TYPE_CHECKING:
@@ -43,10 +44,10 @@ MOST_MAPS, STEPS = 12, 4
 """The greatest number of maps in a picture, which shows the last ones; the default number of steps."""
 LABEL, LEAST_LABELLED, LEAST_POINTED = 13.0, 24.0, 13.0
 """The size of a label; the least lengths of walls with a label and with an arrow, in pixels."""
-FILLS = tuple(tinted(colour, strength) for strength in (0.3, 0.6) for colour in SERIES)
-"""The colours of the first kinds of cells."""
-REST = tinted(QUIET, 0.13)
-"""The colour of all further kinds of cells."""
+FILLS = tuple((colour, strength) for strength in (PALEST, STRONGEST) for colour in SERIES)
+"""The colours of the first kinds of cells, and how strong they are."""
+REST = 0.13
+"""How strong the grey of all further kinds of cells is."""
 RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "damping": (0.1, 10)}
 """The least and the greatest value of each force."""
 ROUNDING = 1e-6
@@ -93,7 +94,7 @@ class MapPicture(SVGPicture):
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        with Task("The picture was not drawn"):
+        with Task("The picture was not drawn"), drawn_on(self.theme):
             panels = arranged(self.scenes)
             shown = zip(self.maps, self.places, self.scenes, panels, self.numbers, strict=True)
             body = "".join(panel_svg(*each, self.labels) for each in shown)
@@ -251,7 +252,7 @@ def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: in
     """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
     return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame, labels)}"
             f'<text x="{panel.x}" y="{panel.y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
-            f'fill="{QUIET}">{number}</text>')
+            f'fill="{theme().quiet}">{number}</text>')
 
 
 def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
@@ -259,8 +260,13 @@ def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
     shapes = []
     for corners, kind in zip(cells, cells.states.tolist(), strict=True):
         points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
-        shapes.append(f'<polygon points="{points}" fill="{FILLS[kind] if kind < len(FILLS) else REST}"/>')
+        shapes.append(f'<polygon points="{points}" fill="{cell_colour(kind)}"/>')
     return "".join(shapes)
+
+
+def cell_colour(kind: int) -> str:
+    """The colour of the cells of a kind."""
+    return tinted(*FILLS[kind]) if kind < len(FILLS) else tinted(theme().quiet, REST)
 
 
 def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = True) -> str:
@@ -275,10 +281,10 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = Tru
             arrows.append(_wall_arrow(x, y, to_x, to_y, length))
         if labelled and length > LEAST_LABELLED * 10:
             labels.append(_wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
-    return (f'<path d="{"".join(strokes)}" fill="none" stroke="{INK}" stroke-width="16" stroke-linecap="round"/>'
-            f'<path d="{"".join(arrows)}" fill="{INK}"/>'
-            f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{INK}" stroke="{PAPER}" '
-            f'stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
+    return (f'<path d="{"".join(strokes)}" fill="none" stroke="{theme().ink}" stroke-width="16" stroke-linecap="round"/>'
+            f'<path d="{"".join(arrows)}" fill="{theme().ink}"/>'
+            f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{theme().ink}" '
+            f'stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
 
 
 def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:

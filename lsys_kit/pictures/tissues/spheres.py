@@ -24,9 +24,9 @@ from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.rendering.view import View, axes, view_from
-from lsys_kit.pictures.style.palette import INK, QUIET
+from lsys_kit.pictures.style.themes import drawn_on, theme
 from lsys_kit.pictures.svg import background, described, document, resized
-from lsys_kit.pictures.tissues.maps import CAPTION, FILLS, GAP, MOST_MAPS, NUMBER, REST, STEPS, WIDTH, MapPicture, forces_of
+from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, STEPS, WIDTH, MapPicture, cell_colour, forces_of
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -68,7 +68,7 @@ class SpherePicture(MapPicture):
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        with Task("The picture was not drawn"):
+        with Task("The picture was not drawn"), drawn_on(self.theme):
             return self._side_by_side(range(len(self.views)))
 
     def film_images(self) -> Sequence[Image]:
@@ -139,23 +139,19 @@ def _around_cells(found: Map, view: SphereView) -> Iterator[tuple[Floats, int]]:
             yield around, kind
 
 
-def _fill(kind: int) -> str:
-    return FILLS[kind] if kind < len(FILLS) else REST
-
-
 def _sphere_svg(found: Map, view: SphereView, x: float, y: float, radius: float, step: int) -> str:
     """A sphere: its cells, its walls, its shade, and the number of the step below."""
     cells = []
     for around, kind in _around_cells(found, view):
         outline = "".join(_closed(row, x, y, radius) for row in _seen_outlines(around))
-        cells.append(f'<path d="{outline}" fill="{_fill(kind)}" fill-rule="evenodd"/>')
+        cells.append(f'<path d="{outline}" fill="{cell_colour(kind)}" fill-rule="evenodd"/>')
     walls = "".join(_visible(each, x, y, radius) for each in view.arcs)
     centre = f'cx="{round(10 * x)}" cy="{round(10 * y)}" r="{round(10 * radius)}"'
-    return (f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{INK}" '
+    return (f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{theme().ink}" '
             f'stroke-width="14" stroke-linecap="round" stroke-linejoin="round"/>'
-            f'<circle {centre} fill="none" stroke="{INK}" stroke-width="14"/>'
+            f'<circle {centre} fill="none" stroke="{theme().ink}" stroke-width="14"/>'
             f'<text x="{round(10 * x)}" y="{round(10 * (y + radius + NUMBER + 8))}" font-size="{NUMBER * 10}" '
-            f'text-anchor="middle" font-family="sans-serif" fill="{QUIET}">{step}</text>')
+            f'text-anchor="middle" font-family="sans-serif" fill="{theme().quiet}">{step}</text>')
 
 
 def _seen_outlines(around: Floats) -> list[Floats]:

@@ -11,6 +11,7 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.geometry.filament import shapes_of
+from lsys_kit.geometry.natural_colours import has_natural_colours
 from lsys_kit.geometry.turtle.commands import initial_colour, initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
@@ -92,7 +93,7 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
     dialect = TURTLE_DIALECTS[system.turtle]
     named = {surface for row in calls for *_, surface in row if surface}
     return {"side": dialect.left, "length": initial_step(system), "width": dialect.width,
-            "colour": initial_colour(system), "natural": system.colours == "natural", "heading": float(system.heading),
+            "colour": initial_colour(system), "natural": has_natural_colours(system), "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"), "calls": calls,
             "surfaces": {name: [[*map(list, face)] for face in surfaces()[name].faces] for name in sorted(named)},
             "colours": [*CHOSEN],

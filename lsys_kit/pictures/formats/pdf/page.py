@@ -171,7 +171,8 @@ class _Writer:
     def _raster(self, shape: Raster) -> Iterator[str]:
         from PIL import Image
 
-        image = Image.open(io.BytesIO(shape.png)).convert("RGB")
+        seen = Image.open(io.BytesIO(shape.png)).convert("RGBA")
+        image = Image.alpha_composite(Image.new("RGBA", seen.size, "white"), seen).convert("RGB")
         number = self._objects.stream(image.tobytes(), {
             "Type": "/XObject", "Subtype": "/Image", "Width": image.width, "Height": image.height, "ColorSpace": "/DeviceRGB",
             "BitsPerComponent": 8})

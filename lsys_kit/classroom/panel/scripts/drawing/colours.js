@@ -33,12 +33,13 @@ export function contrast(one, other) {
   return (more + 0.05) / (less + 0.05);
 }
 
-// The shade of a colour in which a line can be seen on the theme's paper: no lighter or darker than needed.
+// The colour of a line of a colour on the theme's paper: the one that the theme has for it, no lighter or darker than needed.
 export function lineColour(colour, theme) {
   const key = colour + theme.paper;
   if (!known.has(key)) {
-    let strength = 1, shade = colour;
-    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(colour, theme.ink, (strength -= 0.04));
+    const own = theme.lines?.[colour.toLowerCase()] ?? colour;
+    let strength = 1, shade = own;
+    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(own, theme.ink, (strength -= 0.04));
     known.set(key, shade);
   }
   return known.get(key);
@@ -53,9 +54,9 @@ const LIGHT = { ink: "#22303c", quiet: "#5b6875", paper: "#ffffff", mark: "#fff2
 
 // The theme of an element, from the variables of its style; the light one while it is not in the page yet.
 export function themeOf(element) {
-  const styles = getComputedStyle(element), read = (name) => styles.getPropertyValue(`--lsys-${name}`).trim() || LIGHT[name];
+  const styles = getComputedStyle(element), read = (name) => styles.getPropertyValue(`--lsys-${name}`).trim() || LIGHT[name] || "";
   return {
     ink: read("ink"), quiet: read("quiet"), paper: read("paper"), mark: read("mark"), markEdge: read("mark-edge"),
-    lit: read("lit"), dark: luminance(read("paper")) < 0.2,
+    lit: read("lit"), lines: Object.fromEntries(read("lines").match(/#\w{6} #\w{6}/g)?.map((pair) => pair.split(" ")) ?? []), dark: luminance(read("paper")) < 0.2,
   };
 }

@@ -16,15 +16,13 @@ const HAZE = 0.5; // the part of paper in what is farthest
 const HIGHLIGHT = [0.6 * TO_LIGHT[0], 0.6 * TO_LIGHT[1]], REACH = 1.6; // where a sphere of radius 1 is brightest, and how far from there darkest
 const EDGE_ON = 1e-9; // how far a unit normal points away by rounding alone, where a surface is seen from its edge
 const SPHERE = [[0, 15], [0.45, OWN], [1, 2]]; // how bright it is at some parts of that way
-const LIGHTENED = 0.7; // how much of a colour is left on dark paper, where thin and far strokes would be lost else
 
 // The shades of a palette on the paper, each mixed once: of a colour, as near as from 0 to 1 and as bright as some steps.
 export function shades(palette, theme) {
   const known = new Map(), lines = palette.map((colour) => lineColour(colour, theme));
-  const line = (colour) => (theme.dark ? mixed(lines[colour], theme.ink, LIGHTENED) : lines[colour]);
   return (colour, near = 1, bright = OWN) => {
     const haze = Math.round(near * STEPS), key = (colour * (STEPS + 1) + haze) * (STEPS + 1) + bright;
-    if (!known.has(key)) known.set(key, mixed(lit(line(colour), bright), theme.paper, 1 - HAZE * (1 - haze / STEPS)));
+    if (!known.has(key)) known.set(key, mixed(lit(lines[colour], bright), theme.paper, 1 - HAZE * (1 - haze / STEPS)));
     return known.get(key);
   };
 }

@@ -4,7 +4,7 @@ import { mixed } from "./colours.js";
 import { line, outline, surround } from "./outlines.js";
 
 const STRAIGHT = Math.PI / 30, SLIVER = 0.1; // of arcs along the rim: the greatest turn of a piece, and what they may enclose
-const COLOURS = 6, PALE = 0.3, STRONG = 0.6, REST = 0.13; // of cells: how many, in two strengths; and of all further kinds
+const COLOURS = 6, PALE = 0.45, STRONG = 0.85, REST = 0.13; // of cells: how many, in two strengths; and of all further kinds
 const DIM = 0.25; // how much of a cell's colour is left where others are lit
 const GREY = "#5b6875", PAPER = "#ffffff", DIMMER = "#d8dee4"; // what colours are mixed with, and on dark paper
 const WALL = 1.4, MARKED = 5; // pixels

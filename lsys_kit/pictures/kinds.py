@@ -1,0 +1,62 @@
+"""Kinds of pictures: which kind something is drawn as, and which of its symbols can be coloured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from lsys_kit.derivation.cellworks.development import CellworkDevelopment
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.maps.development import Development
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.options import CELLWORK, DRAWING, FILAMENT, LINEAGE, MAP, SPHERE, STAGES, STEPS, Symbols
+from lsys_kit.pictures.style.labels import polar_symbols
+from lsys_kit.pictures.tissues.cellworks import labels_of_walls
+
+
+def kind_of(what: object, choices: Mapping[str, Any]) -> str:
+    """The kind of picture that is drawn of something."""
+    if isinstance(what, MapSystem | Development):
+        return SPHERE if (what if isinstance(what, MapSystem) else what.system).sphere else MAP
+    if isinstance(what, LSystem | Derivation | Word):
+        if drawing_mode(system_of(what)) is DrawingMode.FILAMENT:
+            return FILAMENT
+        several = any(isinstance(choices.get(name), Sequence) and len(choices[name]) for name in ("steps", "seeds"))
+        return STEPS if several else DRAWING
+    kinds = {Stages: STAGES, Lineage: LINEAGE, CellworkSystem: CELLWORK, CellworkDevelopment: CELLWORK}
+    return kinds.get(type(what), DRAWING)
+
+
+def coloured_symbols(what: object) -> Symbols:
+    """The symbols in something whose colours can be chosen; both polarities of a cell are chosen by its letter."""
+    if isinstance(what, CellworkSystem | CellworkDevelopment):
+        system = what if isinstance(what, CellworkSystem) else what.system
+        return {label: (label,) for label in labels_of_walls(system)}
+    if isinstance(what, LSystem | Derivation | Word):
+        return named_symbols(system_of(what))
+    if isinstance(what, Stages):
+        return named_symbols(what.system)
+    return named_symbols(what.states.system) if isinstance(what, Lineage) else {}
+
+
+def named_symbols(system: LSystem) -> Symbols:
+    """The symbols of a system by their names.
+
+    >>> from lsys_kit.notation.read import read
+    >>> named_symbols(read("axiom: ar b\\nar -> al"))
+    {'a': ('ar', 'al'), 'ar': ('ar',), 'b': ('b',), 'al': ('al',)}
+    """
+    found: dict[str, tuple[str, ...]] = {}
+    for symbol, (letter, _) in polar_symbols(system).items():
+        found[letter] = (*found.get(letter, ()), symbol)
+    return found | {symbol: (symbol,) for symbol in symbols(system)}
+
+
+def system_of(what: LSystem | Derivation | Word) -> LSystem:
+    return what if isinstance(what, LSystem) else what.states.system

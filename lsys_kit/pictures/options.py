@@ -1,0 +1,161 @@
+"""Options: how what is drawn looks, and which of these can be chosen for which kind of picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
+
+from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.derive import Derivation
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.scene import Scene
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.pictures.rendering.chosen_looks import with_colours_of_symbols, with_widths
+from lsys_kit.pictures.style.colour_values import colour_from
+from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
+
+Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
+"""Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
+OPTIONS = ("labels", "colours", "widths", "legend", "background")
+"""All of them."""
+DRAWING, STEPS, FILAMENT = "the drawing of a turtle", "drawings side by side", "a filament"
+STAGES, LINEAGE = "a stage diagram", "a lineage"
+MAP, SPHERE, CELLWORK = "a map", "a map on a sphere", "a cellwork"
+KINDS: Mapping[str, tuple[str, ...]] = {
+    DRAWING: ("colours", "widths", "legend", "background"), STEPS: OPTIONS,
+    FILAMENT: ("labels", "colours", "legend", "background"),
+    STAGES: ("labels", "colours", "background"), LINEAGE: ("labels", "colours", "legend", "background"),
+    MAP: ("labels", "background"), SPHERE: ("background",), CELLWORK: ("colours", "legend", "background")}
+"""The kinds of pictures, each with the options that it has."""
+COLOURS, WIDTHS = ("natural", "symbols"), ("order", "constant")
+"""What colours and widths can be, besides colours of single symbols and a factor."""
+LEAST_FACTOR, GREATEST_FACTOR = 0.1, 20.0
+
+
+@dataclass(frozen=True)
+class Options:
+    """How something is drawn.
+
+    Attributes
+    ----------
+    labels
+        Whether it has labels; None where that is left to the kind of picture.
+    colours
+        Whose colours strokes have: "natural" ones, or those of "symbols"; "" for those of the system.
+    widths
+        Where the widths of strokes come from: their "order", or they are "constant"; "" as the turtle has set them.
+    legend
+        Whether there is a legend; None where that is left to the kind of picture.
+    theme
+        The colours of the picture, and how bold its strokes are.
+    """
+
+    labels: bool | None = None
+    colours: str = ""
+    widths: str = ""
+    legend: bool | None = None
+    theme: Theme = LIGHT
+
+
+def options_from(given: Mapping[str, object], kind: str, symbols: Symbols) -> Options:
+    """The options that a person gives for a kind of picture, whose symbols may be given colours.
+
+    >>> found = options_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
+    >>> found.theme.symbols, found.theme.dark
+    ((('A', '#000080'),), True)
+    >>> options_from({"widths": 2}, DRAWING, {}).theme.boldness
+    2.0
+
+    Raises
+    ------
+    ModelValueError
+        An option means nothing for this kind of picture, or its value is none that there is.
+    """
+    found = Options()
+    for name in sorted(given, key=_after_background):
+        if name not in KINDS[kind]:
+            raise ModelValueError(f'"{name}" means nothing for {kind}', hint=f"What can be chosen is {_listed(KINDS[kind])}.")
+        found = _SETTERS[name](found, given[name], kind, symbols)
+    return found
+
+
+def _after_background(name: str) -> bool:
+    """A background comes first, because the other choices are kept in its theme."""
+    return name != "background"
+
+
+def _with_labels(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+    require(value, bool, 'True or False for "labels"')
+    return replace(found, labels=value)  # type: ignore[arg-type]
+
+
+def _with_legend(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+    require(value, bool, 'True or False for "legend"')
+    return replace(found, legend=value)  # type: ignore[arg-type]
+
+
+def _with_background(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+    return replace(found, theme=theme_from(value))
+
+
+def _with_colours(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+    if isinstance(value, str) and value in COLOURS:
+        if value == "natural" and kind not in (DRAWING, STEPS):
+            raise ModelValueError('Only strokes of a turtle have natural colours, and there are none here',
+                                  hint='Give colours="symbols", or colours of single symbols.')
+        return replace(found, colours=value)
+    if not isinstance(value, Mapping):
+        raise ModelValueError(f'"colours" are "natural", "symbols" or colours of symbols, not {shown(value)}',
+                              hint='For example colours={"A": "seagreen"}.')
+    chosen = tuple((each, colour_from(colour)) for name, colour in value.items() for each in _called(name, symbols))
+    return replace(found, theme=replace(found.theme, symbols=chosen))
+
+
+def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
+    """The symbols that a name stands for."""
+    if not isinstance(symbol, str) or symbol not in symbols:
+        name = quotable(symbol) if isinstance(symbol, str) else type(symbol).__name__
+        hint = suggestion(name, symbols) or f"Symbols are: {', '.join(sorted(symbols))}."
+        raise ModelNameError(f'There is no symbol "{name}" here that could have a colour', hint=hint)
+    return symbols[symbol]
+
+
+def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+    if isinstance(value, str) and value in WIDTHS:
+        return replace(found, widths=value)
+    try:
+        factor = real_from(value, "widths")
+    except LSystemError as mistake:
+        raise ModelValueError(f'"widths" are "order", "constant" or a factor, not {shown(value)}') from mistake
+    if not LEAST_FACTOR <= factor <= GREATEST_FACTOR:
+        raise ModelValueError(f'A factor of "widths" is {LEAST_FACTOR:g} to {GREATEST_FACTOR:g}, not {factor:g}')
+    return replace(found, theme=replace(found.theme, boldness=factor))
+
+
+_SETTERS: Mapping[str, Callable[[Options, object, str, Symbols], Options]] = {
+    "labels": _with_labels, "colours": _with_colours, "widths": _with_widths, "legend": _with_legend,
+    "background": _with_background}
+
+
+def seen_as(what: Derivation | Word, angle: float, options: Options) -> Scene:
+    """The scene of a word with the colours and widths that were chosen."""
+    scene, chosen = scene_of(what, angle, options.colours), dict(options.theme.symbols)
+    if options.colours == "symbols":
+        scene = with_colours_of_symbols(scene)
+    elif chosen:
+        states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
+        scene = with_colours_of_symbols(scene, states)
+    return with_widths(scene, options.widths, options.theme.boldness)
+
+
+def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The options among some choices that are given, and the other choices."""
+    given = {name: value for name, value in choices.items() if name in OPTIONS and value is not None}
+    return given, {name: value for name, value in choices.items() if name not in OPTIONS}
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return f"{', '.join(names[:-1])} or {names[-1]}" if len(names) > 1 else f"{names[0]} alone"
