@@ -121,8 +121,8 @@ def _shown(what: Any, n: int | None, side: View | None, size: object, choices: M
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
         return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
     if isinstance(what, MapSystem | Development | Lineage):
-        seen = {} if side is None else {"view": side}
-        return _filmed(draw(what, n, size=size, **choices, **seen, **given))
+        seen: dict[str, Any] = {} if side is None else {"view": side}
+        return _filmed(draw(what, n, size=size, **(seen | {**choices, **given})))
     if isinstance(what, Stages):
         return _net_film(what, n, size, choices, given)
     return _pictures_film(what, size)

@@ -168,7 +168,7 @@ def positions_in(net: Stages) -> dict[str, Point]:
 
 def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
     """How wide a diagram may be, in pixels, for its smallest text to be legible on a page."""
-    smallest = SMALL if texts.terms or texts.notes else LABEL_SIZE
+    smallest: float = SMALL if texts.terms or texts.notes else LABEL_SIZE
     if any(place_parts(net.places[place], net.system)[1] for place in places):
         smallest = min(smallest, SUBSCRIPT * LABEL_SIZE)
     return PAGE * smallest / LEGIBLE
