@@ -101,7 +101,7 @@ def held_by(model: dict[str, Any], fixed: dict[str, str], asked: dict[str, str])
 
 @pytest.mark.parametrize("name", LESSONS)
 def test_every_slider_moves_and_reaches_what_the_tables_of_the_lesson_ask_for(site: Path, name: str) -> None:
-    tables = declared(Path(name).stem).tables
+    tables, offered, moved = declared(Path(name).stem).tables, set(), set()
     for panel in panels_of(site / name):
         model, fixed, said = panel["model"], panel["fixed"], panel["model"]["fixed"]
         whole = read(panel["system"]["text"], panel["system"]["notation"])
@@ -110,8 +110,13 @@ def test_every_slider_moves_and_reaches_what_the_tables_of_the_lesson_ask_for(si
         assert all(f"{constant} = " in said for constant in sliders - moving)
         chance = is_by_chance(whole)
         assert model["chance"] or not chance or "seed = " in said
-        for row in asked_settings(tables, {*sliders, *(["seed"] if chance else [])}):
+        possible = {*sliders, *(["seed"] if chance else [])}
+        offered |= sliders
+        moved |= moving
+        for row in asked_settings(tables, possible - {*model["without"]}):
             assert held_by(model, fixed, {each: number_text(value) for each, value in row.items()}), (row, said)
+    named = ([word for word in re.findall(r"\w+", table.columns[0]) if word in offered] for table in tables)
+    assert {words[0] for words in named if words} <= moved, "no panel of the lesson moves what its tables ask for"
 
 
 def is_by_chance(of: LSystem) -> bool:

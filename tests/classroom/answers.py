@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from lsys_kit import derive, exercises, read
+from lsys_kit import derive, exercises, read, read_map
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import WrongAnswer, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
@@ -73,6 +73,11 @@ def _system(exercise: Exercise, text: str) -> list[object]:
     return [text, f"\n{text}\n\n", text.replace("->", "→"), whole, f"/* mine */\n{text}"]
 
 
+def _map(exercise: Exercise, text: str) -> list[object]:
+    whole = f"{exercise.given}\n{text}"
+    return [text, f"\n{text}\n\n", text.replace("->", "→"), read_map(whole), whole]
+
+
 def _expression(exercise: Exercise, text: str) -> list[object]:
     exact = to_sympy(read_expression(text))
     return [text, f"N = {text}", text.replace("^", "**"), f"${text}$", exact]
@@ -94,7 +99,7 @@ def _net(exercise: Exercise, text: str) -> list[object]:
 
 _FORMS: dict[str, Any] = {
     "word": _word, "words": _words, "number": _number, "table": _table, "choice": _choice, "symbol": _symbol, "line": _line,
-    "system": _system, "expression": _expression, "drawing": _drawing, "net": _net}
+    "system": _system, "map": _map, "expression": _expression, "drawing": _drawing, "net": _net}
 
 
 def as_typed(exercise: Exercise, answer: Any) -> object:
@@ -103,6 +108,8 @@ def as_typed(exercise: Exercise, answer: Any) -> object:
         if exercise.given and answer.front is not answer.behind:
             return "\n".join(map(str, answer.own.productions))
         return answer.own
+    if exercise.kind == "map":
+        return "\n".join(map(str, answer.own))
     if exercise.kind == "drawing":
         return answer.derivation
     if exercise.kind == "symbol":

@@ -197,7 +197,7 @@ def test_the_examples_of_the_guide_are_read(tmp_path, example):
 
 
 def test_the_guide_has_an_example_of_each_form():
-    assert len(EXAMPLES) == 9
+    assert len(EXAMPLES) == 10
 
 
 @pytest.mark.slow

@@ -74,8 +74,8 @@ class Exercise:
     options
         Of a choice.
     given, probes, settings, names, drawn
-        Of a system: the part that the question gives; further axioms and constants for which it must be right; how its symbols
-        may be renamed ("new", "any" or "fixed"); whether angle, heading and length count.
+        Of a system, or the first of a map: the part that the question gives; further axioms and constants for which it must be
+        right; how its symbols may be renamed ("new", "any" or "fixed"); whether angle, heading and length count.
     values
         Of an expression: its names, each with the values for which it is asked.
     """

@@ -20,6 +20,7 @@ from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.errors import LSystemError
+from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read
 
 MakeProblem: TypeAlias = Callable[..., Problem]
@@ -115,7 +116,7 @@ def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
     """The keys whose texts make no sense, with the errors."""
     readers: dict[str, Callable[[], object]] = {
         "system": lambda: exercise.system and asked_system(exercise),
-        "given": lambda: exercise.given and read(exercise.given),
+        "given": lambda: exercise.given and (read_map if exercise.kind == "map" else read)(exercise.given),
         "solution": lambda: judged(exercise, exercise.solution),
         "steps": lambda: what_is_asked(exercise) and answer_by(exercise, right_history(exercise)),
     }

@@ -10,6 +10,7 @@ from lsys_kit.classroom.exercises.kinds.choices import CHOICE, LINE, SYMBOL
 from lsys_kit.classroom.exercises.kinds.drawings import DRAWING
 from lsys_kit.classroom.exercises.kinds.expressions import EXPRESSION
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind
+from lsys_kit.classroom.exercises.kinds.maps import MAP
 from lsys_kit.classroom.exercises.kinds.nets import NET
 from lsys_kit.classroom.exercises.kinds.numbers import NUMBER, TABLE
 from lsys_kit.classroom.exercises.kinds.systems import SYSTEM
@@ -24,6 +25,7 @@ ANSWER_KINDS: Mapping[str, AnswerKind] = {
     "symbol": SYMBOL,
     "line": LINE,
     "system": SYSTEM,
+    "map": MAP,
     "expression": EXPRESSION,
     "drawing": DRAWING,
     "net": NET,

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 
 from lsys_kit.classroom.exercises.misconceptions.misconception import Misconception as Misconception
 from lsys_kit.classroom.exercises.misconceptions.of_growth import OF_GROWTH
+from lsys_kit.classroom.exercises.misconceptions.of_maps import OF_MAPS
 from lsys_kit.classroom.exercises.misconceptions.of_rewriting import OF_REWRITING
 
-MISCONCEPTIONS: Mapping[str, Misconception] = {each.name: each for each in (*OF_REWRITING, *OF_GROWTH)}
+MISCONCEPTIONS: Mapping[str, Misconception] = {each.name: each for each in (*OF_REWRITING, *OF_GROWTH, *OF_MAPS)}
 """The misconceptions, by their names."""
