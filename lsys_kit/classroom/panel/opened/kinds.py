@@ -35,4 +35,6 @@ def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
     """
     if isinstance(system, CellworkSystem) or (isinstance(system, MapSystem) and system.sphere):
         return OpenedTissue(system, title, changes, without)
-    return (OpenedMap if isinstance(system, MapSystem) else OpenedSystem)(system, title, changes, without)
+    if isinstance(system, MapSystem):
+        return OpenedMap(system, title, changes, without)
+    return OpenedSystem(system, title, changes, without)
