@@ -122,7 +122,8 @@ def _shown(what: Any, n: int | None, side: View | None, size: object, choices: M
         return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
     if isinstance(what, MapSystem | Development | Lineage):
         seen: dict[str, Any] = {} if side is None else {"view": side}
-        return _filmed(draw(what, n, size=size, **(seen | {**choices, **given})))
+        drawn: Any = what
+        return _filmed(draw(drawn, n, size=size, **(seen | {**choices, **given})))
     if isinstance(what, Stages):
         return _net_film(what, n, size, choices, given)
     return _pictures_film(what, size)
