@@ -18,7 +18,6 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.files import marked_gif, marked_mp4, marked_png
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import film_bundle
-from lsys_kit.pictures.style.palette import PAPER
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -131,16 +130,16 @@ def ffmpeg() -> str:
 def mp4_of(images: Sequence[Image], seconds: float) -> bytes:
     """Pictures of the same size as MP4, each shown so long; the same on the same machine.
 
-    H.264 takes even numbers of pixels alone: a row or a column of white ones is added.
+    H.264 takes even numbers of pixels alone: a row or a column of those in the left upper corner is added.
     """
-    width, height = images[0].size
+    (width, height), ground = images[0].size, images[0].convert("RGB").crop((0, 0, 1, 1)).tobytes().hex()
     pace = Fraction(seconds).limit_denominator(1_000)
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "film.mp4"
         command = [ffmpeg(), "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgb24",
                    "-video_size", f"{width}x{height}", "-framerate", f"{pace.denominator}/{pace.numerator}",
                    "-i", str(_raw(images, Path(folder))),
-                   "-vf", f"pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x{PAPER[1:]}", "-r", f"{max(RATE, 1 / seconds):g}",
+                   "-vf", f"pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x{ground}", "-r", f"{max(RATE, 1 / seconds):g}",
                    "-c:v", "libx264", "-preset", "medium", "-crf", str(QUALITY), "-pix_fmt", "yuv420p", "-threads", "1",
                    "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags", "+faststart", str(target)]
         try:
