@@ -1,11 +1,8 @@
-"""The tests themselves: they are collected in one order, and no law depends on how fast the machine is."""
+"""The tests themselves: no law depends on how fast the machine is."""
 
 from __future__ import annotations
 
 import ast
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -16,19 +13,6 @@ from lsys_kit.budget import Limits, current
 from tests.plugin import AN_HOUR
 
 ROOT = Path(__file__).parent.parent
-
-
-def collected(seed: str) -> list[str]:
-    """The tests in the order in which a process with a seed of hashes collects them."""
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--collect-only", "tests"]
-    done = subprocess.run(command, cwd=ROOT, env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True,
-                          timeout=600, check=True)
-    return [line for line in done.stdout.splitlines() if "::" in line]
-
-
-@pytest.mark.slow
-def test_the_order_of_the_tests_does_not_depend_on_hashes() -> None:
-    assert collected("1") == collected("2") != []
 
 
 @given(st.none())

@@ -97,7 +97,7 @@ def test_a_cellwork_is_seen_from_all_sides_as_the_kit_draws_it(page, cells):
 
 
 @pytest.mark.slow
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(system=cellwork_systems(), data=st.data())
 def test_random_cellworks_are_seen_so_too(page, system, data):
     try:

@@ -19,8 +19,9 @@ from typing import Any
 from tests.fuzzing.acts import Calls, acts, map_acts
 from tests.fuzzing.models import BOMBS, MAPS
 
-SLACK = 1
-"""So many seconds of the processor a call may take beyond its limit: operations on whole arrays are not divided."""
+SLACK = 2
+"""So many seconds of the processor a call may take beyond its limit: operations on whole arrays are not divided, and a second
+of a processor that others share does less."""
 ROOM = 300
 """So many megabytes it may take beyond its limit."""
 

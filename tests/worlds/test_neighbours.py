@@ -7,7 +7,7 @@ import random
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import derive, read
@@ -76,6 +76,7 @@ def test_the_answers_are_those_of_a_loop_over_all_shoots(function: int, count: i
 
 
 @pytest.mark.slow
+@settings(max_examples=30)
 @given(st.integers(1, 150), st.integers(0, 99), st.booleans(), st.sampled_from(list(FUNCTIONS)))
 def test_the_answers_are_those_of_a_loop_in_any_scene(count: int, seed: int, flat: bool, function: int) -> None:
     sight = observe(scattered(count, seed, flat))
