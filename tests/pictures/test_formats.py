@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import re
+import sys
+import types
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -237,18 +239,21 @@ def test_an_mp4_is_the_same_every_time() -> None:
     assert animate(GROWING, 2, size=50).mp4 == animate(GROWING, 2, size=50).mp4
 
 
-def test_without_ffmpeg_one_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "imageio_ffmpeg", None)
-    monkeypatch.setattr("shutil.which", lambda _: None)
+def no_program() -> str:
+    raise RuntimeError
+
+
+@pytest.mark.parametrize("library", [None, types.SimpleNamespace(get_ffmpeg_exe=no_program, write_frames=None)])
+def test_without_ffmpeg_one_is_told_what_to_install(library: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", library)
     with pytest.raises(LSystemError, match="written by the program ffmpeg, which is not installed") as told:
         animate(GROWING, 1).save(tmp_path / "a.mp4")
     assert "pip install 'lsys-kit[film]'" in str(told.value)
     assert not [*tmp_path.iterdir()]
 
 
-def test_what_ffmpeg_says_is_passed_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "imageio_ffmpeg", None)
-    monkeypatch.setattr("shutil.which", lambda _: "/bin/false")
+def test_where_ffmpeg_fails_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", "/bin/false")
     with pytest.raises(LSystemError, match="ffmpeg did not write the film"):
         _ = animate(GROWING, 1).mp4
 

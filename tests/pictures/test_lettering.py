@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw, ImageFont
 
-from lsys_kit.pictures.formats.sheet import Sheet, corners_of, label_width
+from lsys_kit.pictures.formats.sheet import Sheet, label_width
 from lsys_kit.pictures.formats.vector.lettering import advance, glyph
-from lsys_kit.pictures.nets.parts import rounded_path
 from lsys_kit.pictures.style.palette import INK
 
 SIZE = 400
@@ -58,16 +57,8 @@ def test_a_label_ends_where_its_width_says() -> None:
 
 def test_a_part_of_a_sheet_has_its_own_unit() -> None:
     one, other = Sheet(100, 100), Sheet(100, 100)
-    one.part(20, 10, 2).circle(10, 15, 5, INK)
-    one.part(20, 10, 2).line([(0, 0), (20, 0)], INK, 2)
-    other.circle(40, 40, 10, INK)
-    other.line([(20, 10), (60, 10)], INK, 4)
+    one.part(20, 10, 2).box(10, 15, 5, 6, INK)
+    one.part(20, 10, 2).text(1, 30, "ab", 7)
+    other.box(40, 40, 10, 12, INK)
+    other.text(22, 70, "ab", 14)
     assert one.png == other.png != Sheet(100, 100).png
-
-
-def test_a_rounded_path_is_read_as_it_was_written() -> None:
-    corners = corners_of(rounded_path([(0, 0), (20, 0), (20, 40)]))
-    assert corners[0] == (0, 0)
-    assert corners[1] == (10, 0)
-    assert corners[-2:] == [(20, 10), (20, 40)]
-    assert all(x <= 20 and y >= 0 for x, y in corners)

@@ -203,14 +203,14 @@ def test_a_rewritten_turn_is_a_stage() -> None:
 
 
 def test_the_description_says_in_words_what_is_seen() -> None:
-    picture = drawn_stages(stages(system("P2")), (1, 0, 1, 2, 0), marked=0)
+    picture = drawn_stages(stages(system("P2")), (1, 0, 1, 2, 0), marked=(0,))
     assert 'aria-label="Stage diagram: 5 stages S, L, A, B, C; tokens 0, 1, 0, 1, 2; L is marked"' in picture
     assert 'role="img"' in picture
 
 
 def test_a_marked_stage_is_not_told_by_colour_alone() -> None:
     net = stages(system("P2"))
-    plain, marked = drawn_stages(net), drawn_stages(net, marked=3)
+    plain, marked = drawn_stages(net), drawn_stages(net, marked=(3,))
     assert MARK not in plain
     assert marked.count(MARK) == 1
     assert marked.count("<circle") == plain.count("<circle") + 2
@@ -227,7 +227,7 @@ def test_hostile_names_are_escaped(name: str) -> None:
     from lsys_kit.notation.model.system import LSystem, Production
 
     hostile = LSystem((Pattern(name),), (Production((Pattern(name),), (Pattern(name), Pattern(name + "2"))),))
-    root = svg_of(stages(hostile), positions=True, marked=0)
+    root = svg_of(stages(hostile), positions=True, marked=(0,))
     tags = {element.tag.removeprefix(SVG) for element in root.iter()}
     assert tags <= {"svg", "g", "rect", "circle", "path", "text", "tspan", "title"}
     assert not any(key.startswith("on") for element in root.iter() for key in element.attrib)

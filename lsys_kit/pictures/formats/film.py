@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import shutil
-import subprocess
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -13,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.budget import Task, check_budget
+from lsys_kit.budget import Task, counted
 from lsys_kit.errors import LSystemError
 from lsys_kit.files import marked_gif, marked_mp4, marked_png
 from lsys_kit.pictures.formats.files import save_as
@@ -26,10 +24,10 @@ SECONDS, HELD = 0.6, 4
 """The duration of each step in seconds, and the factor by which the last is shown longer."""
 RATE = 25
 """An MP4 film has so many pictures a second at least, many of them the same, because players expect about as many."""
-QUALITY = 16
-"""How much H.264 may lose, from 0 for nothing to 51."""
-WAIT = 120
-"""So many seconds ffmpeg may take."""
+SETTINGS = ("-preset", "medium", "-crf", "16", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact",
+            "-movflags", "+faststart")
+"""What ffmpeg is told besides: to lose hardly anything, to write the same every time, and to let a page play the beginning
+while the rest is loaded."""
 
 
 @dataclass(frozen=True)
@@ -107,57 +105,41 @@ class Film:
         return self.text
 
 
-def ffmpeg() -> str:
-    """The program ffmpeg: that of the library imageio-ffmpeg, else the machine's own.
+def mp4_of(images: Sequence[Image], seconds: float) -> bytes:
+    """Pictures of the same size as MP4, each shown so long; the same on the same machine.
 
     Raises
     ------
     LSystemError
-        There is none.
+        There is no ffmpeg, or it failed.
     """
     try:
-        from imageio_ffmpeg import get_ffmpeg_exe
-    except ImportError:
-        found = shutil.which("ffmpeg")
-    else:
-        found = str(get_ffmpeg_exe())
-    if found is None:
+        from imageio_ffmpeg import get_ffmpeg_exe, write_frames
+        get_ffmpeg_exe()
+    except (ImportError, RuntimeError):
         raise LSystemError("Films in .mp4 are written by the program ffmpeg, which is not installed",
-                           hint="Install it with: pip install 'lsys-kit[film]'; or take .gif or .apng.")
-    return found
-
-
-def mp4_of(images: Sequence[Image], seconds: float) -> bytes:
-    """Pictures of the same size as MP4, each shown so long; the same on the same machine.
-
-    H.264 takes even numbers of pixels alone: a row or a column of those in the left upper corner is added.
-    """
-    (width, height), ground = images[0].size, images[0].convert("RGB").crop((0, 0, 1, 1)).tobytes().hex()
-    pace = Fraction(seconds).limit_denominator(1_000)
+                           hint="Install it with: pip install 'lsys-kit[film]'; or take .gif or .apng.") from None
+    even = [_even(image) for image in images]
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "film.mp4"
-        command = [ffmpeg(), "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgb24",
-                   "-video_size", f"{width}x{height}", "-framerate", f"{pace.denominator}/{pace.numerator}",
-                   "-i", str(_raw(images, Path(folder))),
-                   "-vf", f"pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x{ground}", "-r", f"{max(RATE, 1 / seconds):g}",
-                   "-c:v", "libx264", "-preset", "medium", "-crf", str(QUALITY), "-pix_fmt", "yuv420p", "-threads", "1",
-                   "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags", "+faststart", str(target)]
+        writer = write_frames(str(target), even[0].size, fps=1 / Fraction(seconds).limit_denominator(1_000), codec="libx264",
+                              quality=None, macro_block_size=1, ffmpeg_log_level="fatal",
+                              output_params=[*SETTINGS, "-r", f"{max(RATE, 1 / seconds):g}"])
         try:
-            done = subprocess.run(command, capture_output=True, timeout=WAIT, check=False)  # noqa: S603, no text of a user's
-        except (OSError, subprocess.TimeoutExpired) as fault:
-            raise LSystemError(f"ffmpeg did not write the film: {fault}", hint="Take .gif or .apng.") from None
-        if done.returncode or not target.exists():
-            said = done.stderr.decode(errors="replace").strip().splitlines()
-            raise LSystemError(f"ffmpeg did not write the film: {said[-1] if said else 'it says nothing'}",
-                               hint="Take .gif or .apng.")
-        return target.read_bytes()
+            writer.send(None)
+            for image in counted(even, 1):
+                writer.send(image.tobytes())
+            writer.close()
+            return target.read_bytes()
+        except OSError:
+            raise LSystemError("ffmpeg did not write the film", hint="Take .gif or .apng.") from None
 
 
-def _raw(images: Sequence[Image], folder: Path) -> Path:
-    """A file with the pixels of pictures one after another."""
-    path = folder / "film.rgb"
-    with path.open("wb") as file:
-        for image in images:
-            check_budget()
-            file.write(image.convert("RGB").tobytes())
-    return path
+def _even(image: Image) -> Image:
+    """An image with even numbers of pixels across and down, as H.264 wants it: a row or a column of those in its corner may be added."""
+    from PIL import Image
+
+    paper = Image.new("RGB", (image.width + image.width % 2, image.height + image.height % 2),
+                      image.convert("RGB").getpixel((0, 0)))
+    paper.paste(image)
+    return paper

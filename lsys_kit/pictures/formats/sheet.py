@@ -1,4 +1,4 @@
-"""A sheet of white paper on which text, lines and shapes are put, as pixels that are the same on every machine.
+"""A sheet of white paper on which text, boxes and the shapes of pictures are put, as pixels that are the same on every machine.
 
 Everything is drawn at three times its size and then reduced, as in `raster`.
 """
@@ -7,13 +7,11 @@ from __future__ import annotations
 
 import copy
 import io
-import re
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Self, TypeAlias
 
 from lsys_kit.budget import check_bytes
 from lsys_kit.pictures.formats.raster import FINE
-from lsys_kit.pictures.formats.vector.lettering import advance, curve, glyph
+from lsys_kit.pictures.formats.vector.lettering import advance, glyph
 from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
@@ -25,7 +23,6 @@ PIXEL_BYTES = 3 * (FINE ** 2 + 1)
 """What a pixel takes while a sheet is painted and reduced."""
 SUBSCRIPT, LOWERED = 0.7, 0.21
 """The size of a subscript and how far it is lowered, to the size of the text."""
-_PATH_COMMAND = re.compile(r"([MLQZ])([^MLQZ]*)")
 
 
 class Sheet:
@@ -79,10 +76,6 @@ class Sheet:
             x += advance(letter, size)
         return x
 
-    def centred(self, x: float, y: float, text: str, size: float, colour: str = "") -> None:
-        """Write a text with its middle at a point of its baseline."""
-        self.text(x - advance(text, size) / 2, y, text, size, colour)
-
     def label(self, x: float, y: float, label: tuple[str, str, str], size: float, colour: str = "") -> None:
         """Write a label, given as letter, subscript and values, as mathematics is set."""
         letter, subscript, values = label
@@ -94,20 +87,6 @@ class Sheet:
         """A filled rectangle, perhaps with round corners."""
         (left, top), (right, bottom) = self._at(x, y), self._at(x + width, y + height)
         self._pen.rounded_rectangle((round(left), round(top), round(right) - 1, round(bottom) - 1), corner * self._unit, fill)
-
-    def circle(self, x: float, y: float, radius: float, fill: str | None, edge: str | None = None, width: float = 0) -> None:
-        """A circle, filled or empty; half of its edge lies outside the radius."""
-        reach = radius + width / 2
-        box = (*self._at(x - reach, y - reach), *self._at(x + reach, y + reach))
-        self._pen.ellipse(tuple(map(round, box)), fill, edge, max(1, round(width * self._unit)))
-
-    def line(self, corners: Sequence[Point], colour: str, width: float) -> None:
-        """A line through some points."""
-        self._pen.line([self._at(*corner) for corner in corners], colour, max(1, round(width * self._unit)), "curve")
-
-    def polygon(self, corners: Sequence[Point], fill: str) -> None:
-        """A filled polygon."""
-        self._pen.polygon([self._at(*corner) for corner in corners], fill)
 
     def picture(self, x: float, y: float, image: Image.Image) -> None:
         """A picture in its own pixels, above everything else."""
@@ -140,18 +119,3 @@ def label_width(label: tuple[str, str, str], size: float) -> float:
     """The width of a label, given as letter, subscript and values."""
     letter, subscript, values = label
     return advance(letter + values, size) + advance(subscript, SUBSCRIPT * size)
-
-
-def corners_of(path: str) -> list[Point]:
-    """The corners of a path of SVG that consists of lines and quadratic curves.
-
-    >>> corners = corners_of("M0.0 0.0L10.0 0.0Q20.0 0.0 20.0 20.0Z")
-    >>> corners[:2], corners[4], corners[-1]
-    ([(0.0, 0.0), (10.0, 0.0)], (17.5, 5.0), (20.0, 20.0))
-    """
-    corners: list[Point] = []
-    for command, written in _PATH_COMMAND.findall(path):
-        numbers = [float(number) for number in written.split()]
-        points = [*zip(numbers[::2], numbers[1::2], strict=True)]
-        corners += curve(corners[-1], *points) if command == "Q" else points
-    return corners

@@ -57,8 +57,8 @@ class Diagram:
     stages: tuple[str, ...]
 
 
-def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: int | None = None, positions: bool = False,
-                 steering: Collection[str] | None = None, labels: bool = True) -> str:
+def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: Collection[int | None] = (),
+                 positions: bool = False, steering: Collection[str] | None = None, labels: bool = True) -> str:
     """A stage diagram as SVG text.
 
     Parameters
@@ -68,7 +68,7 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     tokens
         The number of tokens in each place; by default none are drawn.
     marked
-        The number of the place that is highlighted.
+        The numbers of the places that are highlighted.
     positions
         Whether arcs are labelled with the positions of their modules in the successor, rather than with their number.
     steering
@@ -93,11 +93,11 @@ def drawn_stages(net: Stages, tokens: Sequence[int] | None = None, *, marked: in
     diagram = _diagram(net, positions, steering_of(net.system) if steering is None else frozenset(steering), theme(), labels)
     body, places = [], diagram.parts.places
     for part, stage in zip(places, diagram.stages, strict=True):
-        x, y, chosen = part.x, part.y, part.place == marked
+        x, y, chosen = part.x, part.y, part.place in marked
         body.append(f'<g class="stage" data-place="{part.place}">{_ring(x, y) if chosen else ""}{stage}'
                     f'{_edge(x, y) if chosen else ""}{"" if tokens is None else _tokens(x, y, tokens[part.place])}</g>')
     told = "" if tokens is None else "; tokens " + ", ".join(short(tokens[part.place]) for part in places)
-    told += "".join(f"; {part.name} is marked" for part in places if part.place == marked)
+    told += "".join(f"; {part.name} is marked" for part in places if part.place in marked)
     paper = "" if theme().transparent else f'<rect width="100%" height="100%" fill="{theme().ground}"/>'
     return f'{diagram.start}{escaped(told)}">{paper}{"".join(body)}{diagram.lines}</svg>'
 

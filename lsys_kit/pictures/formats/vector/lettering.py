@@ -138,17 +138,13 @@ def _curve(start: tuple[float, float], points: Any) -> list[tuple[float, float]]
 
     corners = []
     for control, end in decomposeQuadraticSegment(points):
-        corners += curve(start, control, end)
+        corners += _corners(start, control, end)
         start = end
     return corners
 
 
-def curve(start: tuple[float, float], control: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
-    """The corners of a quadratic curve behind its start.
-
-    >>> curve((0, 0), (3, 0), (3, 3))[2], curve((0, 0), (3, 0), (3, 3))[-1]
-    ((2.25, 0.75), (3.0, 3.0))
-    """
+def _corners(start: tuple[float, float], control: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
+    """The corners of a quadratic curve behind its start."""
     found = []
     for number in range(1, PIECES + 1):
         t = number / PIECES
