@@ -41,6 +41,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from PIL.Image import Image
 
+MOST_PAINTED = 2_000
+"""In a picture of pixels more cells than this are painted as pixels at once, which is faster."""
+
 
 @dataclass(frozen=True)
 class Picture(SVGPicture):
@@ -110,7 +113,7 @@ class Picture(SVGPicture):
 
     def _image(self, enlarged: float) -> Image:
         if len(self.scene.cells) or self.legend:
-            most = current().segments if len(self.scene.cells) else 0
+            most = MOST_PAINTED if len(self.scene.cells) else 0
             return painted(drawing_of(self._written(most, enlarged)), enlarged)
         return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
 
@@ -150,7 +153,7 @@ class Picture(SVGPicture):
     def film_images(self) -> Sequence[Image]:
         """The rows of a filament, which appear one after another."""
         many = len(self.rows) if len(self.scene.cells) and self.current is not None else 0
-        pixels = self.size > current().segments
+        pixels = self.size > MOST_PAINTED
         return [painted(drawing_of(self._sequence_written(pixels, 1.0, shown))) for shown in range(1, many + 1)] \
             or [self.image()]
 

@@ -170,9 +170,10 @@ def test_dots_that_make_no_sense_are_told(name: str, dpi: object, said: str, tmp
 
 # --- what belongs in every format -------------------------------------------------------------------------------------
 
-def test_rows_keep_their_steps_their_times_and_the_mark_in_every_format() -> None:
+def test_rows_keep_their_steps_their_times_and_the_mark_in_every_format(monkeypatch: pytest.MonkeyPatch) -> None:
     picture = draw(system("P6"), 3)
     for pixels_from in (1, 10**6):
+        monkeypatch.setattr("lsys_kit.pictures.picture.MOST_PAINTED", pixels_from)
         with limits(segments=pixels_from, figure=pixels_from):
             rows = draw(system("P6"), 3)
             assert ("<image" in rows.svg) == (pixels_from == 1)

@@ -1,4 +1,5 @@
-"""Pictures as a notebook shows them: with a text alternative, which JupyterLab gives to no picture that comes without one."""
+"""Pictures as a file keeps them, and as a notebook shows them: with a text alternative, which JupyterLab gives to no picture
+that comes without one."""
 
 from __future__ import annotations
 
@@ -19,8 +20,8 @@ from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.pdf.page import pdf
 from lsys_kit.pictures.formats.raster import encoded
+from lsys_kit.pictures.formats.shape_axes import plot_drawing
 from lsys_kit.pictures.formats.transparency import on_ground
-from lsys_kit.pictures.formats.vector.axes import plot_drawing
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.sizes import Size
