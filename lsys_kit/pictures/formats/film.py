@@ -136,7 +136,7 @@ def mp4_of(images: Sequence[Image], seconds: float) -> bytes:
 
 
 def _even(image: Image) -> Image:
-    """An image with even numbers of pixels across and down, as H.264 wants it: a row or a column of those in its corner may be added."""
+    """An image with even numbers of pixels across and down, as H.264 wants it: pixels like those of its corner may be added."""
     from PIL import Image
 
     paper = Image.new("RGB", (image.width + image.width % 2, image.height + image.height % 2),
