@@ -14,7 +14,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from lsys_kit import cellwork_system, draw, draw_hierarchy, lineage, map_system, read, stages, system
+from lsys_kit import cellwork_system, draw, draw_hierarchy, lineage, map_system, stages, system
+from tests.pictures.command_figures import bend, roll, stroke
 
 GOLDEN = Path(__file__).parent / "golden"
 PART = re.compile(r"#[0-9A-Fa-f]{6}|-?\d+(?:\.\d+)?(?:e-?\d+)?|[^-#\d]+|.", re.DOTALL)
@@ -22,11 +23,6 @@ PART = re.compile(r"#[0-9A-Fa-f]{6}|-?\d+(?:\.\d+)?(?:e-?\d+)?|[^-#\d]+|.", re.D
 CLOSE = {True: 1.0, False: 0.011}
 """Places are whole numbers, tenths of a pixel: another processor may round the last one otherwise; so it is with decimals."""
 
-COMMANDS = {
-    "F": "P1 F P4 F50 P2 F", "RH": "P1 F [RU50 P4 F] RH60 F [RU50 P4 F] RH60 F [RU50 P4 F] RH60 F [RU50 P4 F]",
-    "RV": "[RU15 P1 F RV0.25 F RV0.25 F RV0.25 F RV0.25 F] [RU-15 P4 F RV-0.25 F RV-0.25 F RV-0.25 F RV-0.25 F]",
-}
-"""Words of GROGRA that show what a command does."""
 FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "000-figure-1": ("Simulated cell layer growth", lambda: draw(system("J1"), 6).svg),
     "000-figure-2": ("Algae growth with two classes of cells a (big) and b (small)", lambda: draw(system("J4"), 10).svg),
@@ -46,21 +42,22 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
                      lambda: draw(lineage(system("P5"), 6), intervals=[("1.4", "2.1"), ("1.4", "2.8")]).svg),
     "002-figure-6": ("L-system 6: a step, then decomposition", lambda: draw(lineage(system("P6"), 3, dt="1.4")).svg),
     "002-figure-8": ("Explicitly represented cell walls", lambda: draw(system("P9w"), 5).svg),
-    **{f"003-effect-of-{name}": (f"The effect of {name}", lambda word=word: draw(read(f"\\axiom {word},", "grogra"), 0).svg)
-       for name, word in COMMANDS.items()},
+    "003-effect-of-F": ("The effect of F, where the current step is λ", lambda: draw(stroke(), steps=[0, 1, 2]).svg),
+    "003-effect-of-RH": ("The effect of RH", lambda: draw(roll(), steps=[0, 1], view=(25, 20)).svg),
+    "003-effect-of-RV": ("The effect of RV on the direction ahead", lambda: draw(bend(), steps=[0, 1]).svg),
     "003-branch": ("a -> F [RU45 b] a, b -> F b", lambda: draw(system("K2"), 4).svg),
     "003-koch": ("Koch curve: the output after 6 steps", lambda: draw(system("K3"), 6).svg),
     "003-sierpinski": ("Sierpinski triangle", lambda: draw(system("K4"), 5).svg),
     "003-pseudo-plant": ("Pseudo-plant (there after 7 steps)", lambda: draw(system("K5"), 5).svg),
     "003-alternate": ("Alternate branches that get shorter", lambda: draw(system("K6"), 7).svg),
-    "003-stochastic": ("A nondeterministic L-system", lambda: draw(system("K7"), 4, seed=1).svg),
+    "003-stochastic": ("A nondeterministic L-system", lambda: draw(system("K7"), 4, seeds=[1, 2, 3, 4, 5]).svg),
     "003-dying": ("Branching where branches may die", lambda: draw(system("K8"), 9).svg),
     "003-random-flight": ("Random flight in the plane", lambda: draw(system("K9"), 60).svg),
     "003-acrotony": ("The length of a branch depends on its position", lambda: draw(system("K11"), 3).svg),
     "003-meristems": ("Many kinds of meristems: the result after 15 steps", lambda: draw(system("K12"), 15).svg),
-    "003-spruce": ("Spruce", lambda: draw(system("K13"), 6).svg),
+    "003-spruce": ("Spruce", lambda: draw(system("K13"), 5).svg),
     "003-mint": ("Mint", lambda: draw(system("K14"), 16).svg),
-    "003-beech": ("Beech twigs, drawn by interpretation rules", lambda: draw(system("K15"), 4).svg),
+    "003-beech": ("Beech twigs, drawn by interpretation rules", lambda: draw(system("K15"), 3).svg),
     "003-acropetal": ("An inflorescence that flowers upward", lambda: draw(system("K17a"), 22).svg),
     "003-basipetal": ("An inflorescence that flowers downward", lambda: draw(system("K17b"), 28).svg),
     "003-two-signals": ("An inflorescence with two signals", lambda: draw(system("K18"), 50).svg),
@@ -72,17 +69,21 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
                     lambda: draw(system("K22"), 23, apart=400).svg),
     "003-light": ("Trees that compete for light", lambda: draw(system("K23"), 15).svg),
     "003-stand": ("A stand of nine trees", lambda: draw(system("K23"), 13, trees=9).svg),
-    "003-pruning": ("Pruning in two dimensions", lambda: draw(system("K24")).svg),
+    "003-pruning": ("Pruning in two dimensions: dormant buds, and a signal that wakes the next one",
+                    lambda: draw(system("K24"), steps=[4, 5, 6, 7, 8, 9, 10, 11]).svg),
     "003-outline": ("Pruning to another outline", lambda: draw(system("K24b")).svg),
-    **{f"003-topiary{solid}": ("Pruning in three dimensions",
-                               lambda n=n, number=number: draw(system("K25"), n, solid=number, L=8 if number < 3 else 14).svg)
-       for number, (solid, n) in enumerate({"": 70, "-sphere": 70, "-cone": 100, "-spiral": 110}.items(), 1)},
+    "003-topiary": ("Pruning in three dimensions", lambda: draw(system("K25"), steps=[9, 10, 12, 20, 30, 70]).svg),
+    **{f"003-topiary-{solid}": ("Pruning in three dimensions, to another solid",
+                                lambda n=n, number=number: draw(system("K25"), n, solid=number, L=8 if number < 3 else 14).svg)
+       for number, (solid, n) in enumerate({"sphere": 70, "cone": 100, "spiral": 110}.items(), 2)},
     **{f"003-movement-{name}": (f"An organism that moves: {name}", lambda short=short: draw(system("K26"), short=short).svg)
        for short, name in enumerate(("path", "short-word"))},
     "003-timed": ("Timed Anabaena", lambda: draw(lineage(system("K27"), 12)).svg),
-    **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3).svg) for n in (1, 2, 3)},
-    "003-forces": ("On the way to rest: some iterations", lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80]).svg),
-    "003-microsorium": ("Gametophyte of Microsorium linguaeforme", lambda: draw(map_system("K32"), 12).svg),
+    **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3, labels=n == 1).svg)
+       for n in (1, 2, 3)},
+    "003-forces": ("On the way to rest: some iterations",
+                   lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80], labels=False).svg),
+    "003-microsorium": ("Gametophyte of Microsorium linguaeforme", lambda: draw(map_system("K32"), 9, labels=False).svg),
     "003-patella": ("Embryo of the snail Patella vulgata", lambda: draw(map_system("K34"), 3).svg),
     **{f"003-cellwork-{n}": (f"Cellwork L-system, step {n}", lambda n=n: draw(cellwork_system("K33"), n).svg) for n in (1, 4)},
     "003-cellwork-cell": ("One cell of a cellwork", lambda: draw(cellwork_system("K33"), 4, cell=3).svg),

@@ -209,14 +209,20 @@ def initial_step(system: LSystem) -> float:
 
 
 def initial_colour(system: LSystem) -> int:
-    """The initial colour of strokes: that of their symbol, or the first of the ramp if the model steps through colours.
+    """The initial colour of strokes: that of their symbol, or the first of the ramp if the model steps through colours; in a model
+    of GROGRA's that chooses colours, yellow, as there.
 
     >>> from lsys_kit.notation.read import read
     >>> initial_colour(read("axiom: F ' F")), initial_colour(read("axiom: F ;(2) F"))
     (16, -1)
+    >>> initial_colour(read("\\\\axiom F P2 F,", "grogra")), initial_colour(read("\\\\axiom F F,", "grogra"))
+    (14, -1)
     """
-    stepping = any(command.bare == "step colour" and not module.arguments for command, module in commands_of(system))
-    return RAMP_START if stepping else OWN
+    given = list(commands_of(system))
+    if any(command.bare == "step colour" and not module.arguments for command, module in given):
+        return RAMP_START
+    chosen = system.turtle == "grogra" and any(command.action == "set colour" for command, _ in given)
+    return FIRST_COLOUR if chosen and system.colours != "natural" else OWN
 
 
 def commands_of(system: LSystem) -> Iterator[tuple[Command, Pattern]]:
