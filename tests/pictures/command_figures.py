@@ -1,7 +1,7 @@
 """Models that show what commands of GROGRA do to the turtle: its axes before and after, as on W. Kurth's lecture slides.
 
-Every part of these figures is drawn by the turtle itself: an axis is a stroke with a head, a letter some strokes in the plane of
-the picture. H, L and U stand for the axes head, left and up.
+Every part of these figures is drawn by the turtle itself: an axis is a stroke with a head, a letter some strokes in the plane
+of the picture. H, L and U stand for the axes head, left and up.
 """
 
 from __future__ import annotations
@@ -79,7 +79,8 @@ def bend() -> LSystem:
     sum = f"[P({GREY}) D(2) F(100) RG P({RED}) D(4) F({100 * PULL}) {ARROW} RU(180) f(30) D(2) {letter('g', 8, -6)}]"
     return _model(
         f"axiom: RU({first}) T({first})", f"T(a) : a == {first} -> B T({second})", f"T(a) -> B T({_bent(second)})",
-        "interpretation:", f"T(a) -> [P({BLUE}) D(4) F(100) {ARROW} RU(-a) D(2) {letter('H', 8, -4)}]", f"B -> {sum} RV({PULL})")
+        "interpretation:", f"T(a) -> [P({BLUE}) D(4) F(100) {ARROW} RU(-a) D(2) {letter('H', 8, -4)}]",
+        f"B -> {sum} RV({PULL})")
 
 
 def _bent(angle: float) -> float:
