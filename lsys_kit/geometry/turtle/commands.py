@@ -209,8 +209,8 @@ def initial_step(system: LSystem) -> float:
 
 
 def initial_colour(system: LSystem) -> int:
-    """The initial colour of strokes: that of their symbol; the first of the ramp, if the model steps through colours; and yellow
-    in a model for GROGRA's turtle that chooses colours, as there.
+    """The initial colour of strokes: that of their symbol; the first of the ramp, if the model steps through colours; yellow,
+    as in GROGRA, in a model for its turtle that chooses colours.
 
     >>> from lsys_kit.notation.read import read
     >>> initial_colour(read("axiom: F ' F")), initial_colour(read("axiom: F ;(2) F"))
