@@ -19,6 +19,7 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
+from lsys_kit.pictures.folding import folded
 from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
@@ -29,8 +30,8 @@ LOOKS = ("rectangles", "ellipses")
 """The shapes in which cells can be drawn."""
 HEAD, STEPS, TIMES, AGES = 18, 34, 46, 12
 """Room for the heading, the column of steps, that of times, and the ages of walls, in pixels."""
-TALLEST, FILLED = 46.0, 0.66
-"""The greatest distance of rows, in pixels, and the part of it that cells fill."""
+TALLEST, NEAREST, FILLED = 46.0, 14.0, 0.66
+"""The greatest and the least distance of rows, in pixels, and the part of it that cells fill."""
 MARKED = 3.2
 """The width of the edges of marked cells, in pixels."""
 LETTER = 11
@@ -78,6 +79,8 @@ class FilamentLayout:
         Room to the left of all rows, above them all, and above each row's cells.
     pitch
         The distance of rows.
+    longest
+        The length of the longest row.
     """
 
     rows: Sequence[FilamentRow]
@@ -88,6 +91,7 @@ class FilamentLayout:
     head: int
     above: int
     pitch: float
+    longest: float
 
     @property
     def height(self) -> int:
@@ -122,8 +126,9 @@ class FilamentLayout:
         return np.unique(np.floor(places * self.scale * most), return_index=True)[1]
 
     def _left(self, row: FilamentRow) -> float:
-        """The left end of a row: all rows are centred."""
-        return self.gutter + (WIDTH - self.gutter - MARGIN - row.scene.width * self.scale) / 2
+        """The left end of a row: all rows are centred; the lines of a folded one begin at the same place."""
+        length = row.scene.width if row.part is None else self.longest
+        return self.gutter + (WIDTH - self.gutter - MARGIN - length * self.scale) / 2
 
 
 def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None,
@@ -133,7 +138,7 @@ def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: V
     Parameters
     ----------
     rows
-        The rows.
+        The rows; long ones are folded.
     numbered
         Whether the rows are labelled with their steps.
     time
@@ -141,15 +146,17 @@ def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: V
     written
         Whether there is any text.
     """
-    time = time if numbered and time != 1 else None
+    time, rows = time if numbered and time != 1 else None, folded(rows)
     gutter, head = MARGIN + STEPS * numbered + TIMES * (time is not None), HEAD * numbered
     longest = max(max(row.scene.width for row in rows), 1e-9)
     tallest = max(max(row.scene.height for row in rows), 1e-9)
     most = min(TALLEST, (HEIGHT - 2 * MARGIN - head) / len(rows))
+    if any(row.part for row in rows):
+        most = max(most, NEAREST)
     above = AGES if written and most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
     scale = min((WIDTH - gutter - 2 * MARGIN) / longest, (FILLED * most - above) / tallest)
-    pitch = max(14.0, min(most, (tallest * scale + above) / FILLED))
-    return FilamentLayout(rows, numbered, time, scale, gutter, head, above, pitch)
+    pitch = max(NEAREST, min(most, (tallest * scale + above) / FILLED))
+    return FilamentLayout(rows, numbered, time, scale, gutter, head, above, pitch, longest)
 
 
 def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], current: int | None = None,
@@ -161,7 +168,7 @@ def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], cur
         middle = sheet.middle(place)
         if sheet.numbered:
             body += [_band(sheet, place)] if row.step == current and not image else []
-            body.append(_row_labels(sheet, row.step, middle, row.step == current))
+            body.append(_row_labels(sheet, row, middle, row.step == current))
         if not image:
             cells = list(sheet.cells(row))
             body.append(filament_svg(cells, look, middle, colour_of, marked))
@@ -191,11 +198,13 @@ def _band(sheet: FilamentLayout, place: int) -> str:
             f'rx="{tenths(corner)}" fill="{theme().mark}"/>')
 
 
-def _row_labels(sheet: FilamentLayout, step: int, middle: float, current: bool) -> str:
-    """The step and time of a row, bold if it is the current one."""
-    size, texts = tenths(min(14.0, 0.8 * sheet.pitch)), [(MARGIN + STEPS - 8, str(step))]
+def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current: bool) -> str:
+    """The step and time of a row, bold if it is the current one; a folded row has them at its first line."""
+    if row.part:
+        return ""
+    size, texts = tenths(min(14.0, 0.8 * sheet.pitch)), [(MARGIN + STEPS - 8, str(row.step))]
     if sheet.time is not None:
-        texts.append((MARGIN + STEPS + TIMES - 8, time_text(step * sheet.time)))
+        texts.append((MARGIN + STEPS + TIMES - 8, time_text(row.step * sheet.time)))
     weight = f'fill="{theme().ink}" font-weight="bold"' if current else f'fill="{theme().quiet}"'
     return "".join(f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
                    f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>' for x, text in texts)

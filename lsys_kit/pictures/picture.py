@@ -162,7 +162,8 @@ class Picture(SVGPicture):
         labelled = self.labels is not False
         layout, image = filament_layout(self.rows, labelled and self.current is not None, self.time, labelled), ""
         height, now = layout.height, self.rows[shown - 1].step if shown else self.current
-        sheet = replace(layout, rows=self.rows[:shown]) if shown else layout
+        begun = {row.step for row in self.rows[:shown or None]}
+        sheet = replace(layout, rows=[line for line in layout.rows if line.step in begun])
         if pixels:
             factor = enlarged * enlargement(WIDTH, height, self.pixels)
             cells = on_ground(lambda: rows_image(sheet, self.look, self.colour_of, now, self.marked, factor))

@@ -159,10 +159,11 @@ def _path(points: Integers) -> str:
 
 @dataclass(frozen=True)
 class FilamentRow:
-    """One step of a developmental sequence."""
+    """One step of a developmental sequence; or one line of it, if it is folded, with its number from 0."""
 
     step: int
     scene: Scene
+    part: int | None = None
 
 
 def background(width: int, height: int, parts: int = 10) -> str:

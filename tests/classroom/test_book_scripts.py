@@ -22,6 +22,7 @@ from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.pictures.draw import MOST_ROWS
 from lsys_kit.pictures.filaments import filament_layout
+from lsys_kit.pictures.folding import MOST_CELLS
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.svg import FilamentRow
 from tests.derivation.random_systems import KINDS, systems_with
@@ -181,8 +182,8 @@ def test_walls_are_as_high_as_the_wider_of_their_neighbours(page, step):
 
 
 def check_rows(page, model, step):
-    """The rows of a sequence are those of the picture."""
-    with limits(modules=1_000):
+    """The rows of a sequence are those of the picture, which does not fold rows of a hundred cells."""
+    with limits(modules=MOST_CELLS):
         made = book(model, least=step)
     step = min(step, made["steps"])
     found = page.evaluate(ROWS, [sent(made), step, {}])

@@ -76,6 +76,38 @@ def test_rows_do_not_touch(id: str, steps: int) -> None:
     assert tall <= 0.95 * found.pitch
 
 
+@pytest.mark.parametrize(("id", "steps"), [("P1", 10), ("P1", 12), ("P9w", 10), ("J5", 24)])
+def test_a_row_of_more_than_a_hundred_cells_is_folded_into_equal_lines(id: str, steps: int) -> None:
+    rows, found = draw(system(id), steps).rows, sheet(id, steps)
+    assert len(found.rows) > len(rows)
+    for row in rows:
+        lines = [line for line in found.rows if line.step == row.step]
+        for values in (lambda scene: scene.cells.states.tolist(), lambda scene: scene.walls.states.tolist()):
+            assert [state for line in lines for state in values(line.scene)] == values(row.scene)
+        lengths, longest = [line.scene.width for line in lines], row.scene.cells.sizes[:, 0].max()
+        assert sum(lengths) == pytest.approx(row.scene.width)
+        assert max(lengths) - min(lengths) <= 2 * longest
+        assert len({round(next(found.cells(line)).x - next(found.cells(line)).length, 6) for line in lines}) == 1
+    assert min(cell.length for line in found.rows for cell in found.cells(line)) > 2, "pixels"
+
+
+def test_a_folded_row_has_its_number_once_and_is_marked_as_a_whole() -> None:
+    root = ET.fromstring(draw(system("P1"), 10).svg)
+    assert texts(draw(system("P1"), 10)) == ["step", *map(str, range(11))]
+    assert len([band for band in root.iter(f"{SVG}rect") if band.get("rx") == "60" and not band.get("stroke")]) == 3
+
+
+@pytest.mark.parametrize("cells", [89, 100])
+def test_a_row_of_at_most_a_hundred_cells_is_a_line(cells: int) -> None:
+    row = draw(read("axiom: " + "a " * cells + "\ninterpretation:\na -> R(2,1)"), 0).rows
+    assert filament_layout(row).rows == row
+
+
+def test_a_filament_of_too_many_lines_is_shown_as_a_whole() -> None:
+    rows = draw(derive(system("P1"), 20)[-1]).rows
+    assert filament_layout(rows).rows == rows
+
+
 def test_rows_have_their_steps_and_times_where_a_step_is_no_unit_of_time() -> None:
     assert texts(draw(system("P5"), 2)) == ["step", "t", "0", "0", "1", "0.7", "2", "1.4"]
     assert texts(draw(system("P5"), 1, dt="1/3"))[-2:] == ["1", "1/3"]
