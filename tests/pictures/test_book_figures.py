@@ -248,6 +248,13 @@ def test_the_quadratic_gosper_curve_fills_a_square() -> None:
     assert len(line) - 1 == 25 * 25
 
 
+@pytest.mark.parametrize(("id", "side"), [("ABOP-1.15", 32), ("ABOP-1.16a", 27), ("ABOP-1.16b", 16), ("ABOP-1.17a", 27)])
+def test_a_curve_of_tiles_visits_every_point_of_a_square(id: str, side: int) -> None:
+    line = corners(id)
+    assert len(line) == different(line) == side**2
+    assert np.ptp(line, axis=0) == pytest.approx([side - 1, side - 1, 0], abs=1e-6)
+
+
 def test_hilberts_curve_in_space_visits_every_point_of_a_cube() -> None:
     line = corners("ABOP-1.19")
     assert len(line) == different(line) == 4**3
@@ -282,8 +289,7 @@ def test_a_sunflower_has_as_many_seeds_florets_and_petals_as_its_numbers_say() -
 
 @pytest.mark.parametrize("step", [40, 50, 60, 70])
 def test_wall_lettuce_flowers_from_the_top_down(step: int) -> None:
-    blooming: list[bool] = []
-    depth = 0
+    blooming, depth = list[bool](), 0
     for module in derive(system("ABOP-3-mycelis"), step)[-1]:
         depth += (module.symbol == "[") - (module.symbol == "]")
         if module.symbol == "[" and depth == 1:
