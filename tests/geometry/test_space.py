@@ -323,7 +323,8 @@ def test_grogras_lengths():
 def test_grogras_widths_and_colours():
     segments = drawn("F D+(3) F D(2) F D*(1.5) F Dl(9) F F D F P(4) F P F", turtle="grogra").segments
     assert segments.widths == pytest.approx([OWN, 3.1, 2, 3, 9, 3, OWN, OWN, OWN])
-    assert segments.colours.tolist() == [OWN] * 7 + [4, OWN]
+    assert segments.colours.tolist() == [14] * 7 + [4, 14], "yellow is the first colour of GROGRA"
+    assert drawn("F D(2) F", turtle="grogra").segments.colours.tolist() == [OWN] * 2
 
 
 def test_abops_widths_and_colours():
