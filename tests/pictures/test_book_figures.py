@@ -248,11 +248,12 @@ def test_the_quadratic_gosper_curve_fills_a_square() -> None:
     assert len(line) - 1 == 25 * 25
 
 
-@pytest.mark.parametrize(("id", "side"), [("ABOP-1.15", 32), ("ABOP-1.16a", 27), ("ABOP-1.16b", 16), ("ABOP-1.17a", 27)])
-def test_a_curve_of_tiles_visits_every_point_of_a_square(id: str, side: int) -> None:
+@pytest.mark.parametrize(("id", "side", "width"), [
+    ("ABOP-1.15", 32, 31), ("ABOP-1.16a", 27, 26), ("ABOP-1.16b", 16, 15), ("ABOP-1.17a", 27, 26), ("ABOP-1.17b", 25, 24 * 2**0.5)])
+def test_a_curve_of_tiles_visits_every_point_of_a_square(id: str, side: int, width: float) -> None:
     line = corners(id)
     assert len(line) == different(line) == side**2
-    assert np.ptp(line, axis=0) == pytest.approx([side - 1, side - 1, 0], abs=1e-6)
+    assert np.ptp(line, axis=0) == pytest.approx([width, width, 0], abs=1e-6), "the last square stands on a corner"
 
 
 def test_hilberts_curve_in_space_visits_every_point_of_a_cube() -> None:
