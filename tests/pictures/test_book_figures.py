@@ -249,7 +249,8 @@ def test_the_quadratic_gosper_curve_fills_a_square() -> None:
 
 
 @pytest.mark.parametrize(("id", "side", "width"), [
-    ("ABOP-1.15", 32, 31), ("ABOP-1.16a", 27, 26), ("ABOP-1.16b", 16, 15), ("ABOP-1.17a", 27, 26), ("ABOP-1.17b", 25, 24 * 2**0.5)])
+    ("ABOP-1.15", 32, 31), ("ABOP-1.16a", 27, 26), ("ABOP-1.16b", 16, 15), ("ABOP-1.17a", 27, 26),
+    ("ABOP-1.17b", 25, 24 * 2**0.5)])
 def test_a_curve_of_tiles_visits_every_point_of_a_square(id: str, side: int, width: float) -> None:
     line = corners(id)
     assert len(line) == different(line) == side**2
@@ -265,9 +266,7 @@ def test_hilberts_curve_in_space_visits_every_point_of_a_cube() -> None:
 @pytest.mark.parametrize(("letter", "divergence"), [("a", 137.3), ("b", 137.5), ("c", 137.6)])
 def test_florets_obey_vogels_formula(letter: str, divergence: float) -> None:
     """Equation (4.1): floret n stands at n times the divergence, as far out as the root of n."""
-    picture = draw(system(f"ABOP-4.2{letter}"), 50)
-    assert isinstance(picture, Picture)
-    found, number = picture.scene.discs.centres @ [1, 1j], np.arange(50)
+    found, number = draw(system(f"ABOP-4.2{letter}"), 50).scene.discs.centres @ [1, 1j], np.arange(50)
     assert found == pytest.approx(1j * np.sqrt(number) * np.exp(1j * np.radians(divergence * (number + 1))), abs=1e-9)
 
 
