@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import re
 from xml.etree import ElementTree as ET
 
 import pytest
+from PIL import Image
 
-from lsys_kit import ModelValueError, derive, draw, figure, read, system
+from lsys_kit import ModelValueError, animate, derive, draw, figure, read, system
 from lsys_kit.pictures.filaments import DrawnCell, FilamentLayout, filament_layout
 from lsys_kit.pictures.formats.vector.shapes import Outline
 from lsys_kit.pictures.picture import Picture
@@ -95,6 +97,12 @@ def test_a_folded_row_has_its_number_once_and_is_marked_as_a_whole() -> None:
     root = ET.fromstring(draw(system("P1"), 10).svg)
     assert texts(draw(system("P1"), 10)) == ["step", *map(str, range(11))]
     assert len([band for band in root.iter(f"{SVG}rect") if band.get("rx") == "60" and not band.get("stroke")]) == 3
+
+
+def test_a_film_of_folded_rows_ends_with_their_picture() -> None:
+    images = animate(system("P1"), 10).images
+    assert len(images) == 11
+    assert images[-1].tobytes() == Image.open(io.BytesIO(draw(system("P1"), 10).png)).convert("RGB").tobytes()
 
 
 @pytest.mark.parametrize("cells", [89, 100])
