@@ -23,17 +23,19 @@ PART = re.compile(r"#[0-9A-Fa-f]{6}|-?\d+(?:\.\d+)?(?:e-?\d+)?|[^-#\d]+|.", re.D
 CLOSE = {True: 1.0, False: 0.011}
 """Places are whole numbers, tenths of a pixel: another processor may round the last one otherwise; so it is with decimals."""
 
+WHITE_AND_GREY = {"al": "white", "bl": "white", "ar": "grey", "br": "grey"}
 FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
-    "000-figure-1": ("Simulated cell layer growth", lambda: draw(system("J1"), 6).svg),
+    "000-figure-1": ("Simulated cell layer growth: arrows pointing left (white) and right (grey)",
+                     lambda: draw(system("J1"), 6, colours=WHITE_AND_GREY).svg),
     "000-figure-2": ("Algae growth with two classes of cells a (big) and b (small)", lambda: draw(system("J4"), 10).svg),
-    "000-figure-3": ("Algae growth with lifetimes 2 and 5 for cells a and b", lambda: draw(system("J5"), 15).svg),
+    "000-figure-3": ("Algae growth with lifetimes 2 and 5 for cells a and b", lambda: draw(system("J5"), 15, legend=True).svg),
     "000-figure-4": ("Example of an artificial flower", lambda: draw(system("J6"), 12).svg),
     **{f"001-koch-{n}": (f"Koch snowflake, step {n}", lambda n=n: draw(system("T2"), n).svg) for n in range(4)},
     "001-stochastic": ("A stochastic L-system", lambda: draw(system("T3"), seed=1).svg),
     "001-figure-5.2": ("Power of 0L-systems and (k,l)-systems", lambda: draw_hierarchy().svg),
     "002-figure-1": ("Developmental sequence of an Anabaena filament (L-system 1)", lambda: draw(system("P1"), 6).svg),
     "002-figure-2": ("Petri net representation of L-system 2", lambda: draw(stages(system("P2"))).svg),
-    "002-figure-3-left": ("Improved developmental sequence (L-system 2)", lambda: draw(system("P2"), 16).svg),
+    "002-figure-3-left": ("Improved developmental sequence (L-system 2)", lambda: draw(system("P2"), 16, legend=True).svg),
     "002-figure-3-right": ("The corresponding sequence of L-system 3", lambda: draw(system("P3"), 16).svg),
     "002-figure-4-left": ("L-system 5, time step 0.7", lambda: draw(system("P5"), 6).svg),
     "002-figure-4-right": ("L-system 5, time step 1.4: cells that should have divided",

@@ -6,11 +6,12 @@ from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import counted
-from lsys_kit.pictures.filaments import MARKED, DrawnCell, FilamentLayout, band_of, wall_colour, wall_width
+from lsys_kit.pictures.filament_layout import DrawnCell, FilamentLayout
+from lsys_kit.pictures.filaments import MARKED, band_of, wall_colour, wall_width
 from lsys_kit.pictures.formats.raster import FINE, samples_for
 from lsys_kit.pictures.rendering.frames import WIDTH
 from lsys_kit.pictures.style.palette import GREEN, cell_fill
-from lsys_kit.pictures.style.themes import line, theme
+from lsys_kit.pictures.style.themes import edge_colour, theme
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -47,7 +48,7 @@ def rows_image(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], c
 
 def _cell(pen: ImageDraw, cell: DrawnCell, fine: float, look: str, middle: float, colour: str, marked: bool) -> None:
     fine_line = max(1, round(fine))
-    edge, outline = (round(MARKED * fine), theme().mark_edge) if marked else (fine_line, line(colour))
+    edge, outline = (round(MARKED * fine), theme().mark_edge) if marked else (fine_line, edge_colour(colour))
     x, length, width = cell.x * fine, cell.length * fine, cell.width * fine
     box, fill = (x - length, middle - width, x + length, middle + width), cell_fill(colour, cell.shade)
     if look == "ellipses":

@@ -25,8 +25,9 @@ from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.colour_values import BLACK, WHITE, colour_from, contrast, luminance, mixed
 
-LINE, TEXT, FINER = 3.0, 4.5, 0.04
-"""The least contrasts of lines and of text with their paper; and by which parts a colour is mixed with ink until it has it."""
+LINE, TEXT, FAINT, FINER = 3.0, 4.5, 1.3, 0.04
+"""The least contrasts of lines, text and chosen edges with their paper; by which parts a colour is mixed with ink until it has
+one."""
 BLACKEST = 0.179
 """Paper of a luminance below this is dark: white contrasts with it more than black does."""
 NOTHING = "none"
@@ -131,6 +132,17 @@ def line(colour: str) -> str:
     ('#3570A4', '#66686a')
     """
     return _line(colour, theme())
+
+
+def edge_colour(colour: str) -> str:
+    """The colour of the edge of what is filled with a colour: that of its lines, or quiet where a person chose that of paper.
+
+    >>> with drawn_on(replace(LIGHT, symbols=(("a", "#ffffff"), ("b", "#808080")))):
+    ...     edge_colour("#ffffff") == LIGHT.quiet, edge_colour("#808080")
+    (True, '#808080')
+    """
+    found = line(colour)
+    return theme().quiet if contrast(found, theme().paper) < FAINT else found
 
 
 @lru_cache(maxsize=2_048)
