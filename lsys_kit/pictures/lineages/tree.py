@@ -14,7 +14,7 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CELLS, Module
-from lsys_kit.pictures import filaments
+from lsys_kit.pictures.filament_layout import DrawnCell
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label
 from lsys_kit.pictures.style.palette import colour_of
@@ -76,7 +76,7 @@ class Tree:
 
     lineage: Lineage
     x: Mapping[int, float]
-    row: Sequence[filaments.DrawnCell]
+    row: Sequence[DrawnCell]
     kinds: Sequence[CellKind]
     kind_of: Sequence[int]
     colours: Mapping[int, str]
@@ -95,7 +95,7 @@ def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     return Tree(lineage, x, row, kinds, kind_of, colour_of, WIDTH - MARGIN - right)
 
 
-def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[filaments.DrawnCell]]:
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
     """The horizontal position of the line of each cell, and the filament below."""
     ends = list(_leaves(lineage))
     row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
@@ -122,7 +122,7 @@ def _leaves(lineage: Lineage) -> Iterator[int]:
             yield cell
 
 
-def _filament(lineage: Lineage, right: int) -> list[filaments.DrawnCell]:
+def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
     """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
     scene = filament(lineage.last)
     if len(scene.cells) != len(lineage.words[-1]):
@@ -130,7 +130,7 @@ def _filament(lineage: Lineage, right: int) -> list[filaments.DrawnCell]:
     scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
     left = (right + AXIS - scene.width * scale) / 2
     cells = scene.cells
-    return [filaments.DrawnCell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
+    return [DrawnCell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
             for number, (x, _), (length, width), way, shade in zip(
                 lineage.words[-1], cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(),
                 cells.shades.tolist(), strict=True)]
