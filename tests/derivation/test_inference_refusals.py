@@ -3,34 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import comb
 from typing import Any
 
 import pytest
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, infer, limits, read, system
 from lsys_kit.derivation.inference import infer as infer_module
-from lsys_kit.derivation.inference import refusals, slips
+from lsys_kit.derivation.inference import refusals, slips, too_many
 from lsys_kit.derivation.inference.problem import Problem, Table, tables
 from tests.derivation.test_inference import texts
 
 
 @pytest.mark.slow
 def test_more_than_a_thousand_fits_are_refused() -> None:
-    with pytest.raises(ModelLimitError, match=r"^More than 1,000 systems fit these 2 words. Give more steps. They") as refused:
+    with pytest.raises(ModelLimitError, match=r"^17,620,076,360 systems fit these 2 words. Give more steps. They") as refused:
         infer(["abcdefghijklmn", "abcdefghijklmnabcdefghijklmnabcdefghijklmn"])
-    assert len(refused.value.partial) == 1000  # type: ignore[arg-type]
+    assert (len(refused.value.partial), refused.value.needed) == (1000, comb(41, 13))  # type: ignore[arg-type]
 
 
 def test_too_many_fits_are_refused_with_those_that_were_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(infer_module, "MOST_FITS", 20)
-    with pytest.raises(ModelLimitError, match=r"^More than 20 systems fit these 2 words. .* They differ in what becomes of "
-                                              r"e, f, g.$") as refused:
+    with pytest.raises(ModelLimitError, match=r"^1,716 systems fit these 2 words. Give more steps. They differ in what "
+                                              r"becomes of a \(8 ways\), b \(35 ways\), .*, g \(8 ways\).$") as refused:
         infer(["abcdefg", "abcdefgabcdefg"])
-    assert len(refused.value.partial) == 20  # type: ignore[arg-type]
-    words = ["ahijklmnopqrstu", "bhijklmnopqrstuhijklmnopqrstuhijklmnopqrstu"]
-    with pytest.raises(ModelLimitError, match=r"Give more steps. All that were found have a -> b. They differ in what "
-                                              r"becomes of "):
-        infer(words)
+    assert (len(refused.value.partial), refused.value.needed) == (20, comb(13, 6))  # type: ignore[arg-type]
+    with pytest.raises(ModelLimitError, match=r"^55 systems fit these 3 words. Give more steps. All have x -> a b c. They"):
+        infer(["x", "abc", "abcdeabcdefg"])
+
+
+def test_more_fits_than_can_soon_be_counted_are_refused_with_what_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(infer_module, "MOST_FITS", 20)
+    monkeypatch.setattr(too_many, "MOST_TRIED_TO_COUNT", 3)
+    with pytest.raises(ModelLimitError, match=r"^More than 20 systems fit these 2 words. .* They differ in what "
+                                              r"becomes of e, f, g.$") as refused:
+        infer(["abcdefg", "abcdefgabcdefg"])
+    assert refused.value.needed is None
+    with pytest.raises(ModelLimitError, match=r"All that were found have x -> a b c d e f g. They differ"):
+        infer(["x", "abcdefg", "abcdefgabcdefg"])
+
+
+def test_of_modules_with_values_it_is_said_that_laws_are_looked_for_without_contexts() -> None:
+    ages = derive(read("axiom: a(0) b(7)\na(t) -> a(t+1) a(t+1)\nb(t) -> b(t+1)"), 4)
+    with pytest.raises(ModelLimitError, match=r"systems fit these 5 words. With contexts, a module with other values, or other "
+                                              r"neighbours, is another letter: laws of values are looked for without contexts"):
+        infer(ages, context=(1, 1))
 
 
 @pytest.mark.parametrize(("given", "message"), [
@@ -111,8 +128,11 @@ def test_what_a_search_asks_of_the_budget_names_the_search() -> None:
 
 def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.MonkeyPatch) -> None:
     words = ["abcab", "aabbcabcabcaab", "aabbcabcaabbcabcaabbcabcaabbcaabbcabcaabbcaabbcabca"]
+    monkeypatch.setattr(infer_module, "MOST_SUCCESSORS_TRIED", 10)
     assert "Step 2 cannot come from step 1" in str(infer(words))
-    for module in (infer_module, slips, refusals):
+    assert str(infer(words)).endswith("With context=(2, 1) many systems fit.")
+    for module, most in ((too_many, "MOST_TRIED_FOR_ONE"), (slips, "MOST_SUCCESSORS_TRIED"),
+                         (refusals, "MOST_SUCCESSORS_TRIED")):
         assert str(infer(words)).startswith("No system fits these 3 words. ")
-        monkeypatch.setattr(module, "MOST_SUCCESSORS_TRIED", 0)
+        monkeypatch.setattr(module, most, 0)
     assert str(infer(words)) == "No system fits these 3 words."

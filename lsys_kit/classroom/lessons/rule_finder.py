@@ -159,7 +159,7 @@ def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context
     except ModelLimitError as error:
         if error.limit != MOST_FITS:
             raise
-        return Found(f"more than {MOST_FITS:,}", Explanation(str(error)))
+        return Found(f"{error.needed:,}" if error.needed else f"more than {MOST_FITS:,}", Explanation(str(error)))
     said = explanation(fits)
     return Found(str(len(fits)), said, tuple(_words_at(fits[:len(said.own)], said.parting)))
 

@@ -18,22 +18,40 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_SHOWN = 20
 """So many systems are shown, and so many letters named."""
+MOST_SLIPS_SHOWN = 6
+"""So many slips are shown."""
 MOST_COMPARED, STEPS_AHEAD, MODULES_AHEAD = 100, 10, 100_000
 """So many systems, steps, and words of so many modules, are looked at to see where systems part."""
 
 
 @dataclass(frozen=True)
 class Wider:
-    """Wider conditions under which systems fit, with how many do; None where they are more than were counted."""
+    """Wider conditions under which systems fit.
+
+    Attributes
+    ----------
+    conditions
+        The conditions.
+    systems
+        How many systems fit; None where they were not counted.
+    letters, left_open
+        How many letters there are, each with its neighbours, and how many of them become different words in these systems.
+    """
 
     conditions: Conditions
     systems: int | None
+    letters: int = 0
+    left_open: int = 0
 
     def __str__(self) -> str:
         count = "many systems fit" if self.systems is None else "one system fits" if self.systems == 1 \
-            else f"{self.systems} systems fit"
+            else f"{self.systems:,} systems fit"
         erasing = ", erasing=True" if self.conditions.erasing else ""
-        return f"With context={self.conditions.context}{erasing} {count}."
+        said = f"With context={self.conditions.context}{erasing} {count}"
+        if not self.left_open:
+            return f"{said}."
+        return (f"{said}: of {self.letters} letters, told apart by their neighbours, {self.left_open} can become different "
+                "words.")
 
 
 @dataclass(frozen=True)
@@ -45,20 +63,28 @@ class Refusal:
     contradiction
         The first step that cannot come from the one before; None where that was not found.
     slips
-        Letters with others in whose place some system would fit.
+        Single letters that may be wrong, missing or too many, and neighbours that may have changed places.
+    doubtful
+        Where there is no slip, the steps whose words alone contradict the others.
     wider
         Contexts with which some system fits, or None.
     """
 
     contradiction: Contradiction | None
     slips: tuple[Slip, ...] = ()
+    doubtful: tuple[int, ...] = ()
     wider: Wider | None = None
 
     def __str__(self) -> str:
-        slips = [str(slip) for slip in self.slips[:MOST_SHOWN]]
+        slips = [str(slip) for slip in self.slips[:MOST_SLIPS_SHOWN]]
         found = [str(self.contradiction)] if self.contradiction else []
         if slips:
+            more = len(self.slips) - len(slips)
+            slips += [f"one of {more} other places were changed"] if more else []
             found.append(f"A system without contexts would fit if {', or if '.join(slips)}.")
+        if self.doubtful:
+            steps = " or ".join(map(str, self.doubtful))
+            found.append(f"A system without contexts would fit if the word of step {steps} were another.")
         if self.wider:
             found.append(str(self.wider))
         return " ".join(found)

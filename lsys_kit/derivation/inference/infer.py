@@ -9,27 +9,26 @@ L-systems, 2018.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.inference.cases import general_productions
 from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
-from lsys_kit.derivation.inference.problem import Conditions, Problem, Table, problem_of, tables, well_nested
+from lsys_kit.derivation.inference.problem import Conditions, Table, problem_of, tables, well_nested
 from lsys_kit.derivation.inference.productions import productions_of, system_of
 from lsys_kit.derivation.inference.refusals import contradiction
-from lsys_kit.derivation.inference.search import GivenUp
-from lsys_kit.derivation.inference.slips import slips
+from lsys_kit.derivation.inference.slips import doubtful_words, slips
+from lsys_kit.derivation.inference.too_many import one_soon_found, soon_counted, too_many
 from lsys_kit.derivation.inference.words import Row, read_words
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 
 MOST_FITS = 1_000
 """So many systems are listed; more are refused."""
-MOST_COUNTED = 20
-"""So many systems are counted where others than those that were asked for fit."""
-MOST_SUCCESSORS_TRIED = 100
-"""So many successors are tried then."""
+MOST_SUCCESSORS_TRIED = 4_000
+"""So many successors are tried to count the systems with contexts where none fits without."""
+MOST_TRIED_WITH_SLIPS = 100
+"""So many, where a slip is the more likely reason."""
 CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
 """The contexts that are tried where no system fits, the smallest first."""
 
@@ -52,13 +51,13 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
         if asked.context != (0, 0):
             _check_brackets(rows)
         try:
-            found += islice(tables(problem_of(rows, asked)), MOST_FITS + 1)
+            problem = problem_of(rows, asked)
+            found += islice(tables(problem), MOST_FITS + 1)
         except ModelLimitError as error:
             error.partial = _fits(rows, found, asked)
             raise
         if len(found) > MOST_FITS:
-            raise ModelLimitError(f"More than {MOST_FITS:,} systems fit these {len(rows)} words", limit=MOST_FITS,
-                                  partial=_fits(rows, found[:MOST_FITS], asked), hint=_what_is_certain(found))
+            raise too_many(problem, _fits(rows, found[:MOST_FITS], asked), found)
         if found:
             return _fits(rows, found, asked)
         try:
@@ -101,39 +100,24 @@ def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions)
     return Fits(rows, tuple(system_of(rows[0], each, conditions) for each in rules), conditions)
 
 
-def _what_is_certain(found: Sequence[Table]) -> str:
-    """What all systems found have in common, and what is left open."""
-    same = {letter: word for letter, word in found[0].items() if all(other[letter] == word for other in found)}
-    rules = [str(production) for production in productions_of(same)][:MOST_COUNTED]
-    left = [str(letter) for letter in found[0] if letter not in same]
-    certain = f" All that were found have {', '.join(rules)}." if rules else ""
-    more = f" and {len(left) - MOST_COUNTED} more" if len(left) > MOST_COUNTED else ""
-    return f"Give more steps.{certain} They differ in what becomes of {', '.join(left[:MOST_COUNTED])}{more}."
-
-
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
     """Why no system fits."""
     where = contradiction(rows, conditions)
-    wrong = tuple(slips(rows, where, conditions)) if where and conditions.context == (0, 0) else ()
-    return Refusal(where, wrong, next(_wider(rows, conditions), None))
+    if where is None or conditions.context != (0, 0):
+        return Refusal(where, wider=next(_wider(rows, conditions, MOST_SUCCESSORS_TRIED), None))
+    wrong = tuple(slips(rows, where, conditions))
+    doubtful = () if wrong else tuple(doubtful_words(rows, where, conditions))
+    trials = MOST_TRIED_WITH_SLIPS if wrong else MOST_SUCCESSORS_TRIED
+    return Refusal(where, wrong, doubtful, next(_wider(rows, conditions, trials), None))
 
 
-def _wider(rows: tuple[Row, ...], conditions: Conditions) -> Iterator[Wider]:
-    """Wider conditions under which systems fit."""
+def _wider(rows: tuple[Row, ...], conditions: Conditions, trials: int) -> Iterator[Wider]:
+    """Wider conditions under which systems fit, counted with so many trials."""
     for erasing in dict.fromkeys((conditions.erasing, True)):
         for context in CONTEXTS if all(map(well_nested, rows)) else ():
             if context[0] >= conditions.context[0] and context[1] >= conditions.context[1]:
                 wider = replace(conditions, erasing=erasing, context=context)
-                count = _count(problem_of(rows, wider))
-                if count:
-                    yield Wider(wider, count if count <= MOST_COUNTED else None)
-
-
-def _count(problem: Problem) -> int:
-    """How many systems there are; more than are counted, where after the first the search is long."""
-    found = 0
-    with suppress(GivenUp):
-        for _ in islice(tables(problem, MOST_SUCCESSORS_TRIED), MOST_COUNTED + 1):
-            found += 1
-        return found
-    return found and MOST_COUNTED + 1
+                problem = problem_of(rows, wider)
+                if one_soon_found(problem):
+                    count = soon_counted(problem, trials)
+                    yield Wider(wider, count.solutions, len(problem.letters), len(count.ways)) if count else Wider(wider, None)

@@ -15,6 +15,7 @@ from typing import TypeAlias
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.matching import Neighbours, Passing, neighbours, neighbours_along
 from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
+from lsys_kit.derivation.inference.counting import Count, count_of
 from lsys_kit.derivation.inference.equations import Equation, put_in
 from lsys_kit.derivation.inference.search import Solution, solutions
 from lsys_kit.derivation.inference.words import Row
@@ -146,6 +147,14 @@ def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:
             table = table_of(problem, solution)
             if not problem.nested or all(map(well_nested, table.values())):
                 yield table
+
+
+def counted_tables(problem: Problem, trials: float = inf) -> Count:
+    """How many answers there are, and what letters become in any of them; `GivenUp` where so many trials do not suffice."""
+    if not problem.possible:
+        return Count(0)
+    usable = (lambda text: well_nested(tuple(modules_of(problem, text)))) if problem.nested else (lambda _: True)
+    return count_of(problem.equations, problem.bounds, usable, trials)
 
 
 def well_nested(word: Row) -> bool:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from math import inf
+from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.bounds import Bounds, counts_of, narrowed
@@ -18,6 +19,8 @@ from lsys_kit.derivation.inference.positions import bits, cuts, greatest, least,
 
 Solution = dict[int, str]
 """For each letter its successor."""
+Question: TypeAlias = tuple[tuple[Equation, ...], bytes]
+"""A group of equations, and the bounds of its letters."""
 
 
 class Kept:
@@ -56,7 +59,7 @@ class Effort:
     """
 
     left: float
-    kept: dict[tuple[tuple[Equation, ...], bytes], Kept] = field(default_factory=dict)
+    kept: dict[Question, Kept] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -97,9 +100,24 @@ def _solutions(equations: tuple[Equation, ...], bounds: Bounds, effort: Effort) 
     known = deduced(equations, bounds)
     if known is None:
         return
-    groups = [tuple(sorted(group, key=lambda each: each.target)) for group in linked(known.equations)]
-    for found in _products([_kept(group, known, effort) for group in groups]):
+    for found in _products([_kept(group, known, effort) for group in groups_of(known)]):
         yield known.successors | found
+
+
+def groups_of(known: Known) -> list[tuple[Equation, ...]]:
+    """The groups of equations that can be solved each for itself."""
+    return [tuple(sorted(group, key=lambda each: each.target)) for group in linked(known.equations)]
+
+
+def letters_in(group: Sequence[Equation]) -> set[int]:
+    """The unknown letters of some equations."""
+    return {letter for equation in group for letter in equation.unknowns}
+
+
+def question(group: tuple[Equation, ...], known: Known) -> Question:
+    """What tells a group from others: its equations, and the bounds of its letters."""
+    letters = sorted(letters_in(group))
+    return group, known.bounds.least[letters].tobytes() + known.bounds.greatest[letters].tobytes()
 
 
 def _products(groups: Sequence[Kept]) -> Iterator[Solution]:
@@ -118,25 +136,29 @@ def _combined(groups: Sequence[Kept]) -> Iterator[Solution]:
 
 
 def _kept(group: tuple[Equation, ...], known: Known, effort: Effort) -> Kept:
-    letters = sorted({letter for equation in group for letter in equation.unknowns})
-    key = group, known.bounds.least[letters].tobytes() + known.bounds.greatest[letters].tobytes()
+    key = question(group, known)
     if key not in effort.kept:
         effort.kept[key] = Kept(_tried(group, known, effort))
     return effort.kept[key]
 
 
 def _tried(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iterator[Solution]:
-    """The solutions of a group, with one successor after another for its letter with the fewest choices."""
-    letters = {letter for equation in group for letter in equation.unknowns}
-    letter = min(letters & known.choices.keys(), key=lambda each: (len(known.choices[each]), each))
+    """The solutions of a group."""
+    for letter, word, rest in trials_of(group, known, effort):
+        for found in _solutions(rest, known.bounds, effort):
+            yield {letter: word} | found
+
+
+def trials_of(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iterator[tuple[int, str, tuple[Equation, ...]]]:
+    """The letter of a group with the fewest choices, one successor after another, and what is left of the equations then."""
+    letter = min(letters_in(group) & known.choices.keys(), key=lambda each: (len(known.choices[each]), each))
     for word in sorted(known.choices[letter], key=lambda each: (len(each), each)):
         effort.left -= 1
         if effort.left < 0:
             raise GivenUp
         rest = _all_put_in(group, {letter: word})
         if rest is not None:
-            for found in _solutions(rest, known.bounds, effort):
-                yield {letter: word} | found
+            yield letter, word, rest
 
 
 def _all_put_in(equations: Sequence[Equation], known: Solution) -> tuple[Equation, ...] | None:

@@ -1,7 +1,8 @@
-"""Wrong letters: single letters of the words with another in whose place some system fits.
+"""Slips: what may be wrong with a single letter of the words, so that some system fits where it is mended.
 
-A slip in a word upsets the step to it and the step from it alone. So only a word is suspected without whose two steps the
-others agree; each of its letters is tried with every other one, against what the other steps make certain.
+A letter is another, missing, or too many, or two neighbours have changed places. That upsets the step to the word and the step
+from it alone. So only a word is suspected without whose two steps the others agree; every slip in it is tried, against what the
+other steps make certain.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
 from lsys_kit.derivation.inference.equations import Equation, Item, merged, put_in
 from lsys_kit.derivation.inference.problem import FIRST_CHARACTER, Conditions
 from lsys_kit.derivation.inference.refusals import Contradiction
-from lsys_kit.derivation.inference.search import GivenUp, Solution, deduced, solutions
-from lsys_kit.derivation.inference.words import Row
+from lsys_kit.derivation.inference.search import GivenUp, Known, Solution, deduced, solutions
+from lsys_kit.derivation.inference.words import Row, text_of
 from lsys_kit.notation.model.modules import Module
 
 MOST_LETTERS_READ, LETTERS_A_TRIAL = 2_000_000, 500
@@ -29,23 +30,42 @@ MOST_SUCCESSORS_TRIED = 200
 
 @dataclass(frozen=True)
 class Slip:
-    """A letter with another in whose place some system fits.
+    """Some letters of a word with others in whose place some system fits.
 
     Attributes
     ----------
     step, place
-        Where it stands; the place is counted from 1.
+        Where they stand; the place of the first is counted from 1.
     found, instead
-        The letter, and the one that should be there.
+        The letters, and those that should be there: one, none where a letter is missing or too many, or two.
     """
 
     step: int
     place: int
-    found: Module
-    instead: Module
+    found: Row
+    instead: Row
 
     def __str__(self) -> str:
-        return f"letter {self.place} of step {self.step}, {self.found}, were {self.instead}"
+        if not self.found:
+            where = f"behind letter {self.place - 1}" if self.place > 1 else "at the beginning"
+            return f"{self.instead[0]} stood {where} of step {self.step}"
+        if not self.instead:
+            return f"letter {self.place} of step {self.step}, {self.found[0]}, were left out"
+        if len(self.found) > 1:
+            return f"letters {self.place} and {self.place + 1} of step {self.step}, {text_of(self.found)}, changed places"
+        return f"letter {self.place} of step {self.step}, {self.found[0]}, were {self.instead[0]}"
+
+
+@dataclass(frozen=True)
+class _Change:
+    """A word with one slip mended: at which place, how many letters are replaced, by what."""
+
+    place: int
+    letters: int
+    instead: str
+
+    def to(self, word: str) -> str:
+        return word[:self.place] + self.instead + word[self.place + self.letters:]
 
 
 @dataclass(frozen=True)
@@ -67,7 +87,7 @@ class _Texts:
 
 
 def slips(words: Sequence[Row], found: Contradiction, conditions: Conditions) -> Iterator[Slip]:
-    """The single letters that could be wrong where words contradict one another; those near that place are tried first.
+    """The slips that there may be where words contradict one another; those near that place are tried first.
 
     >>> from lsys_kit.derivation.inference.refusals import contradiction
     >>> from lsys_kit.derivation.inference.words import read_words
@@ -75,63 +95,105 @@ def slips(words: Sequence[Row], found: Contradiction, conditions: Conditions) ->
     >>> [str(slip) for slip in slips(words, contradiction(words, Conditions()), Conditions())]
     ['letter 3 of step 3, b, were a']
     """
-    modules = [*dict.fromkeys(module for word in words for module in word)]
-    codes = {module: chr(FIRST_CHARACTER + number) for number, module in enumerate(modules)}
-    texts = _Texts(tuple("".join(codes[module] for module in word) for word in words),
-                   "".join(codes[module] for module in modules if module.symbol in conditions.unchanged), conditions.erasing)
+    texts, modules = _texts(words, conditions), _modules(words)
     near = {found.step: found.begin, found.step - 1: found.place - 1}
     for suspect in range(found.step, -1, -1):
-        for place, letter in _slips_of(texts, suspect, near.get(suspect, 0)):
-            yield Slip(suspect, place + 1, words[suspect][place], modules[ord(letter) - FIRST_CHARACTER])
+        for change in _slips_of(texts, suspect, near.get(suspect, 0)):
+            yield Slip(suspect, change.place + 1, words[suspect][change.place:change.place + change.letters],
+                       tuple(modules[ord(letter) - FIRST_CHARACTER] for letter in change.instead))
 
 
-def _slips_of(texts: _Texts, suspect: int, near: int) -> Iterator[tuple[int, str]]:
-    """The places of a word, and what could stand there."""
+def doubtful_words(words: Sequence[Row], found: Contradiction, conditions: Conditions) -> Iterator[int]:
+    """The steps without whose word all others agree, where words contradict one another.
+
+    >>> from lsys_kit.derivation.inference.refusals import contradiction
+    >>> from lsys_kit.derivation.inference.words import read_words
+    >>> words = read_words(["a", "ab", "aba", "ab", "abaababa", "abaababaabaab"])
+    >>> [*doubtful_words(words, contradiction(words, Conditions()), Conditions())]
+    [3]
+    """
+    texts = _texts(words, conditions)
+    return (suspect for suspect in range(found.step + 1) if len(words) > 2 and _known_without(texts, suspect))
+
+
+def _modules(words: Sequence[Row]) -> list[Module]:
+    return [*dict.fromkeys(module for word in words for module in word)]
+
+
+def _texts(words: Sequence[Row], conditions: Conditions) -> _Texts:
+    codes = {module: chr(FIRST_CHARACTER + number) for number, module in enumerate(_modules(words))}
+    return _Texts(tuple("".join(codes[module] for module in word) for word in words),
+                  "".join(code for module, code in codes.items() if module.symbol in conditions.unchanged), conditions.erasing)
+
+
+def _known_without(texts: _Texts, suspect: int) -> Known | None:
+    """What follows from all steps but those to and from a word; None where they contradict one another."""
     steps = [*zip(texts.words, texts.words[1:], strict=False)]
     others = [texts.equation(*step) for number, step in enumerate(steps) if number not in (suspect - 1, suspect)]
-    bounds = _first_bounds(texts)
-    known = None if None in others else deduced(tuple(each for each in others if each and each.items), bounds)
-    if known is None or not _solvable(known.equations, known.bounds):
+    known = None if None in others else deduced(tuple(each for each in others if each and each.items), _first_bounds(texts))
+    return known if known and _solvable(known.equations, known.bounds) else None
+
+
+def _slips_of(texts: _Texts, suspect: int, near: int) -> Iterator[_Change]:
+    """The slips that there may be in a word."""
+    known = _known_without(texts, suspect)
+    if known is None:
         return
     most = MOST_LETTERS_READ // (LETTERS_A_TRIAL + sum(map(len, texts.words)))
-    for place, letter in islice(_changes(texts, suspect, known.successors, near), most):
+    for change in islice(_changes(texts, suspect, known.successors, near), most):
         check_budget()
-        word = texts.words[suspect][:place] + letter + texts.words[suspect][place + 1:]
-        around = [texts.words[suspect - 1]] * (suspect > 0) + [word] + [*texts.words[suspect + 1:suspect + 2]]
+        before, behind = texts.words[max(0, suspect - 1):suspect], texts.words[suspect + 1:suspect + 2]
+        around = [*before, change.to(texts.words[suspect]), *behind]
         changed = [texts.equation(*step) for step in pairwise(around)]
         changed = [each and put_in(each, known.successors) for each in changed]
         left = [each for each in changed if each and each.items]
         if None not in changed and _solvable([*known.equations, *left], known.bounds):
-            yield place, letter
+            yield change
 
 
 def _first_bounds(texts: _Texts) -> Bounds:
     numbers = max(map(ord, "".join(texts.words))) - FIRST_CHARACTER + 1
-    return first_bounds([Equation((), word) for word in texts.words], numbers, texts.erasing)
+    longer = [Equation((), word + word[-1:]) for word in texts.words]  # a letter may be missing
+    return first_bounds(longer, numbers, texts.erasing)
 
 
-def _changes(texts: _Texts, suspect: int, known: Solution, near: int) -> Iterator[tuple[int, str]]:
-    """The places of a word that can be wrong, with every other letter."""
+def _changes(texts: _Texts, suspect: int, known: Solution, near: int) -> Iterator[_Change]:
+    """What may have to be changed in a word, each new word once."""
     alphabet = sorted({*"".join(texts.words)})
     word = texts.words[suspect]
-    places = _places(texts.items(texts.words[suspect - 1], known), word) if suspect else range(len(word))
+    places = _places(texts.items(texts.words[suspect - 1], known), word) if suspect else range(len(word) + 1)
+    tried = {word}
     for place in sorted(places, key=lambda place: abs(place - near)):
-        yield from ((place, letter) for letter in alphabet if letter != word[place])
+        for change in _changes_at(word, place, alphabet):
+            if (new := change.to(word)) not in tried:
+                tried.add(new)
+                yield change
+
+
+def _changes_at(word: str, place: int, alphabet: Iterable[str]) -> Iterator[_Change]:
+    """What may have to be changed at a place of a word: a letter is another, neighbours changed places, one is missing or too
+    many."""
+    if place < len(word):
+        yield from (_Change(place, 1, letter) for letter in alphabet)
+    yield from (_Change(first, 2, word[first:first + 2][::-1]) for first in (place, place - 1) if 0 <= first < len(word) - 1)
+    yield from (_Change(place, 0, letter) for letter in alphabet)
+    if place < len(word) and len(word) > 1:
+        yield _Change(place, 1, "")
 
 
 def _places(items: Sequence[Item], word: str) -> Iterable[int]:
-    """Where one letter may be wrong: where what is known at either end differs first, else where nothing is known.
+    """Where a slip may be: where what is known at either end differs first, else where nothing is known.
 
     >>> [*_places(["abc", 0], "axbb")], [*_places([0, "bc"], "aaxc")], [*_places(["ab", 0, "b"], "abccb")]
-    ([1], [2], [2, 3])
+    ([1], [2, 3], [2, 3, 4])
     """
     front = items[0] if items and isinstance(items[0], str) else ""
     back = items[-1] if len(items) > 1 and isinstance(items[-1], str) else ""
     if (same := _same(front, word)) < len(front):
-        return range(same, min(same + 1, len(word)))
+        return range(same, same + 1)
     if (same := _same(back[::-1], word[::-1])) < len(back):
-        return range(max(0, len(word) - same - 1), len(word) - same)
-    return range(len(front), len(word) - len(back))
+        return range(max(0, len(word) - same - 1), len(word) - same + 1)
+    return range(len(front), len(word) - len(back) + 1)
 
 
 def _same(one: str, other: str) -> int:

@@ -56,10 +56,11 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     -------
     Fits
         The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
-        step and letter that contradict those before, single letters that may be wrong, contexts with which some system fits.
-        Letters that only the last word has are left as they are, since nothing is known of them. Where modules have parameters
-        and no contexts are asked for, the systems are those with the fewest productions: conditions compare parameters with
-        numbers, and values are affine functions of parameters.
+        step and letter that contradict those before, what may be wrong with single letters or words, contexts with which some
+        system fits. Letters that only the last word has are left as they are, since nothing is known of them. Where modules
+        have parameters and no contexts are asked for, the systems are those with the fewest productions: conditions compare
+        parameters with numbers, and values are affine functions of parameters. With contexts no laws are looked for: a module
+        with other values is another letter.
     DrawingFits
         For pictures the systems that draw them, in the same form: each was drawn and compared. All strokes must be equally
         long. If the first picture has strokes, F is the only letter, and its successor is a word of F, + and - with brackets;
@@ -70,7 +71,8 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     Raises
     ------
     ModelLimitError
-        More than 1,000 systems fit, or the search takes too long; `partial` has those that were found.
+        More than 1,000 systems fit: `needed` is their number, where it was found without listing them; or the search takes too
+        long. `partial` has the systems that were found.
     ModelValueError
         The words, the pictures or another argument cannot be used.
 
