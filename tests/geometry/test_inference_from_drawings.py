@@ -80,6 +80,47 @@ def test_curves_whose_strokes_lie_on_one_another_are_found_too(name: str) -> Non
     found_again(LARGE[name])
 
 
+TWO_SYMBOLS = {
+    "1.10b, arrowhead": ("angle: 60\naxiom: F_r\nF_l -> F_r+F_l+F_r\nF_r -> F_l-F_r-F_l", 3, 12),
+    "1.11a, Gosper": ("angle: 60\naxiom: F_l\nF_l -> F_l+F_r++F_r-F_l--F_l F_l-F_r+\n"
+                      "F_r -> -F_l+F_r F_r++F_r+F_l--F_l-F_r", 3, 2),
+    "dragon of X and Y": ("axiom: F X\nX -> X+Y F+\nY -> -F X-Y", 4, 8),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TWO_SYMBOLS)
+def test_curves_of_two_symbols_that_draw_are_found(name: str) -> None:
+    rules, steps, systems = TWO_SYMBOLS[name]
+    fits = found_again(rules, steps)
+    assert len(fits) == systems
+    assert all({"F_l", "F_r"} == {rule.predecessor.symbol for rule in fit.productions} for fit in fits)
+
+
+@pytest.mark.slow
+def test_the_dragon_curve_is_found_from_five_pictures_and_not_from_four() -> None:
+    rules = "axiom: F_l\nF_l -> F_l+F_r+\nF_r -> -F_l-F_r"
+    pictures = [disarranged(strokes_of(read(rules), step), random.Random(step)) for step in range(5)]
+    assert str(infer(pictures[:4])).splitlines()[0] == "16 systems draw these 4 pictures; they part at step 4:"
+    fits = infer(pictures)
+    assert str(fits).splitlines()[0] == "8 systems draw these 5 pictures; as far as was looked, later pictures are the same:"
+    assert ["F_l -> F_l+F_r+", "F_r -> -F_l-F_r"] in [[str(rule) for rule in fit.productions] for fit in fits]
+    assert all(draws_alike(fit, read(rules), 5) for fit in fits)
+
+
+def test_two_symbols_that_draw_need_four_pictures() -> None:
+    rules, *_ = TWO_SYMBOLS["1.10b, arrowhead"]
+    fits = infer([strokes_of(read(rules), step) for step in range(3)])
+    assert str(fits).endswith("Rules for F_l and F_r are looked for from 4 pictures on.")
+
+
+def test_three_symbols_that_draw_are_not_found() -> None:
+    rules = "angle: 60\naxiom: F_a\nF_a -> F_b+F_c+F_a\nF_b -> F_a-F_c-F_c\nF_c -> F_c F_a+F_b"
+    homomorphism = "\ninterpretation:\nF_a -> F\nF_b -> F\nF_c -> F"
+    fits = infer([strokes_of(read(rules + homomorphism), step) for step in range(4)])
+    assert str(fits).endswith("Their strokes do not stand where a rule for F, or rules for F_l and F_r, would put them.")
+
+
 @pytest.mark.parametrize("name", ["1.24a", "1.24b", "one branch", "the other"])
 def test_a_plant_is_found_as_it_is_printed(name: str) -> None:
     [fit] = found_again(PLANTS[name])

@@ -6,7 +6,7 @@ function stands here, as `derive` stands above geometry for systems that look ar
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import overload
 
 from lsys_kit.budget import Task, counted
@@ -19,6 +19,7 @@ from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
 from lsys_kit.geometry.inference.fits import SAME_TO, DrawingFits, drawn
 from lsys_kit.geometry.inference.node_rewriting import node_rules
 from lsys_kit.geometry.inference.strokes import LEAST_ANGLE, Strokes, Turning, angle_between, is_drawing, read_drawings
+from lsys_kit.geometry.inference.two_symbols import PICTURES, may_have_two_symbols, two_symbol_rules
 from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
@@ -64,9 +65,11 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     DrawingFits
         For pictures the systems that draw them, in the same form: each was drawn and compared. All strokes must be equally
         long. If the first picture has strokes, F is the only letter, and its successor is a word of F, + and - with brackets;
-        systems without brackets are preferred. If the first picture is empty, an apex X becomes a word of X, F, + and -,
-        and F becomes a row of F: so plants such as the last three of ABOP, figure 1.24, are found. Other systems, with two
-        letters that draw, with f, chance or parameters, are not looked for.
+        systems without brackets are preferred. If there is none, and the first of four or more pictures is one stroke, F_l
+        and F_r become words of equally many F_l and F_r, with + and -: so the dragon curve, the Sierpinski arrowhead and
+        Gosper's curve are found (ABOP, figures 1.10 and 1.11). If the first picture is empty, an apex X becomes a word of X,
+        F, + and -, and F becomes a row of F: so plants such as the last three of ABOP, figure 1.24, are found. Other systems,
+        with f, chance or parameters, are not looked for.
 
     Raises
     ------
@@ -123,7 +126,7 @@ def _of_drawings(drawings: tuple[Strokes, ...], angle: object) -> DrawingFits:
     turning = Turning(_angle(angle, drawings))
     found: dict[str, LSystem] = {}
     try:
-        for text in _candidates(drawings, turning):
+        for text in _candidates(drawings, turning, found):
             if text not in found and draws(system := read(text), drawings):
                 found[text] = system
             if len(found) > MOST_FITS:
@@ -137,8 +140,17 @@ def _of_drawings(drawings: tuple[Strokes, ...], angle: object) -> DrawingFits:
 
 def _sorted(drawings: tuple[Strokes, ...], found: dict[str, LSystem]) -> DrawingFits:
     systems = tuple(found[text] for text in sorted(found, key=lambda text: (len(text), text)))
-    why = "" if systems else "Their strokes do not stand where a rule for F, or for an apex X with F, would put them."
-    return DrawingFits(drawings, systems, why)
+    return DrawingFits(drawings, systems, "" if systems else _why_none(drawings))
+
+
+def _why_none(drawings: tuple[Strokes, ...]) -> str:
+    factor = factor_of(drawings)
+    if factor is None:
+        return "Their strokes do not stand where a rule for an apex X with F would put them."
+    if may_have_two_symbols(drawings, factor):
+        return "Their strokes do not stand where a rule for F, or rules for F_l and F_r, would put them."
+    fewer = f" Rules for F_l and F_r are looked for from {PICTURES} pictures on." if len(drawings) < PICTURES else ""
+    return f"Their strokes do not stand where a rule for F would put them.{fewer}"
 
 
 def _angle(given: object, drawings: tuple[Strokes, ...]) -> float:
@@ -162,12 +174,15 @@ def _refusal(drawings: tuple[Strokes, ...]) -> str:
     return "" if apart is None else f"The strokes of step {apart} do not hang together."
 
 
-def _candidates(drawings: tuple[Strokes, ...], turning: Turning) -> Iterator[str]:
-    """Texts of systems that may draw the pictures."""
+def _candidates(drawings: tuple[Strokes, ...], turning: Turning, found: Collection[str]) -> Iterator[str]:
+    """Texts of systems that may draw the pictures; those with two symbols that draw where none was found with one."""
     head = f"angle: {turning.degrees:.10g}\naxiom: "
     factor = factor_of(drawings)
     if factor is not None:
         yield from (f"{head}{axiom}\nF -> {word}" for axiom, word in edge_rules(drawings, turning, factor))
+        if not found and may_have_two_symbols(drawings, factor):
+            yield from (f"{head}F_l\nF_l -> {left}\nF_r -> {right}"
+                        for left, right in two_symbol_rules(drawings, turning, factor))
         return
     for word, longer in node_rules(drawings, turning):
         yield f"{head}X\nX -> {word}" + (f"\nF -> {'F' * longer}" if longer > 1 else "")

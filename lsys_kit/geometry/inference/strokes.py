@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
+from math import degrees
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -214,6 +215,14 @@ class Turning:
     def by(self, number: Any) -> Any:
         """So many turns as complex numbers."""
         return np.exp(1j * np.radians(self.degrees) * number)
+
+    def is_(self, radians: float, number: int) -> bool:
+        """Whether an angle is so many turns to the left.
+
+        >>> Turning(90).is_(np.pi, -2), Turning(90).is_(np.pi / 2, -1)
+        (True, False)
+        """
+        return abs((number * self.degrees - degrees(radians) + 180) % 360 - 180) < degrees(NEAR)
 
     def number(self, radians: float) -> int | None:
         """How many turns an angle is, as few as possible, to the left; None where it is no multiple.
