@@ -1,6 +1,6 @@
 """Everybody's plants on one page: what a class has handed in, as links or as model files, drawn side by side.
 
-Each is read and drawn in a child process with limits of time and memory. What cannot be drawn is a tile too, which says why; no
+Each is read and drawn in a child process with limits of time and memory, as many processes as there are processors. What cannot be drawn is a tile too, which says why; no
 text of a model or a name becomes markup, and pictures stand in the page as images, in which nothing runs.
 """
 
@@ -92,9 +92,9 @@ def wall(folder: str | Path) -> list[Tile]:
         raise ModelFileError(f'There is more in "{quotable(str(folder))}" than {MOST_TILES:,} plants, or than '
                              f"{MOST_CHARACTERS:,} characters", hint="Make several pages.")
     _prepare()
-    readable = [each for each in given if not each.problem]
-    drawn = iter(in_child_processes(drawn_as, [each.text for each in readable], SECONDS, "drawn", TOGETHER))
-    return [Tile(each.name, mistake=each.problem) if each.problem else _tile(each.name, next(drawn)) for each in given]
+    texts = list(dict.fromkeys(each.text for each in given if not each.problem))  # what several hand in is drawn once
+    drawn = dict(zip(texts, in_child_processes(drawn_as, texts, SECONDS, "drawn", TOGETHER), strict=True))
+    return [Tile(each.name, mistake=each.problem) if each.problem else _tile(each.name, drawn[each.text]) for each in given]
 
 
 def _prepare() -> None:

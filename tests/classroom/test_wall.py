@@ -11,6 +11,7 @@ import pytest
 
 from lsys_kit import link, map_system, read, system
 from lsys_kit.__main__ import main
+from lsys_kit.classroom import wall as wall_module
 from lsys_kit.classroom.handed_in import handed_in
 from lsys_kit.classroom.wall import Tile, drawn_as, models_in, wall, wall_page
 from lsys_kit.errors import ModelFileError
@@ -96,12 +97,12 @@ def test_no_text_becomes_markup(name):
 
 @pytest.mark.slow
 def test_a_class_of_two_hundred_is_on_one_page_with_its_hostile_links_as_errors(tmp_path, capsys):
-    good = [link(system(name)) for name in ("K5", "J4", "K18", "P9", "T2")]
+    good = [link(system(name), {"step": step}) for name in ("K5", "J4", "K18", "P9", "T2") for step in range(1, 5)]
     bad = [LINK[:-5], "#lsys=", "#lsys=zzzz", f"{'x' * 3_000}#lsys=a<script>", link(read("axiom: F\nF -> F F F F F F F F F F"),
                                                                                 {"step": 50})]
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "links.txt").write_text(
-        "\n".join(f"<b>Student {number}</b>: {(good * 4 + bad)[number % 25]}" for number in range(200)), encoding="utf-8")
+        "\n".join(f"<b>Student {number}</b>: {(good + bad)[number % 25]}" for number in range(200)), encoding="utf-8")
     (tmp_path / "in" / "plant.lsys").write_text(PLANT, encoding="utf-8")
     (tmp_path / "in" / "picture.png").write_bytes(b"\x89PNG\0\0\0")
     (tmp_path / "in" / "away").symlink_to("/dev/zero")
@@ -118,6 +119,17 @@ def test_a_class_of_two_hundred_is_on_one_page_with_its_hostile_links_as_errors(
     assert "script-src" not in page
     for picture in {*re.findall(r"data:image/svg\+xml;base64,([^\"]*)", page)}:
         check_svg(base64.b64decode(picture).decode())
+
+
+def test_what_several_hand_in_is_drawn_once(tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(wall_module, "in_child_processes",
+                        lambda work, texts, *_: asked.extend(texts) or [{"picture": text} for text in texts])
+    other = link(read(PLANT), {"step": 3})
+    given(tmp_path, Ann=LINK, Ben=other, Cem=LINK)
+    tiles = wall(tmp_path)
+    assert asked == [LINK, other]
+    assert [(tile.name, tile.picture) for tile in tiles] == [("Ann", LINK), ("Ben", other), ("Cem", LINK)]
 
 
 def test_a_page_is_renewed_and_nothing_else_is_lost(tmp_path):
