@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.formats.film import Film
 
-STEPS = 5
-"""The number of steps drawn by default, if the system has none of its own."""
-
 
 def list_systems(_: argparse.Namespace) -> None:
     """Print the catalogue: ids, names and titles, under the works from which the systems come."""
@@ -68,10 +65,11 @@ def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
 def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
     """The derivation; if a step is too large, the error says what can be typed instead."""
     from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.notation.model.system import USUAL_STEPS
     from lsys_kit.worlds.derive import derive
 
     try:
-        steps = next(steps for steps in (options.steps, system.steps, STEPS) if steps is not None)
+        steps = next(steps for steps in (options.steps, system.steps, USUAL_STEPS) if steps is not None)
         return derive(system, steps, seed=options.seed, arithmetic=options.arithmetic)
     except ModelLimitError as mistake:
         if not isinstance(mistake.partial, Derivation):

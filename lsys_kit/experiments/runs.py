@@ -18,14 +18,12 @@ from lsys_kit.experiments.table import Table, value_text
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import function_of
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 
 BYTES_A_VALUE = 128
 """About what a value takes in a table, with what is needed to find it."""
 MOST_FAILURES_TOLD = 3
 """Of so many runs that failed it is told why."""
-DEFAULT_STEPS = 5
-"""How many steps a system is derived that does not say how many."""
 PROGRESS_DELAY = 1.0
 """What is finished sooner, in seconds, shows no progress bar."""
 
@@ -243,7 +241,7 @@ def _all_of(values: Iterable[object]) -> list[object]:
 def _steps(system: LSystem, steps: Any) -> tuple[int, ...]:
     """The steps at which is measured, in ascending order."""
     if steps is None:
-        return (DEFAULT_STEPS if system.steps is None else system.steps,)
+        return (USUAL_STEPS if system.steps is None else system.steps,)
     if isinstance(steps, str) or not isinstance(steps, Iterable):
         return (whole_number(steps, "The step"),)
     found = sorted({whole_number(step, "The step") for step in _all_of(steps)})

@@ -8,13 +8,11 @@ from typing import Any, NamedTuple
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelLimitError, ModelValueError, shown, whole_number
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.worlds.derive import derive
 
 MOST = 36
 """The greatest number of words in a picture."""
-STEPS = 5
-"""The number of steps of a system that does not say how many."""
 
 
 class ChosenWord(NamedTuple):
@@ -93,7 +91,7 @@ def _chosen(word: Derivation | Word, step: int | None, seed: int | None) -> Chos
 def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
     """The derivation of a system; a derivation or word unchanged, because its steps are fixed already."""
     if isinstance(what, LSystem):
-        return derive(what, n if n is not None else what.steps if what.steps is not None else STEPS, **choices)
+        return derive(what, n if n is not None else what.steps if what.steps is not None else USUAL_STEPS, **choices)
     if n is not None or choices.keys() - {"seed", "arithmetic"}:
         raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
     return what

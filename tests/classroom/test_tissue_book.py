@@ -151,6 +151,14 @@ def test_a_stored_notebook_shows_one_picture(id):
     assert turned.sight.svg != panel.sight.svg
 
 
+@pytest.mark.parametrize(("choices", "said"), [
+    ({"field": 1}, "The explorer takes no field of Python"),
+    ({"pressure": 2}, '"pressure" stands beside what is compared, and belongs to one side of it')])
+def test_what_belongs_to_one_side_is_refused_beside_both(choices, said):
+    with pytest.raises(ModelValueError, match=f"^{said}"):
+        compare("K33", {}, {"pressure": 2}, **choices)
+
+
 def test_two_cellworks_are_compared():
     both = compare("K33", {}, {"pressure": 2}, step=2)
     assert (both.left.step, both.right.pressure) == (2, 2)

@@ -12,7 +12,7 @@ from ipywidgets import widget_serialization
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.explore import explore
 from lsys_kit.classroom.panel.explorer import Explorer
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelValueError, quotable
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
@@ -20,7 +20,7 @@ from lsys_kit.notation.model.system import LSystem
 
 def compare(what: LSystem | MapSystem | CellworkSystem | str,
             *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
-            step: int | None = None, sliders: str | Collection[str] | None = None) -> Comparison:
+            step: int | None = None, sliders: str | Collection[str] | None = None, **choices: object) -> Comparison:
     """Show two systems, or one under two settings of its constants, side by side with one step slider.
 
     Where the words differ is marked, and said in words below.
@@ -36,11 +36,13 @@ def compare(what: LSystem | MapSystem | CellworkSystem | str,
         The step shown first; by default that of the first system.
     sliders
         What has a slider on both sides, as for `explore`; by default everything has one.
+    **choices
+        None: constants, angle and seed of a side stand in its dictionary.
 
     Raises
     ------
     ModelValueError
-        It is not clear what is compared with what.
+        It is not clear what is compared with what, or a choice is none of a side's.
     ModelNameError
         One of the two has no slider of that name.
 
@@ -53,6 +55,11 @@ def compare(what: LSystem | MapSystem | CellworkSystem | str,
     >>> both.right.step
     4
     """
+    for name in choices:
+        if name == "field":
+            explore(what, field=choices[name])  # says why a panel has none
+        raise ModelValueError(f'"{quotable(name)}" stands beside what is compared, and belongs to one side of it',
+                              hint=f'Each side has settings of its own: compare("J4", {{}}, {{"{quotable(name)}": ...}}).')
     match others:
         case (Mapping() as first, Mapping() as second):
             sides = (what, first), (what, second)

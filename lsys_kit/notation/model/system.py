@@ -16,6 +16,9 @@ from lsys_kit.notation.model.arithmetic import Value, shortest_decimal
 from lsys_kit.notation.model.expressions import Expression, TextSpan
 from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, flat, joined
 
+USUAL_STEPS = 5
+"""How many steps a system is derived that does not say how many."""
+
 
 @dataclass(frozen=True)
 class Production:

@@ -30,7 +30,7 @@ from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.geometry.turtle.mode import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 from lsys_kit.pictures.nets.parts import steering_of
@@ -42,8 +42,8 @@ MOST_MODULES, MOST_BYTES = 100_000, 1_900_000
 """A book holds no step of more modules, since nobody could see more of them; and no more than about so many bytes."""
 STATE_BYTES, HISTORY_BYTES = 60, 6
 """About what a state takes in it beside its text, and a module of a word with what it becomes."""
-USUAL_STEPS, FEWEST_STEPS = 5, 10
-"""The steps of a system that does not say how many, and the last step of a book at least, where it can be reached."""
+FEWEST_STEPS = 10
+"""The last step of a book at least, where it can be reached."""
 TIME_FOR_ASKED, TIME_FOR_LATER = 0.6, 0.2
 """The parts of the limit of time after which the steps that are asked for, and those beyond, are given up."""
 
