@@ -1,8 +1,8 @@
 """Everybody's plants on one page: what a class has handed in, as links or as model files, drawn side by side.
 
 Each is read and drawn in a child process with limits of time and memory, as many processes at a time as there are processors.
-What cannot be drawn is a tile too, which says why; no text of a model or a name becomes markup, and pictures stand in the page as
-images, in which nothing runs.
+What cannot be drawn is a tile too, which says why; no text of a model or a name becomes markup, and pictures stand in the page
+as images, in which nothing runs.
 """
 
 from __future__ import annotations

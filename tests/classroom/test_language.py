@@ -18,6 +18,7 @@ import lsys_kit
 from lsys_kit import ModelNameError, check, exercises, language, practice, predict, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
+from lsys_kit.classroom.exercises.declared.registry import lessons
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
@@ -29,6 +30,8 @@ from lsys_kit.classroom.exercises.translated import texts, translated, translate
 from lsys_kit.classroom.lessons.declared import table
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.lessons.worksheet import marked, summary
+from lsys_kit.classroom.scorm.package import manifest
+from lsys_kit.classroom.scorm.page import WORDS, exercise_page, words_of_page
 from lsys_kit.translation import gettext, ngettext
 from tests.messages import TEMPLATE, codes, is_translated, placeholders, po_file, po_text, renewed, template
 
@@ -138,7 +141,7 @@ def test_hints_and_the_solution_are_in_the_language():
 
 
 @pytest.mark.usefixtures("german")
-def test_a_number_is_read_with_the_words_of_the_question():
+def test_a_number_is_read_with_thewords_of_page_of_the_question():
     assert check("0.2", "64 Striche") == 1
     assert check("4.2", "72 Grad") == 1
     assert check("4.2", "etwa 72°") == 1
@@ -256,13 +259,32 @@ def test_the_labels_of_a_lesson_are_in_the_language():
         "3 von 8 Feldern sind richtig, 4 sind noch nicht ausgefüllt. Sieh dir noch einmal an: Zeile 2, rule after rule.")
 
 
-def test_english_labels_need_no_words():
+def test_english_labels_need_nowords_of_page():
     assert predict("How many?", "3").prompt.words == {}
 
 
 def test_the_scripts_show_the_labels_that_are_translated():
     scripts = "".join(path.read_text("utf-8") for path in SCRIPTS.glob("lessons/*.js"))
     assert [label for label in LABELS if f'"{label}"' not in scripts] == ["Not right"]  # said by the kernel
+
+
+def test_the_scripts_of_a_page_for_platforms_show_the_texts_that_are_translated():
+    scripts = "".join(path.read_text("utf-8") for path in (SCRIPTS / "practice.js", *SCRIPTS.glob("practice/*.js")))
+    assert [text for text in WORDS if f'"{text}"' not in scripts and f"'{text}'" not in scripts] == []
+    shown = re.findall(r"""say\((?:"([^"]+)"|'([^']+)')""", scripts)
+    assert shown
+    assert {one or other for one, other in shown} <= {*WORDS}
+
+
+@pytest.mark.usefixtures("german")
+def test_a_page_for_platforms_is_in_the_language():
+    page = exercise_page(lessons()[0])
+    assert page.startswith('<!doctype html>\n<html lang="de">')
+    assert "<h1>Aufgaben: Paralleles Ersetzen</h1>" in page
+    for said in ("Das ist Übung und keine Prüfung.", "Deine Antwort, ein Wort", "<h2>Zusammenfassung</h2>", "Im Notebook</h2>"):
+        assert said in page
+    assert manifest([translated_lesson(lessons()[0])], ["01.html"]).count("Paralleles Ersetzen") == 2
+    assert words_of_page()["{number} of {total} solved."] == "{number} von {total} gelöst."
 
 
 @pytest.mark.usefixtures("german")

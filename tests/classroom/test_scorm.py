@@ -174,7 +174,7 @@ def test_exercises_that_only_the_kit_can_check_are_named(first):
 # What a page says
 
 
-SAYING = f"""cases => {{ {joined('typed', 'sealed')}
+SAYING = f"""cases => {{ {joined('language', 'typed', 'sealed')}
 return cases.map(([data, text]) => {{
   const {{ key, unreadable }} = read(data, text);
   return unreadable ? {{ said: "Not readable yet", message: unreadable }} : replyTo(data, key);

@@ -23,12 +23,15 @@ from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.kinds.words import system_of_words
+from lsys_kit.classroom.exercises.typed.units import UNITS
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import symbols
+from lsys_kit.translation import gettext
 
 PARTS_OF_A_TOLERANCE = 10
 """A number that need not be exact is rounded to so many parts of its tolerance before it is hashed."""
+DIFFERENT = "Something in it is different. Do it again, one step after another."
 NAME_LENGTH = 24
 """Characters of the hash that names a reply."""
 
@@ -171,10 +174,10 @@ _REPLIES: Mapping[str, Callable[[Exercise], dict[str, Reply]]] = {
 def _otherwise(exercise: Exercise) -> str:
     """What is said to a wrong answer that nothing explains."""
     if exercise.otherwise or exercise.kind != "number":
-        return exercise.otherwise or "Something in it is different. Do it again, one step after another."
+        return exercise.otherwise or gettext(DIFFERENT)
     solution = solution_of(exercise)
     message = ANSWER_KINDS["number"].difference(exercise, 10 * abs(math.ceil(solution)) + 10, solution).message
-    return message.partition("asked for. ")[2] or "Look at the question once more."
+    return message.partition(". ")[2] or gettext("Look at the question once more.")  # behind the sentence with the number
 
 
 def _reading(exercise: Exercise) -> dict[str, Any]:
@@ -184,5 +187,6 @@ def _reading(exercise: Exercise) -> dict[str, Any]:
     if exercise.kind != "number":
         return {}
     part = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE
-    return {"unit": exercise.unit, "known": f"{exercise.question} {exercise.unit}".lower(),
+    unit = exercise.unit if exercise.unit.lower() in UNITS else gettext(exercise.unit)
+    return {"unit": unit, "known": f"{exercise.question} {exercise.unit} {unit}".lower(),
             "part": [str(part.numerator), str(part.denominator)] if part else None}

@@ -16,11 +16,13 @@ from xml.etree import ElementTree
 from lsys_kit.classroom.exercises.declared.declarations import questions_in
 from lsys_kit.classroom.exercises.declared.registry import exercises, lessons
 from lsys_kit.classroom.exercises.exercise import Lesson
+from lsys_kit.classroom.exercises.translated import translated_lesson
 from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import KIT_MARK, save_file
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.labels import visible
+from lsys_kit.translation import gettext
 
 MANIFEST = "imsmanifest.xml"
 CONTENT, ADL = "http://www.imsproject.org/xsd/imscp_rootv1p1p2", "http://www.adlnet.org/xsd/adlcp_rootv1p2"
@@ -54,7 +56,7 @@ def write_package(what: str, path: str | Path) -> tuple[tuple[Lesson, ...], Path
     path = Path(path)
     if path.suffix != ".zip":
         raise ModelValueError(f'A package is a .zip file, and "{quotable(path.name)}" is none')
-    pages = {lesson: page for lesson in lessons_of(what) if (page := exercise_page(lesson))}
+    pages = {lesson: page for lesson in map(translated_lesson, lessons_of(what)) if (page := exercise_page(lesson))}
     if not pages:
         raise ModelFileError("None of these exercises can be checked in a page",
                              hint="Pages check choices, lines, numbers, tables and words.")
@@ -117,7 +119,7 @@ def manifest(told: Sequence[Lesson], names: Sequence[str]) -> str:
     _added(metadata, "schema", "ADL SCORM")
     _added(metadata, "schemaversion", "1.2")
     organization = _added(_added(root, "organizations", default="lessons"), "organization", identifier="lessons")
-    _added(organization, "title", told[0].title if len(told) == 1 else "Exercises on L-systems")
+    _added(organization, "title", told[0].title if len(told) == 1 else gettext("Exercises on L-systems"))
     resources = _added(root, "resources")
     for number, (lesson, name) in enumerate(zip(told, names, strict=True), 1):
         item = _added(organization, "item", identifier=f"item-{number}", identifierref=f"page-{number}", isvisible="true")

@@ -1,6 +1,7 @@
 // A page of exercises that needs no kernel: answers are checked on it, and a learning platform is told how many are solved.
 
 import { made } from "./views/controls.js";
+import { say, speak } from "./practice/language.js";
 import { connected, platformOf, scoreOf } from "./practice/platform.js";
 import { replyTo } from "./practice/sealed.js";
 import { read } from "./practice/typed.js";
@@ -9,7 +10,8 @@ const LOOKS = { Correct: "lsys-right", Almost: "lsys-almost", "Not yet": "lsys-w
 const SIGNS = { Correct: "✓", Almost: "≈", "Not yet": "✗", "Not readable yet": "?", "Not answered yet": "○" };
 
 export function openPracticePage() {
-  const { exercises } = JSON.parse(document.getElementById("lsys-data").textContent);
+  const { exercises, words } = JSON.parse(document.getElementById("lsys-data").textContent);
+  speak(words);
   const platform = connected(platformOf(window)), solved = new Set(platform.solved());
   const ids = exercises.map(({ id }) => id);
   const report = () => show(platform, ids.filter((id) => solved.has(id)), ids.length);
@@ -27,22 +29,24 @@ export function openPracticePage() {
 
 // Say how many exercises are solved, here and to the platform.
 function show(platform, solved, total) {
-  const told = platform.tell(solved, total), score = `score ${scoreOf(solved.length, total)} of 100`;
-  const done = solved.length === total ? "completed" : "incomplete";
-  const whom = told ? `The learning platform knows: ${score}, ${done}.`
-    : platform.there ? "The learning platform did not take the score." : "No learning platform is there: nobody is told.";
-  document.getElementById("told").replaceChildren(made("b", {}, `${solved.length} of ${total} solved.`), ` ${whom}`);
+  const told = platform.tell(solved, total), score = scoreOf(solved.length, total);
+  const known = solved.length === total ? "The learning platform knows: score {score} of 100, completed."
+    : "The learning platform knows: score {score} of 100, incomplete.";
+  const whom = told ? say(known, { score })
+    : say(platform.there ? "The learning platform did not take the score." : "No learning platform is there: nobody is told.");
+  const count = say("{number} of {total} solved.", { number: solved.length, total });
+  document.getElementById("told").replaceChildren(made("b", {}, count), ` ${whom}`);
 }
 
 function openExercise(place, data, before, solved) {
   const status = place.querySelector("[role=status]"), more = hints(place.querySelector("[data-hints]"), data.hints);
   const answer = (text) => {
     const verdict = verdictOn(data, text);
-    say(status, verdict);
+    showVerdict(status, verdict);
     if (verdict.said === "Correct") solved();
     if (["Not yet", "Almost"].includes(verdict.said)) more();
   };
-  if (before) say(status, { said: "Correct", message: "You solved this before." });
+  if (before) showVerdict(status, { said: "Correct", message: say("You solved this before.") });
   for (const button of place.querySelectorAll("[data-key]")) {
     button.addEventListener("click", () => {
       for (const each of place.querySelectorAll("[data-key]")) each.setAttribute("aria-pressed", String(each === button));
@@ -62,19 +66,20 @@ function verdictOn(data, text) {
   return replyTo(data, key) ?? { said: "Not yet", message: data.otherwise };
 }
 
-function say(status, { said, message }) {
+function showVerdict(status, { said, message }) {
   status.className = `lsys-said ${LOOKS[said] ?? ""}`;
-  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${SIGNS[said]} `), made("b", {}, `${said}. `));
+  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${SIGNS[said]} `), made("b", {}, `${say(said)}. `));
   message.split("\n").forEach((line) => status.append(line.startsWith("  ") ? made("pre", {}, line) : made("span", {}, `${line} `)));
 }
 
 // A button that shows one hint more, from the first try on.
 function hints(place, texts) {
   let shown = 0;
-  const list = made("ol", {}), button = made("button", { type: "button", onclick: another }, `Hint 1 of ${texts.length}`);
+  const label = () => say("Hint {number} of {total}", { number: shown + 1, total: texts.length });
+  const list = made("ol", {}), button = made("button", { type: "button", onclick: another }, label());
   function another() {
     list.append(made("li", {}, texts[shown++]));
-    button.textContent = `Hint ${shown + 1} of ${texts.length}`;
+    button.textContent = label();
     if (shown === texts.length) button.remove();
   }
   return () => texts.length && !place.childElementCount && place.append(list, button);
