@@ -278,12 +278,13 @@ def test_the_scripts_of_a_page_for_platforms_show_the_texts_that_are_translated(
 
 @pytest.mark.usefixtures("german")
 def test_a_page_for_platforms_is_in_the_language():
-    page = exercise_page(lessons()[0])
+    lesson = lessons()[1]
+    page = exercise_page(lesson)
     assert page.startswith('<!doctype html>\n<html lang="de">')
     assert "<h1>Aufgaben: Paralleles Ersetzen</h1>" in page
     for said in ("Das ist Übung und keine Prüfung.", "Deine Antwort, ein Wort", "<h2>Zusammenfassung</h2>", "Im Notebook</h2>"):
         assert said in page
-    assert manifest([translated_lesson(lessons()[0])], ["01.html"]).count("Paralleles Ersetzen") == 2
+    assert manifest([translated_lesson(lesson)], ["01.html"]).count("Paralleles Ersetzen") == 2
     assert words_of_page()["{number} of {total} solved."] == "{number} von {total} gelöst."
 
 

@@ -48,7 +48,7 @@ def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLim
     rules = [str(production) for production in productions_of(certain)]
     has = f" {all_of_them} have {_some(rules)}." if rules else ""
     hint = f"{_what_to_try(problem)}{has} They differ in what becomes of {_some(left)}."
-    return ModelLimitError(f"{said} these {len(listed.words)} words", limit=most, needed=count and count.solutions,
+    return ModelLimitError(f"{said} these {len(listed.words)} words", limit=most, needed=count.solutions if count else None,
                            partial=listed, hint=hint)
 
 
