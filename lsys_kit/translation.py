@@ -27,6 +27,10 @@ _chosen: list[str] = []
 def language(name: str | None = None) -> str:
     """The language in which exercises are asked and answers are replied to; with a name, choose it.
 
+    The names of the views and controls of panels that are made from then on, and the pages for learning platforms, are in it,
+    too. What the kit says of a model stays in English: the line with its size in a panel, and mistakes in its rules. So no
+    sentence is in two languages.
+
     Parameters
     ----------
     name

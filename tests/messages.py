@@ -32,6 +32,7 @@ from lsys_kit.classroom.exercises.progress.progress import SIGNS
 from lsys_kit.classroom.exercises.translated import texts
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.lessons.widget import LABELS
+from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
 from lsys_kit.classroom.scorm.answers import DIFFERENT
 from lsys_kit.classroom.scorm.page import ASKED, WORDS
 from lsys_kit.translation import LOCALE
@@ -75,6 +76,7 @@ def _in_tables() -> Iterator[tuple[str, str]]:
     yield from (("kinds", kind.what) for kind in ANSWER_KINDS.values())
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
     yield from (("widgets", label) for label in LABELS)
+    yield from (("panel", label) for label in PANEL_LABELS)
     yield from (("pages of learning platforms", text) for text in (*WORDS, *ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
     yield from (("practice", topic.title) for topic in TOPICS.values())

@@ -15,7 +15,7 @@ from babel.messages.catalog import Catalog
 from babel.messages.mofile import read_mo
 
 import lsys_kit
-from lsys_kit import ModelNameError, check, exercises, language, practice, predict, vote, worksheet
+from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, system, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.declared.registry import lessons
@@ -30,6 +30,8 @@ from lsys_kit.classroom.exercises.translated import texts, translated, translate
 from lsys_kit.classroom.lessons.declared import table
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.lessons.worksheet import marked, summary
+from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
+from lsys_kit.classroom.panel.page import page_data
 from lsys_kit.classroom.scorm.package import manifest
 from lsys_kit.classroom.scorm.page import WORDS, exercise_page, words_of_page
 from lsys_kit.translation import gettext, ngettext
@@ -271,9 +273,27 @@ def test_the_scripts_show_the_labels_that_are_translated():
 def test_the_scripts_of_a_page_for_platforms_show_the_texts_that_are_translated():
     scripts = "".join(path.read_text("utf-8") for path in (SCRIPTS / "practice.js", *SCRIPTS.glob("practice/*.js")))
     assert [text for text in WORDS if f'"{text}"' not in scripts and f"'{text}'" not in scripts] == []
-    shown = re.findall(r"""say\((?:"([^"]+)"|'([^']+)')""", scripts)
+    shown = re.findall(r"""worded\((?:"([^"]+)"|'([^']+)')""", scripts)
     assert shown
     assert {one or other for one, other in shown} <= {*WORDS}
+
+
+def test_the_scripts_of_the_panel_show_the_labels_that_are_translated():
+    paths = [SCRIPTS / "panels" / "panel.js", SCRIPTS / "drawing" / "drawing.js", *SCRIPTS.glob("views/*.js")]
+    scripts = "".join(path.read_text("utf-8") for path in paths)
+    assert [label for label in PANEL_LABELS if f'"{label}"' not in scripts] == []
+    assert {*re.findall(r'worded\("([^"]+)"', scripts)} <= {*PANEL_LABELS}
+
+
+@pytest.mark.usefixtures("german")
+def test_panels_and_their_pages_are_in_the_language():
+    words = explore("J1").model["words"]
+    assert words == page_data(system("J1"))["model"]["words"]
+    assert (words["stages"], words["the step of the derivation"]) == ("Stufen", "der Schritt der Ableitung")
+
+
+def test_an_english_panel_needs_no_words():
+    assert "words" not in explore("J1").model
 
 
 @pytest.mark.usefixtures("german")

@@ -251,7 +251,7 @@ def test_numbers_are_rounded_in_a_page_as_in_the_kit(browser: Browser):
     tab, part = browser.new_page(), Fraction(3, 50)
     numbers = [Fraction(above, below) for above in range(-30, 31, 3) for below in (7, 25, 50, 100)]
     given = [[str(number.numerator * sign), str(number.denominator * sign)] for number in numbers for sign in (1, -1)]
-    found = tab.evaluate(f"""given => {{ {joined('typed')}
+    found = tab.evaluate(f"""given => {{ {joined('language', 'typed')}
 return given.map(([above, below]) => rounded({{ above: BigInt(above), below: BigInt(below) }}, [3n, 50n])); }}""", given)
     assert found == [rounded_key(number, part) for number in numbers for _ in (1, -1)]
     tab.close()

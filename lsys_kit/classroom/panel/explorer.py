@@ -20,6 +20,7 @@ from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.held import fixed_text
+from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
@@ -157,7 +158,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         return {"book": made, "constants": sliders, "chance": made["chance"] and "seed" not in self._without,
                 "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
                 "step": min(first, made["steps"]), "angle": self.angle, "around": self.around, "above": self.above,
-                "seed": self.seed}
+                "seed": self.seed, **translated_labels()}
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""

@@ -15,6 +15,7 @@ from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.held import SEED, Held, constant_choice, fewest, held_text, planned, seed_choice, settings
+from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import save_file
@@ -131,7 +132,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
              "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))],
              "together": held.together, "fixed": held_text(fixed, held, values), "without": sorted(without),
              "step": min(wanted, first["steps"]),
-             "angle": round(turn, 1), "around": around, "above": above, "seed": seed}
+             "angle": round(turn, 1), "around": around, "above": above, "seed": seed, **translated_labels()}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
     kept = {name: number_text(value) for name, value in fixed.items() if name != SEED}
     return {"model": model, "mode": first["mode"], "system": own, "fixed": kept,

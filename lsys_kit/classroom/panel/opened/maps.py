@@ -8,6 +8,7 @@ from typing import Any
 from lsys_kit.classroom.panel.books.maps import MapsAtRest, map_book, maps_at_rest, steps_of
 from lsys_kit.classroom.panel.controls import slider
 from lsys_kit.classroom.panel.held import Held, held_text
+from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.cells import VALUES, CellSight, Kind, OpenedCells
 from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import deflated, shared
@@ -61,5 +62,5 @@ class OpenedMap(OpenedCells[MapsAtRest]):
         sliders = [slider(name, self.values[name], value, self.hint) for name, value in chosen.values.items()]
         fixed, said = {name: number_text(value) for name, value in self.fixed.items()}, held_text(self.fixed, Held(), {})
         model = {"constants": sliders, "chance": False, "fixed": said, "step": min(chosen.step, made["steps"]),
-                 "angle": 0, "around": 0, "above": 0, "seed": 0}
+                 "angle": 0, "around": 0, "above": 0, "seed": 0, **translated_labels()}
         return {"model": model, "mode": "map", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}

@@ -10,6 +10,7 @@ from typing import Any
 from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest, TissueSystem, steps_of, tissue_at_rest
 from lsys_kit.classroom.panel.books.tissues import size_text, tissue_book
 from lsys_kit.classroom.panel.held import Held, held_text
+from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.cells import VALUES, CellSight, Kind, OpenedCells
 from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import deflated, shared
@@ -73,7 +74,7 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
         forces = {**self.fixed, **chosen.values}
         fixed, said = {name: number_text(value) for name, value in forces.items()}, held_text(forces, Held(), {})
         model = {"constants": [], "chance": False, "fixed": said, "step": min(chosen.step, made["steps"]), "angle": 0,
-                  "around": chosen.around, "above": chosen.above, "seed": 0}
+                  "around": chosen.around, "above": chosen.above, "seed": 0, **translated_labels()}
         return {"model": model, "mode": "tissue", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}
 
 

@@ -1,7 +1,7 @@
 // A page of exercises that needs no kernel: answers are checked on it, and a learning platform is told how many are solved.
 
 import { made } from "./views/controls.js";
-import { say, speak } from "./practice/language.js";
+import { worded, speak } from "./views/language.js";
 import { connected, platformOf, scoreOf } from "./practice/platform.js";
 import { replyTo } from "./practice/sealed.js";
 import { read } from "./practice/typed.js";
@@ -32,9 +32,9 @@ function show(platform, solved, total) {
   const told = platform.tell(solved, total), score = scoreOf(solved.length, total);
   const known = solved.length === total ? "The learning platform knows: score {score} of 100, completed."
     : "The learning platform knows: score {score} of 100, incomplete.";
-  const whom = told ? say(known, { score })
-    : say(platform.there ? "The learning platform did not take the score." : "No learning platform is there: nobody is told.");
-  const count = say("{number} of {total} solved.", { number: solved.length, total });
+  const whom = told ? worded(known, { score })
+    : worded(platform.there ? "The learning platform did not take the score." : "No learning platform is there: nobody is told.");
+  const count = worded("{number} of {total} solved.", { number: solved.length, total });
   document.getElementById("told").replaceChildren(made("b", {}, count), ` ${whom}`);
 }
 
@@ -46,7 +46,7 @@ function openExercise(place, data, before, solved) {
     if (verdict.said === "Correct") solved();
     if (["Not yet", "Almost"].includes(verdict.said)) more();
   };
-  if (before) showVerdict(status, { said: "Correct", message: say("You solved this before.") });
+  if (before) showVerdict(status, { said: "Correct", message: worded("You solved this before.") });
   for (const button of place.querySelectorAll("[data-key]")) {
     button.addEventListener("click", () => {
       for (const each of place.querySelectorAll("[data-key]")) each.setAttribute("aria-pressed", String(each === button));
@@ -68,14 +68,14 @@ function verdictOn(data, text) {
 
 function showVerdict(status, { said, message }) {
   status.className = `lsys-said ${LOOKS[said] ?? ""}`;
-  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${SIGNS[said]} `), made("b", {}, `${say(said)}. `));
+  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${SIGNS[said]} `), made("b", {}, `${worded(said)}. `));
   message.split("\n").forEach((line) => status.append(line.startsWith("  ") ? made("pre", {}, line) : made("span", {}, `${line} `)));
 }
 
 // A button that shows one hint more, from the first try on.
 function hints(place, texts) {
   let shown = 0;
-  const label = () => say("Hint {number} of {total}", { number: shown + 1, total: texts.length });
+  const label = () => worded("Hint {number} of {total}", { number: shown + 1, total: texts.length });
   const list = made("ol", {}), button = made("button", { type: "button", onclick: another }, label());
   function another() {
     list.append(made("li", {}, texts[shown++]));

@@ -2,6 +2,7 @@
 
 import { made } from "../views/controls.js";
 import { onKey, onMouse } from "../views/keys.js";
+import { worded } from "../views/language.js";
 import { relaxing } from "../views/relaxing.js";
 import { sequence, paintSequence, cellAt } from "./filament.js";
 import { rowBetween, strokesBetween } from "./gliding.js";
@@ -11,6 +12,14 @@ import { boundsOf, frameOf, widthAndHeight } from "./projection.js";
 import { LONGEST_ARROW, paintForces } from "./tension.js";
 import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
+
+const IN_THE_PLANE = "Plus, minus or the wheel bring it nearer, arrows move it, Home puts it back.";
+const IN_SPACE = "Drag or arrow keys turn it. Plus, minus or the wheel bring it nearer, Shift and arrows move it, Home puts it back.";
+const CELL = "Point at a cell or click it to trace it; N and P go to the next and the one before.";
+const TRACED = {
+  plane: "Point at a part or click it to trace it; N and P go to the next and the one before.",
+  map: "Point at a wall or click it to trace it; N and P go to the next and the one before.", filament: CELL, tissue: CELL,
+};
 
 const ROWS = 24; // of a developmental sequence
 const TURN = 5, MOVE = 30, ZOOM = 1.25, NEAREST = 40, PULL = 0.5; // of keys and of the pointer
@@ -37,9 +46,7 @@ export function drawingView(parent, told) {
   function open(next) {
     book = next;
     [near, shift, glide] = [1, [0, 0], null];
-    const turning = inSpace() ? "Drag or arrow keys turn it. " : "";
-    hint.textContent = `${turning}Plus, minus or the wheel bring it nearer, ${inSpace() ? "Shift and arrows" : "arrows"} move it, Home puts it back. `
-      + `Point at a ${{ filament: "cell", map: "wall", tissue: "cell" }[book.data.mode] ?? "part"} or click it to trace it; N and P go to the next and the one before.`;
+    hint.textContent = [inSpace() ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
     canvas.classList.toggle("lsys-turned", inSpace());
     if (isMap() && !signs) {
       [signs, relaxed] = [wallSigns(() => draw()), relaxing(() => draw())];

@@ -12,6 +12,7 @@ import { filamentLength } from "../drawing/filament.js";
 import { seedsView, variantsView } from "../drawing/gallery.js";
 import { keeping } from "../views/keeping.js";
 import { ownKeys } from "../views/keys.js";
+import { speak, worded } from "../views/language.js";
 import { library } from "../books/library.js";
 import { netView } from "../views/net.js";
 import { player } from "../views/player.js";
@@ -27,6 +28,7 @@ const SEEDS = DEGREES(0, 999);
 
 // Of two panels beside each other `compared` has { bar, shown(book, step) }: where the sliders of both are, or null in the second.
 export function openPanel(element, host, compared = null) {
+  speak(host.get("model").words);
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
   const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -37,24 +39,25 @@ export function openPanel(element, host, compared = null) {
 
   const status = made("div", { class: "lsys-status", role: "status" }), sentence = made("div", { class: "lsys-sentence", role: "status" });
   const message = made("div", { class: "lsys-message", role: "alert", hidden: true });
-  const step = slider("step", "the step of the derivation", ["0"], 0, goTo);
-  const angle = slider("angle", "degrees by which the turtle turns", ANGLES, 900, (at) => change({ angle: at / 10 }));
-  const around = slider("around", "the side from which it is seen: 0 is the front, 90 the right", DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }));
-  const above = slider("above", "the height from which it is seen: 0 is the side, 90 the top", DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }));
-  const mark = list("mark", "the stage that is marked in all views", [["", "no stage"]], "", (name) => change({ mark: name }));
-  const scale = list("size", "one scale for all steps, or each step as large as it fits", [["fit", "fit each step"], ["same", "one scale"]], "fit", () => show());
-  const seed = slider("seed", "the seed of the random numbers", SEEDS, host.get("seed"), (at) => host.set("seed", Number(seedTexts()[at])));
-  const die = button("die", "another seed, at random", () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
+  const step = slider("step", worded("the step of the derivation"), ["0"], 0, goTo, worded("step"));
+  const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"));
+  const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"));
+  const above = slider("above", worded("the height from which it is seen: 0 is the side, 90 the top"), DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }), worded("above"));
+  const mark = list("mark", worded("the stage that is marked in all views"), [["", worded("no stage")]], "", (name) => change({ mark: name }), worded("mark"));
+  const scale = list("size", worded("one scale for all steps, or each step as large as it fits"), [["fit", worded("fit each step")], ["same", worded("one scale")]], "fit", () => show(), worded("size"));
+  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, host.get("seed"), (at) => host.set("seed", Number(seedTexts()[at])), worded("seed"));
+  const die = button("die", worded("another seed, at random"), () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
   const play = player(() => ({ now: host.get("step"), most: book.steps }), goTo, () => show());
-  const reset = button("reset", "back to the first settings", goBack);
+  const reset = button(worded("reset"), worded("back to the first settings"), goBack);
   const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
   const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
   root.append(top, message, status, views, sentence, bottom);
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
   if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
-  const view = folding(views, root, [["rules", "rules", false], ["word", "word", true], ["stages", "stages", !compared],
-    ["drawing", "drawing", true], ["counts", "how many", false], ["seeds", "nine seeds", false], ["variants", "nine variants", false]], () => show());
+  const view = folding(views, root, [["rules", worded("rules"), false], ["word", worded("word"), true],
+    ["stages", worded("stages"), !compared], ["drawing", worded("drawing"), true], ["counts", worded("how many"), false],
+    ["seeds", worded("nine seeds"), false], ["variants", worded("nine variants"), false]], () => show());
   const rules = rulesView(view.rules.body, (text) => newRules(text));
   const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way), (position) => point({ step: host.get("step"), position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
@@ -150,7 +153,7 @@ export function openPanel(element, host, compared = null) {
     shownTheme = JSON.stringify(theme);
     host.set("step", Math.min(wanted, book.steps)); // a setting with fewer steps does not forget which was wanted
     step.offer(DEGREES(0, book.steps), host.get("step"));
-    mark.offer([["", "no stage"], ...book.data.net.places.map((place) => [place.name, place.name])], place(host.get("mark")) ? host.get("mark") : "");
+    mark.offer([["", worded("no stage")], ...book.data.net.places.map((place) => [place.name, place.name])], place(host.get("mark")) ? host.get("mark") : "");
     net.open(book.data.net, theme);
     drawing.open(book);
     counts.open(book);

@@ -1,6 +1,6 @@
 // What is typed, in the normal form in which scorm/answers.py hashes it: { key }, or { unreadable } with what is to be said.
 
-import { say } from "./language.js";
+import { worded } from "../views/language.js";
 
 const ASSIGNED = /^\s*[A-Za-z_]\w*\s*(\([^()=]*\))?\s*=(?!=)\s*/; // the beginning of "N(12) = 21"
 const WITH_UNIT = /^(.*?[\d)])\s*([^\W\d_][\w .]*|°|%)\s*$/s;
@@ -12,7 +12,7 @@ const UNKNOWN = 'The question has no symbol "{symbol}". The symbols are: {symbol
 export const MOST_CHARACTERS = 2000;
 
 export function read(data, text) {
-  if (text.length > MOST_CHARACTERS) return { unreadable: say("That is longer than {most} characters.", { most: MOST_CHARACTERS }) };
+  if (text.length > MOST_CHARACTERS) return { unreadable: worded("That is longer than {most} characters.", { most: MOST_CHARACTERS }) };
   return { number, table, word, choice: exact, line: exact }[data.kind](data, text.replaceAll("\u2212", "-").replaceAll("\u00a0", " "));
 }
 
@@ -24,9 +24,9 @@ function number({ unit, known, part }, text) {
   const bare = text.replace(ASSIGNED, "").trim().replace(/^[$≈~ "']+|[$≈~ "']+$/g, "").replace(/[. ]+$/, "");
   const found = WITH_UNIT.exec(bare), typed = (found?.[2] ?? "").trim().toLowerCase();
   const value = fractionOf(found ? found[1].trim() : bare);
-  if (!value) return { unreadable: say("A number is needed here, such as 21, 0.5 or 3/4.") };
+  if (!value) return { unreadable: worded("A number is needed here, such as 21, 0.5 or 3/4.") };
   const scale = typed && scaleOf(typed, unit.toLowerCase(), known);
-  if (scale === null) return { unreadable: unit ? say("Its unit is: {unit}.", { unit }) : say("Write the number alone.") };
+  if (scale === null) return { unreadable: unit ? worded("Its unit is: {unit}.", { unit }) : worded("Write the number alone.") };
   return { key: part ? rounded(value, part.map(BigInt)) : keyOf({ above: value.above, below: value.below * (scale || 1n) }) };
 }
 
@@ -71,8 +71,8 @@ function rounded({ above, below }, [partAbove, partBelow]) {
 function table(_, text) {
   const parts = text.replace(text.includes("\n") ? "" : ASSIGNED, "").split(/[\s,;|[\](){}&"']+/).filter(Boolean);
   const values = parts.map(fractionOf), wrong = values.indexOf(null);
-  if (wrong >= 0) return { unreadable: say('"{text}" is no number.', { text: parts[wrong].slice(0, 40) }) };
-  return parts.length ? { key: values.map(keyOf).join(",") } : { unreadable: say("Numbers are needed here, such as 1, 2, 3.") };
+  if (wrong >= 0) return { unreadable: worded('"{text}" is no number.', { text: parts[wrong].slice(0, 40) }) };
+  return parts.length ? { key: values.map(keyOf).join(",") } : { unreadable: worded("Numbers are needed here, such as 1, 2, 3.") };
 }
 
 // Words: symbols of the question, some with numbers in brackets behind them.
@@ -84,15 +84,15 @@ function word({ symbols }, text) {
     const blank = /^[\s,]+/.exec(plain.slice(at));
     if (blank) { at += blank[0].length; continue; }
     const symbol = symbols.find((each) => plain.startsWith(each, at));
-    if (!symbol) return { unreadable: say(UNKNOWN, { symbol: nameAt(plain, at), symbols: symbols.join(", ") }) };
+    if (!symbol) return { unreadable: worded(UNKNOWN, { symbol: nameAt(plain, at), symbols: symbols.join(", ") }) };
     at += symbol.length;
     const values = symbols.includes("(") ? null : /^\s*\(([^()]*)\)/.exec(plain.slice(at));
     const numbers = values ? values[1].split(",").map((each) => fractionOf(each.trim())) : [];
-    if (numbers.includes(null)) return { unreadable: say("The numbers behind {symbol} cannot be read.", { symbol }) };
+    if (numbers.includes(null)) return { unreadable: worded("The numbers behind {symbol} cannot be read.", { symbol }) };
     modules.push(symbol + (numbers.length ? `(${numbers.map(keyOf).join(",")})` : ""));
     at += values ? values[0].length : 0;
   }
-  return modules.length ? { key: modules.join(" ") } : { unreadable: say("A word is needed here.") };
+  return modules.length ? { key: modules.join(" ") } : { unreadable: worded("A word is needed here.") };
 }
 
 const nameAt = (text, at) => /^(\w+|.)/su.exec(text.slice(at))[0].slice(0, 20);

@@ -1,6 +1,7 @@
 // Native controls with names: sliders with number boxes, buttons, lists.
 
 import { onKey } from "./keys.js";
+import { worded } from "./language.js";
 
 export function made(tag, attributes = {}, ...inside) {
   const element = document.createElement(tag);
@@ -26,12 +27,12 @@ export function drawn(tag, attributes = {}, ...inside) {
 let controls = 0;
 
 // A slider over some texts of numbers, with a box in which one can be typed. `chosen` is called with the index.
-export function slider(name, hint, texts, index, chosen) {
+export function slider(name, hint, texts, index, chosen, label = name) {
   const id = `lsys-control-${++controls}`;
   const box = made("input", { id, type: "text", inputmode: "decimal", class: "lsys-box", autocomplete: "off", spellcheck: "false" });
-  const range = made("input", { type: "range", class: "lsys-range", "aria-label": `${name}, slider`, min: 0, step: 1 });
+  const range = made("input", { type: "range", class: "lsys-range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
   const element = made("div", { class: "lsys-control", "data-control": name },
-    made("label", { for: id, title: hint }, name), box, range);
+    made("label", { for: id, title: hint }, label), box, range);
   let numbers = [];
 
   function show(at) {
@@ -113,10 +114,10 @@ export function icon(name) {
 }
 
 // A list to choose from: `options` are pairs of a value and its text.
-export function list(name, hint, options, value, chosen) {
+export function list(name, hint, options, value, chosen, label = name) {
   const id = `lsys-control-${++controls}`;
   const select = made("select", { id, class: "lsys-list" });
-  const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, name), select);
+  const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, label), select);
   select.addEventListener("change", () => chosen(select.value));
 
   function offer(others, chosenValue) {

@@ -1,11 +1,12 @@
 // What can be taken along: the pictures, the page, the link, and the line of code that makes the panel as it stands.
 
 import { made, button } from "./controls.js";
+import { worded } from "./language.js";
 
 // `panel` has { canvas, title(), code(), state() }; `host.keep(kind, state)` gives { name, type, text or bytes }, or null.
 export function keeping(host, { canvas, title, code, state }) {
-  const said = made("output", { class: "lsys-hint" }), field = made("input", { type: "text", readonly: true, hidden: true, class: "lsys-code", "aria-label": "to be copied" });
-  const element = made("div", { class: "lsys-controls lsys-keep", role: "group", "aria-label": "take along" }, made("span", { class: "lsys-hint" }, "take along:"));
+  const said = made("output", { class: "lsys-hint" }), field = made("input", { type: "text", readonly: true, hidden: true, class: "lsys-code", "aria-label": worded("to be copied") });
+  const element = made("div", { class: "lsys-controls lsys-keep", role: "group", "aria-label": worded("take along") }, made("span", { class: "lsys-hint" }, worded("take along:")));
 
   async function keep(kind) {
     const kept = await host.keep(kind, state());
@@ -19,21 +20,21 @@ export function keeping(host, { canvas, title, code, state }) {
     field.value = text;
     field.focus();
     field.select();
-    navigator.clipboard?.writeText(text).then(() => (said.textContent = "copied"), () => (said.textContent = "copy it from here:"));
+    navigator.clipboard?.writeText(text).then(() => (said.textContent = worded("copied")), () => (said.textContent = worded("copy it from here:")));
   }
 
   function download(name, blob) {
     const address = URL.createObjectURL(blob), link = made("a", { href: address, download: name });
     link.click();
     setTimeout(() => URL.revokeObjectURL(address), 10_000);
-    said.textContent = `kept as ${name}`;
+    said.textContent = worded("kept as {name}", { name });
   }
 
-  const kinds = { svg: "SVG", page: "page", link: "link" };
-  element.append(button("PNG", "keep the drawing as a PNG picture", () => canvas.toBlob((blob) => download(`${title() || "drawing"}.png`, blob))));
+  const kinds = { svg: "SVG", page: worded("page"), link: worded("link") };
+  element.append(button("PNG", worded("keep the drawing as a PNG picture"), () => canvas.toBlob((blob) => download(`${title() || "drawing"}.png`, blob))));
   for (const [kind, text] of Object.entries(kinds)) {
-    if (host.keeps.includes(kind)) element.append(button(text, `take along: ${text}`, () => keep(kind)));
+    if (host.keeps.includes(kind)) element.append(button(text, worded("take along: {text}", { text }), () => keep(kind)));
   }
-  element.append(button("code", "the line of Python that makes this panel as it stands", () => show(code())), field, said);
+  element.append(button(worded("code"), worded("the line of Python that makes this panel as it stands"), () => show(code())), field, said);
   return element;
 }

@@ -1,22 +1,23 @@
 // Step after step by itself: play, back, single steps, speed, loop.
 
 import { made, button, icon, list } from "./controls.js";
+import { worded } from "./language.js";
 
 const SPEEDS = [["1200", "slow"], ["600", "normal"], ["250", "fast"]]; // milliseconds a step
 
 // `steps` tells { now, most }; `go` goes to a step.
 export function player(steps, go, moved) {
   let timer = 0, pause = 600;
-  const play = button("play", "play", toggle, { class: "lsys-button lsys-play" });
-  const back = button("back", "one step back", () => one(-1)), forward = button("forward", "one step on", () => one(1));
-  const first = button("first", "to step 0", () => { stop(); go(0); });
+  const play = button("play", worded("play"), toggle, { class: "lsys-button lsys-play" });
+  const back = button("back", worded("one step back"), () => one(-1)), forward = button("forward", worded("one step on"), () => one(1));
+  const first = button("first", worded("to step 0"), () => { stop(); go(0); });
   const loop = made("input", { type: "checkbox", id: `lsys-loop-${Math.random().toString(36).slice(2)}` });
-  const speed = list("speed", "how long each step is shown", SPEEDS, "600", (value) => {
+  const speed = list("speed", worded("how long each step is shown"), SPEEDS.map(([value, name]) => [value, worded(name)]), "600", (value) => {
     pause = Number(value);
     if (timer) start();
-  });
-  const element = made("div", { class: "lsys-player", role: "group", "aria-label": "play" }, first, back, play, forward, speed.element,
-    made("label", { class: "lsys-check", for: loop.id }, loop, "loop"));
+  }, worded("speed"));
+  const element = made("div", { class: "lsys-player", role: "group", "aria-label": worded("play") }, first, back, play, forward, speed.element,
+    made("label", { class: "lsys-check", for: loop.id }, loop, worded("loop")));
 
   function one(way) {
     stop();
@@ -35,8 +36,8 @@ export function player(steps, go, moved) {
     clearInterval(timer);
     timer = setInterval(tick, pause);
     play.replaceChildren(icon("pause"));
-    play.setAttribute("aria-label", "pause");
-    play.title = "pause";
+    play.setAttribute("aria-label", worded("pause"));
+    play.title = worded("pause");
     moved(true);
   }
 
@@ -45,8 +46,8 @@ export function player(steps, go, moved) {
     clearInterval(timer);
     timer = 0;
     play.replaceChildren(icon("play"));
-    play.setAttribute("aria-label", "play");
-    play.title = "play";
+    play.setAttribute("aria-label", worded("play"));
+    play.title = worded("play");
     moved(false);
   }
 

@@ -1,14 +1,15 @@
 // The model's text, to be edited: mistakes are underlined where they stand, traced productions are lit.
 
 import { made, button } from "./controls.js";
+import { worded } from "./language.js";
 
 const REST = 250; // milliseconds without a key after which a text is read
 
 export function rulesView(parent, asked) {
   const backdrop = made("div", { class: "lsys-backdrop", "aria-hidden": "true" });
-  const area = made("textarea", { class: "lsys-rules", spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": "rules of the model" });
+  const area = made("textarea", { class: "lsys-rules", spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": worded("rules of the model") });
   const said = made("div", { class: "lsys-mistake", role: "status", "aria-live": "polite" });
-  const back = button("back to the first rules", "put back the rules with which the panel was opened", () => put(first), { hidden: true });
+  const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), () => put(first), { hidden: true });
   parent.append(made("div", { class: "lsys-editor" }, backdrop, area), said, back);
   let first = "", spans = [], waiting = 0;
 

@@ -1,4 +1,4 @@
-// The texts of a page in its language; each stands here in English, which is the id of its translation.
+// Texts in the language of a panel or page; in the scripts they stand in English, which is the id of their translation.
 
 let words = {};
 
@@ -7,6 +7,6 @@ export function speak(given) {
 }
 
 // A text with values in the place of its names in braces.
-export function say(text, values = {}) {
+export function worded(text, values = {}) {
   return (words[text] ?? text).replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
