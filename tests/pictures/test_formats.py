@@ -153,7 +153,9 @@ def test_what_has_a_body_is_kept_as_a_mesh(kind: str, tmp_path: Path) -> None:
         assert len(trimesh.load(tmp_path / f"a.{ending}", force="scene").to_geometry().faces)
 
 
-def test_a_png_has_so_many_dots_per_inch(picture: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize("kind", ["plane", "filament", "steps", "net", "code"])
+def test_a_png_has_so_many_dots_per_inch(kind: str, tmp_path: Path) -> None:
+    picture = KINDS[kind]()
     picture.save(tmp_path / "a.png", dpi="192")
     image, usual = Image.open(tmp_path / "a.png"), Image.open(io.BytesIO(picture.png))
     assert image.size == (2 * usual.width, 2 * usual.height)
@@ -170,6 +172,7 @@ def test_dots_that_make_no_sense_are_told(name: str, dpi: object, said: str, tmp
 
 # --- what belongs in every format -------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 def test_rows_keep_their_steps_their_times_and_the_mark_in_every_format(monkeypatch: pytest.MonkeyPatch) -> None:
     picture = draw(system("P6"), 3)
     for pixels_from in (1, 10**6):
@@ -213,6 +216,7 @@ FILMS: dict[str, tuple[Callable[[], Any], int]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", FILMS)
 def test_each_film_is_kept_in_three_formats(kind: str, tmp_path: Path) -> None:
     make, many = FILMS[kind]
@@ -259,6 +263,7 @@ def test_where_ffmpeg_fails_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None
         _ = animate(GROWING, 1).mp4
 
 
+@pytest.mark.slow
 def test_a_turntable_is_a_whole_turn() -> None:
     film = animate(BUSH, 0, turntable=True, view=(10, 20), size=100)
     step, closing = (np.abs(np.asarray(film.images[0], int) - np.asarray(film.images[other])).mean() for other in (1, -1))

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
+SHADES = 512
+"""The steps of a gradient."""
 CURVED = 4
 """From this width on, in points of the grid, the corners of a line are seen."""
 
@@ -126,7 +128,7 @@ def _sphere(sheet: Sheet, shape: Sphere, place: Place) -> None:
     (x, y), radius = _at(np.array([shape.x, shape.y]), place).tolist(), shape.radius * place.scale
     left, top = int(x - radius), int(y - radius)
     side = int(2 * radius) + 2
-    down, across = np.mgrid[top:top + side, left:left + side] + 0.5
+    down, across = (np.arange(side)[:, None] + top + 0.5, np.arange(side)[None] + left + 0.5)
     colours, opacity = gradient_at(shape.gradient, (across - x) / radius / 2 + 0.5, (down - y) / radius / 2 + 0.5)
     inside = np.hypot(across - x, down - y) <= radius
     sheet.grid.paste(Image.fromarray(colours), (left, top), Image.fromarray(np.where(inside, opacity, 0).astype(np.uint8)))
@@ -135,11 +137,11 @@ def _sphere(sheet: Sheet, shape: Sphere, place: Place) -> None:
 def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, Any]:
     """The colours of points in the square around a circle, whose side is 1, and how opaque they are, as bytes."""
     way = np.hypot(across - gradient.x, down - gradient.y) / gradient.radius
-    offsets = [stop.offset for stop in gradient.stops]
-    channels = np.array([tuple(bytes.fromhex(stop.colour[1:])) for stop in gradient.stops], float).T
-    colours = np.stack([np.interp(way, offsets, each) for each in channels], axis=-1)
-    opacity = np.interp(way, offsets, [255 * stop.opacity for stop in gradient.stops])
-    return colours.round().astype(np.uint8), opacity.round().astype(np.uint8)
+    places = np.minimum(way * SHADES, SHADES).astype(np.int16)
+    shares, offsets = np.arange(SHADES + 1) / SHADES, [stop.offset for stop in gradient.stops]
+    colours = np.array([(*bytes.fromhex(stop.colour[1:]), 255 * stop.opacity) for stop in gradient.stops])
+    table = np.stack([np.interp(shares, offsets, each) for each in colours.T], axis=1).round().astype(np.uint8)
+    return table[places, :3], table[places, 3]
 
 
 def _text(sheet: Sheet, shape: Text, place: Place) -> None:

@@ -29,6 +29,8 @@ CMapName currentdict /CMap defineresource pop
 end
 end
 """
+_UNREAD = frozenset(("GPOS", "GSUB", "GDEF", "kern", "name", "OS/2", "gasp"))
+"""Tables of a font that a PDF does without, and that take time to read."""
 MOST_ENTRIES = 100
 """So many letters may stand in a block of the table of what letters stand for."""
 
@@ -40,8 +42,10 @@ def add_font(objects: Objects, font: Font, letters: Iterable[str]) -> tuple[int,
 
     used = sorted({printable(letter) for letter in letters})
     whole = TTFont(font_path(font), recalcTimestamp=False)
-    options = subset.Options(layout_features=[], hinting=False, notdef_outline=True, name_IDs=[], glyph_names=True,
-                             drop_tables=["GPOS", "GSUB", "GDEF", "kern", "FFTM", "name", "post", "OS/2", "gasp", "cmap"])
+    whole.getGlyphOrder()  # before the table with the names is dropped
+    for table in _UNREAD & {*whole.keys()}:
+        del whole[table]
+    options = subset.Options(hinting=False, notdef_outline=True, glyph_names=True, drop_tables=["post", "cmap", "FFTM"])
     part = subset.Subsetter(options)
     names = {letter: glyph_name(letter, font) for letter in used}
     part.populate(glyphs=names.values())
