@@ -22,8 +22,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from math import log10
-from types import FrameType
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, shown
 
@@ -122,8 +121,6 @@ SECONDS_BETWEEN_LOOKS = 0.02
 """A budget is looked at no more often than this, by the clock on the wall: the processor has not spent more."""
 INTERVAL = 1_024
 """The budget is checked after so many things that take about a microsecond each."""
-CALLS_BETWEEN_CHECKS = 500
-"""And after so many calls of functions that know nothing of budgets."""
 _processor_time = getattr(time, "thread_time", time.process_time)
 _objects = getattr(sys, "getallocatedblocks", int)
 
@@ -203,6 +200,11 @@ class Task:
             self._own.wait()
 
 
+def in_task() -> bool:
+    """Whether there is a task at present, and so a budget."""
+    return _task.get() is not None
+
+
 def check_budget() -> None:
     """Refuse to go on where the budget of the present task is used up.
 
@@ -229,6 +231,23 @@ Take fewer steps, or set limits(bytes=...).
                               needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
 
 
+def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
+    """Refuse a step that would have more parts, or take more memory, than the limits allow.
+
+    >>> check_step(30, 10**8, "walls", 420)
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelLimitError: Step 30 would have 100,000,000 walls or more; the limit is 5,000,000. \
+Take fewer steps, or set limits(modules=...).
+    """
+    most = current()
+    if size > most.modules:
+        raise ModelLimitError(f"Step {step} would have {size:,} {parts} or more; the limit is {most.modules:,}",
+                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
+    if (needed := size * bytes_each) > most.bytes:
+        raise ModelLimitError(f"Step {step} would take about {needed:,} bytes; the limit is {most.bytes:,}",
+                              limit=most.bytes, needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
+
+
 def _written(size: int) -> str:
     """A size with its digits, or about how large it is.
 
@@ -244,71 +263,3 @@ def counted(things: Iterable[_T], interval: int = INTERVAL) -> Iterator[_T]:
         yield thing
         if number % interval == 0:
             check_budget()
-
-
-class _UsedUp(BaseException):
-    """The budget is used up; no library takes this for an error of its own."""
-
-    def __init__(self, error: ModelLimitError) -> None:
-        super().__init__()
-        self.error = error
-
-
-@contextmanager
-def supervised() -> Iterator[None]:
-    """A `with` block in which another library works, which never looks at the budget: it is looked at whenever a function is
-    called there.
-
-    It works in the same thread, since a process of its own would not do everywhere: where one starts, it runs the person's
-    program again, unless that is written for it, and in a browser there are none.
-
-    An error may be swallowed there, as in a finalizer, or by the garbage collector; then it is raised again, but not so soon
-    that what is put in order on the way out is disturbed. Nothing is printed of the one that was swallowed.
-    """
-    now, left, before, tracer = _task.get(), CALLS_BETWEEN_CHECKS, sys.getprofile(), sys.gettrace()
-    report = sys.unraisablehook
-    if now is None:
-        yield
-        return
-
-    def look(frame: FrameType, _: str, __: Any) -> None:
-        nonlocal left
-        left -= 1
-        if left < 0:
-            left = CALLS_BETWEEN_CHECKS
-            try:
-                now[0].check(now[1])
-            except ModelLimitError as error:
-                if not _imports(frame):
-                    sys.settrace(go_on)
-                    raise _UsedUp(error) from None
-
-    def go_on(_: FrameType, __: str, ___: Any) -> None:
-        """Put the hook back, at the next call: Python takes away one that raises."""
-        sys.settrace(tracer)
-        sys.setprofile(look)
-
-    def report_others(swallowed: sys.UnraisableHookArgs) -> None:
-        if not isinstance(swallowed.exc_value, _UsedUp):
-            report(swallowed)
-
-    sys.unraisablehook = report_others
-    sys.setprofile(look)
-    try:
-        yield
-    except _UsedUp as used_up:
-        raise used_up.error from None
-    finally:
-        sys.setprofile(before)
-        sys.unraisablehook = report
-        if sys.gettrace() is go_on:
-            sys.settrace(tracer)
-
-
-def _imports(frame: FrameType | None) -> bool:
-    """Whether a module is being imported: if it were given up half-way, it could never be used."""
-    while frame is not None:
-        if frame.f_code.co_filename.startswith("<frozen importlib"):
-            return True
-        frame = frame.f_back
-    return False

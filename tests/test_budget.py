@@ -9,8 +9,9 @@ from dataclasses import FrozenInstanceError
 
 import pytest
 
-from lsys_kit.budget import Limits, Task, check_budget, counted, current, limits, supervised
+from lsys_kit.budget import Limits, Task, check_budget, counted, current, limits
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.supervision import supervised
 
 
 def test_limits_hold_for_a_stretch_of_code() -> None:

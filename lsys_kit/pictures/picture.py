@@ -9,7 +9,7 @@ from html import unescape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lsys_kit.budget import Task, current, supervised
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
@@ -37,6 +37,7 @@ from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_part
 from lsys_kit.pictures.sizes import enlargement
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, resized, turtle_svg
+from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from lsys_kit.budget import counted, current
+from lsys_kit.budget import check_step, counted
 from lsys_kit.derivation.cellworks.cellwork import CellEdge, CellWall, Cellwork, EdgeSide, WallSide
 from lsys_kit.derivation.cellworks.edges import DividedWall, divided_edges, divided_walls
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.cellworks import CellworkSystem
 
 EDGE_BYTES = 900
@@ -20,10 +20,10 @@ EDGE_BYTES = 900
 
 def cellwork_step(found: Cellwork, system: CellworkSystem, step: int) -> Cellwork:
     """The cellwork of the next step."""
-    check_edges(len(found.edges), step)
+    check_step(step, len(found.edges), "edges", EDGE_BYTES)
     vertices, edges, walls = [*found.vertices], list[CellEdge](), list[CellWall]()
     partings = divided_edges(found, system, vertices, edges)
-    check_edges(len(edges), step)
+    check_step(step, len(edges), "edges", EDGE_BYTES)
     becomes = {production.predecessor: production.successor for production in system.wall_productions}
     divided = divided_walls(found, partings, becomes, edges, walls)
     cells: list[tuple[WallSide, ...]] = []
@@ -105,14 +105,3 @@ def _one_side(sides: Sequence[WallSide], walls: Sequence[CellWall], cycle: Mappi
             reached.update(new)
             waiting += new
     return reached
-
-
-def check_edges(size: int, step: int) -> None:
-    """Refuse a step whose cellwork would be past a limit."""
-    most = current()
-    if size > most.modules:
-        raise ModelLimitError(f"Step {step} would have {size:,} edges or more; the limit is {most.modules:,}",
-                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
-    if size * EDGE_BYTES > most.bytes:
-        raise ModelLimitError(f"Step {step} would take about {size * EDGE_BYTES:,} bytes; the limit is {most.bytes:,}",
-                              limit=most.bytes, needed=size * EDGE_BYTES, hint="Take fewer steps, or set limits(bytes=...).")

@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from lsys_kit.budget import Task, current, supervised
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.closure import check_d0l, closure
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.counts import counts_of_steps, held, orbit, row_of
@@ -33,6 +33,7 @@ from lsys_kit.derivation.growth.slicing import slice_system
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     import sympy

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lsys_kit.budget import check_budget, counted, supervised
+from lsys_kit.budget import check_budget, counted
+from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     import sympy

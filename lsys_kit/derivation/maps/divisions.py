@@ -10,9 +10,8 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from lsys_kit.budget import counted, current
+from lsys_kit.budget import check_step, counted
 from lsys_kit.derivation.maps.map import Map, Side, Vertex, Wall
-from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.maps import LEFT, RIGHT, Edge, EdgeProduction, Marker
 
 WALL_BYTES = 420
@@ -39,7 +38,7 @@ class Mark(NamedTuple):
 
 def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) -> Map:
     """The map of the next step."""
-    check_walls(sum(len(_successor(wall, productions)) for wall in counted(found.walls)), step)
+    check_step(step, sum(len(_successor(wall, productions)) for wall in counted(found.walls)), "walls", WALL_BYTES)
     vertices, walls = [*found.vertices], list[Wall]()
     partings = [_parted(number, wall, productions.get(predecessor_of(wall)), vertices, walls)
                 for number, wall in enumerate(counted(found.walls))]
@@ -48,7 +47,7 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) 
         daughters = _divided(*_replaced(cell, partings), walls)
         cells += daughters
         mothers += [number] * len(daughters)
-    check_walls(len(walls), step)
+    check_step(step, len(walls), "walls", WALL_BYTES)
     return Map(tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]), tuple(mothers))
 
 
@@ -136,14 +135,3 @@ def matching(marks: Sequence[Mark]) -> tuple[Mark, Mark] | None:
             return other, mark
         passed.setdefault(mark.edge, mark)
     return None
-
-
-def check_walls(size: int, step: int) -> None:
-    """Refuse a step whose map would be past a limit."""
-    most = current()
-    if size > most.modules:
-        raise ModelLimitError(f"Step {step} would have {size:,} walls or more; the limit is {most.modules:,}",
-                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
-    if size * WALL_BYTES > most.bytes:
-        raise ModelLimitError(f"Step {step} would take about {size * WALL_BYTES:,} bytes; the limit is {most.bytes:,}",
-                              limit=most.bytes, needed=size * WALL_BYTES, hint="Take fewer steps, or set limits(bytes=...).")

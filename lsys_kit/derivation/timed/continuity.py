@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from lsys_kit.budget import Task, supervised
+from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import real_from, unknown_constant
 from lsys_kit.derivation.timed.ages import AgeModel, births
 from lsys_kit.derivation.timed.equations import roots
@@ -36,6 +36,7 @@ from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     import sympy

@@ -11,7 +11,8 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from lsys_kit.budget import current, supervised
+from lsys_kit.budget import current
+from lsys_kit.supervision import supervised
 
 Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""

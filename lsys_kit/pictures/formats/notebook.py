@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.budget import Task, supervised
+from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError
 from lsys_kit.files import marked_png, marked_xml
@@ -26,6 +26,7 @@ from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.sizes import Size
 from lsys_kit.pictures.style.themes import LIGHT, Theme, drawn_on
+from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
