@@ -154,7 +154,7 @@ CONDITIONS = [Conditions(), Conditions(erasing=True), Conditions(context=(1, 0))
 BRANCHED = [["a", "a[b]", "a[b]b"], ["a[b]b", "a[b]b[b]"], ["ab", "[ab]", "[[ab]]"], ["a[b]", "[a]b"]]
 
 
-@pytest.mark.parametrize("conditions", CONDITIONS, ids=str)
+@pytest.mark.parametrize("conditions", CONDITIONS, ids=("plain", "erasing", "left context", "erasing, both contexts"))
 @pytest.mark.parametrize("words", [*TINY, *BRANCHED], ids="-".join)
 def test_as_many_are_counted_as_are_found(words: list[str], conditions: Conditions) -> None:
     problem = problem_of(read_words(words), conditions)
