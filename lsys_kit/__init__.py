@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from lsys_kit.experiments.table import Table
     from lsys_kit.geometry.inference.infer import infer
     from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
+    from lsys_kit.notation.dialects.cpfg.surface_files import with_surface
     from lsys_kit.notation.dialects.map.dialect import read_map
     from lsys_kit.notation.read import read
     from lsys_kit.notation.write import write
@@ -91,7 +92,7 @@ _HOMES = {
     "score": "classroom.exercises.progress.scores", "stages": "derivation.petri.stages",
     "system": "classroom.catalogue", "systems": "classroom.catalogue", "timed": "derivation.timed.timed",
     "variants": "classroom.variants", "vote": "classroom.lessons.vote", "worksheet": "classroom.lessons.worksheet",
-    "write": "notation.write",
+    "with_surface": "notation.dialects.cpfg.surface_files", "write": "notation.write",
 }
 
 __all__ = [
@@ -144,6 +145,7 @@ __all__ = [
     "timed",
     "variants",
     "vote",
+    "with_surface",
     "worksheet",
     "write",
 ]

@@ -48,6 +48,8 @@ ODD: Mapping[str, object] = {
 }
 """Values that hardly anything can be done with."""
 GROWING = read("c = 1\naxiom: a\na -> a b(c)\nb(x) -> b(x)")
+SURFACE = "\n".join(("CONTACT POINT  X: 0 Y: 0 Z: 0", "HEADING  X: 0 Y: 1 Z: 0", "UP  X: 0 Y: 0 Z: 1", "SIZE: 1",
+                     *["0 0 0 0 0 1 0 1 0 0 1 1"] * 4))
 AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "animate": lambda: (GROWING, 1), "book_systems": tuple, "check": lambda: ("1.1", "al"),
@@ -73,6 +75,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "ensemble": lambda: (GROWING, 2, "b"), "sweep": lambda: (GROWING, {"c": [1, 2]}, "b"), "plot": lambda: (GROWING, 2, "b"),
     "plot over time": lambda: (timed(AGEING), 2, "modules"), "plot a table": lambda: (ensemble(GROWING, 2),),
     "plot stages": lambda: (stages(GROWING), 2), "plot maps": lambda: (map_system("K30"), 1),
+    "with_surface": lambda: (GROWING, "L", SURFACE),
     "write": lambda: (GROWING, "abop"), "draw a stage diagram": lambda: (stages(GROWING),),
     "draw a lineage": lambda: (lineage(GROWING, 1),), "draw a map": lambda: (map_system("K30"), 1),
     "draw in space": lambda: (read("axiom: F&F"), 1), "lineage in time": lambda: (timed(AGEING), 1),

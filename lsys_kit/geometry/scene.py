@@ -129,15 +129,24 @@ class Polygons:
         Shape (n + 1,): the index in `points` of the first corner of each; the last is m.
     states, colours
         Shape (n,), as of `Segments`.
+    normals
+        Shape (m, 3): at each corner of a face of a curved surface the unit normal of the surface, zeros at those of flat
+        polygons; shape (0, 3) if all are flat.
     """
 
     points: Floats
     starts: Integers
     states: Integers
     colours: Integers
+    normals: Floats = field(default_factory=lambda: np.empty((0, 3)))
 
     def __len__(self) -> int:
         return len(self.starts) - 1
+
+    @property
+    def smooth(self) -> NDArray[np.bool_]:
+        """Shape (n,): whether each is a face of a curved surface."""
+        return self.normals[self.starts[:-1]].any(axis=1) if len(self.normals) else np.zeros(len(self), bool)
 
     def __iter__(self) -> Iterator[Floats]:
         """The corners of each polygon."""

@@ -36,7 +36,7 @@ from lsys_kit.pictures.options import KINDS, LINEAGE, SPHERE, STAGES, Options, o
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.rendering.line_widths import in_units
-from lsys_kit.pictures.rendering.view import project, view_from
+from lsys_kit.pictures.rendering.view import project_smoothly, view_from
 from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.style.themes import drawn_on
@@ -193,7 +193,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options,
     scenes = in_units([seen_as(each.word, turn, options) for each in drawn], system)
     pictures = [Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states,
                         scene if scene.dimension == 3 else None)
-                for each, scene, seen in zip(drawn, scenes, project(scenes, side), strict=True)]
+                for each, scene, seen in zip(drawn, scenes, project_smoothly(scenes, side), strict=True)]
     legend = legend_of([each.word.states for each in drawn], scenes) if options.legend else None
     if not drawn[0].caption:
         return replace(pictures[0], legend=legend)

@@ -33,7 +33,7 @@ from lsys_kit.pictures.options import Options, options_from, seen_as, split_opti
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import frame_around
 from lsys_kit.pictures.rendering.line_widths import in_units
-from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project, view_from
+from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
 from lsys_kit.pictures.sizes import enlargement, final_size, size_from
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
@@ -117,7 +117,7 @@ def _shown(what: Any, n: int | None, side: View | None, size: object, choices: M
         return _turtle_film(derivation, choices.get("angle"), side, size, options)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
         steps = cellwork_steps(what, n, legend=bool(options.legend), **choices)
-        scenes = project([step.solid for step in steps if step.solid is not None], side or SIDE)
+        scenes = project_smoothly([step.solid for step in steps if step.solid is not None], side or SIDE)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
         return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
     if isinstance(what, MapSystem | Development | Lineage):
@@ -183,7 +183,7 @@ def _turtle_film(derivation: Derivation, angle: object, view: View | None, size:
     for step in counted(range(derivation.steps + 1), 1):
         steps.append(seen_as(derivation.to(step), turn, options))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
-    scenes = project(in_units(steps, derivation.states.system), view)
+    scenes = project_smoothly(in_units(steps, derivation.states.system), view)
     legend = legend_of([derivation.states] * len(scenes), scenes) if options.legend else None
     return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size, legend)
 
@@ -210,4 +210,4 @@ def _turned(what: Any, n: int | None, pace: float, view: View | None, size: obje
 def _around(solid: Scene, view: View) -> Iterator[Scene]:
     """A scene from all sides, one after another: it turns to the left, as a plant whose right side comes to the front."""
     for number in range(TURNS):
-        yield from project([solid], (view[0] + 360 * number / TURNS, view[1]))
+        yield from project_smoothly([solid], (view[0] + 360 * number / TURNS, view[1]))

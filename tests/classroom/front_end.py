@@ -10,13 +10,14 @@ from typing import Any
 from playwright.sync_api import Page
 
 import lsys_kit.classroom.panel
+from lsys_kit.classroom.panel.books.drawing import faces_in
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.natural_colours import has_natural_colours
 from lsys_kit.geometry.turtle.commands import initial_colour, initial_step
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions
 from lsys_kit.geometry.turtle.mode import drawing_mode
-from lsys_kit.geometry.turtle.surfaces import surface_called, surfaces
+from lsys_kit.geometry.turtle.surfaces import surfaces_by_symbol
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.style.palette import CHOSEN
@@ -55,13 +56,13 @@ def book_of(words: Sequence[Word]) -> dict[str, Any]:
             "colour": initial_colour(system), "natural": has_natural_colours(system), "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"),
             "calls": [[call_of(each) for each in compiled[state]] for state in numbers],
-            "surfaces": {name: surface.faces for name, surface in surfaces().items()}, "colours": CHOSEN}}
+            "surfaces": {name: faces_in(surface, drawing_mode(system)) for name, surface in surfaces_by_symbol(system).items()},
+            "colours": CHOSEN}}
 
 
 def call_of(instruction: Instruction) -> list[Any]:
     """An instruction in a book; an infinite strength is written in letters."""
     action, factor, addend, values, symbol, surface = instruction
     if action == "draw expected surface":
-        found = surface_called(symbol)
-        surface = found.name if found else ""
+        surface = symbol
     return [action, factor, addend if abs(addend) < float("inf") else "Infinity", list(values) or 0, surface or 0]

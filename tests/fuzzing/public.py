@@ -40,7 +40,7 @@ PARTS = (
     "steps: 3", "c = 1e300", "c = 1/3", "d = c*c", "A -> repeat(3,i)<A(i)>", "A(x) -> A(x/0)", "A(x) -> A(log(x))",
     "A(x) -> A(x^x)", "A -> %", "A -> {.F.+F.}", "F(x) -> F(x*1e30)", "A(1) -> A(0)B(0)", "B(2) -> A(0)", "A(t) -> A(t+c)",
     "A ?P(0,0)", "A(t) : t>=1 -> B(t-1)", "a f(x) f(y) -> f(x+y)", "A(x) -> A(x-1)B(x)", "A -> ", "A -> B(normal(0,1))",
-    "A -> @O(1e40)!(1e-40)F(1e40)", "A -> ~L;(3)F",
+    "A -> @O(1e40)!(1e-40)F(1e40)", "A -> ~L;(3)F", "surface L: (0, 0) (1, 0) (1, 1)", "surface k: (0, 0) (1, 1, 1) (1, 0)",
 )
 """Lines of models, put together at random."""
 AXIOMS = (
@@ -108,7 +108,8 @@ FUNCTIONS = (
     "animate", "book_systems", "cellwork_system", "check", "compare", "continuity", "derive", "draw", "draw_hierarchy",
     "ensemble", "exercises", "explain", "explore", "figure", "growth", "lineage", "link", "linked", "map_system",
     "map_systems", "plot", "pnml", "practice", "predict", "progress", "qr_code", "read", "read_cellwork", "read_map",
-    "rule_finder", "score", "stages", "sweep", "system", "systems", "timed", "variants", "vote", "worksheet", "write",
+    "rule_finder", "score", "stages", "sweep", "system", "systems", "timed", "variants", "vote", "with_surface",
+    "worksheet", "write",
 )
 """The public functions; `limits` is about each of them."""
 

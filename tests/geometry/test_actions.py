@@ -102,6 +102,7 @@ def test_every_command_is_an_action_of_the_table() -> None:
 def turtle_after(*names: str) -> SpaceTurtle:
     """A turtle in space after some actions."""
     turtle = SpaceTurtle(((0.6, 0.0, 0.8), (0.0, 1.0, 0.0), (-0.8, 0.0, 0.6), 0), 1.0)
+    turtle.take_look(LSystem((), ()))
     for name in names:
         SPACE_HANDLERS[name](turtle, operand(Instruction(name, 0.0, 30.0, (1.0, 2.0, 3.0), "L", "leaf"), 90.0))
     return turtle

@@ -25,7 +25,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.line_widths import in_units
-from lsys_kit.pictures.rendering.view import project
+from lsys_kit.pictures.rendering.view import project_smoothly
 from lsys_kit.pictures.style.labels import place_text
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.worlds.derive import derive
@@ -147,7 +147,7 @@ class ViewModel:
             scene = coloured(place_path(path, turn, float(self.system.heading)), self.system) if path is not None else \
                 self._scene(derivation, turn)
             [scene] = in_units([scene], self.system)
-            [seen] = project([scene], (around, above))
+            [seen] = project_smoothly([scene], (around, above))
             picture = Picture((FilamentRow(step, seen),), state_colours(derivation), None, marked,
                               scene if scene.dimension == 3 else None)
         return StepView(step, word, net, net.tokens(word), marked, scene, picture)

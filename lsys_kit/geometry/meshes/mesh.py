@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -199,14 +198,27 @@ def start_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
 
 
 def _faces(polygons: Polygons) -> Mesh:
-    """Polygons as they are, flat."""
+    """Polygons as they are; those of curved surfaces with the normals that these have."""
     points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
-    facing = normals_of(points, polygons.starts)
+    facing, smooth = normals_of(points, polygons.starts), polygons.smooth
+    spans = np.stack([polygons.starts[:-1], polygons.starts[1:]], axis=1)
     triangles = [np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
-                 for (first, last), way in counted(zip(pairwise(polygons.starts.tolist()), facing, strict=True), 1)]
-    return Mesh(points.astype(np.float32), np.repeat(facing, sizes, axis=0).astype(np.float32),
-                np.concatenate([np.empty((0, 3), np.int64), *triangles]).astype(np.uint32),
+                 for (first, last), way in counted(zip(spans[~smooth].tolist(), facing[~smooth], strict=True), 1)]
+    normals = np.repeat(facing, sizes, axis=0)
+    if smooth.any():
+        corners = np.repeat(smooth, sizes)
+        normals[corners] = polygons.normals[corners]
+    return Mesh(points.astype(np.float32), normals.astype(np.float32),
+                np.concatenate([*triangles, _fans(spans[smooth])]).astype(np.uint32),
                 np.repeat(polygons.states, sizes), np.repeat(polygons.colours, sizes))
+
+
+def _fans(spans: Integers) -> Integers:
+    """The triangles of small convex faces, given the numbers of the first corner of each and of the one behind its last."""
+    sizes = np.diff(spans, axis=1)[:, 0] - 2
+    first = np.repeat(spans[:, 0], sizes)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    return np.stack([first, second, second + 1], axis=1)
 
 
 def normals_of(points: Floats, starts: Integers) -> Floats:

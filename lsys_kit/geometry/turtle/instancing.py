@@ -22,9 +22,10 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
 from lsys_kit.geometry.turtle.actions import Effect
-from lsys_kit.geometry.turtle.commands import commands_of, initial_colour, initial_step, symbols_with
+from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols_with
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.shapes import normals_at_corners
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
@@ -47,6 +48,8 @@ class Prototype:
     ----------
     strokes, corners, centres
         Points, a row for each: the starts and ends of strokes in turn, the corners of polygons, the centres of discs.
+    normals
+        The normals at the corners of polygons, none if all are flat.
     of_strokes, of_polygons, of_discs
         Their attributes: order, state, width, colour; number of corners, state, colour; radius, kind, state, colour. A single
         width or colour holds for all.
@@ -57,6 +60,7 @@ class Prototype:
     strokes: Floats
     of_strokes: AttributeColumns
     corners: Floats
+    normals: Floats
     of_polygons: AttributeColumns
     centres: Floats
     of_discs: AttributeColumns
@@ -112,7 +116,6 @@ class Prototypes:
     def __init__(self, states: States, angle: float, in_plane: bool) -> None:
         self.states, self.angle = states, angle
         self._axes = [0, 2] if in_plane else [0, 1, 2]
-        self._initial_colour = initial_colour(states.system)
         self._initial_frame = initial_frame(states.system.turtle, float(states.system.heading))
         self._inverse = np.array(self._initial_frame[:3])  # of an orthonormal frame: its transpose
         self._opening, self._closing = (symbols_with(effect, states.system.turtle) for effect in (Effect.OPENS, Effect.CLOSES))
@@ -123,7 +126,8 @@ class Prototypes:
         """A turtle at its start."""
         system = self.states.system
         turtle = SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
-        turtle.begin_with_colour(self._initial_colour)
+        turtle.take_look(system)
+        turtle.flat = len(self._axes) == 2
         return turtle
 
     def of_row(self, row: Sequence[int], steps: int) -> Prototype:
@@ -194,7 +198,7 @@ class Prototypes:
         return Prototype(
             np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
-            self._points(corners),
+            self._points(corners), normals_at_corners(turtle.outlines),
             (np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
              *(np.array([outline[place] for outline in turtle.outlines], np.int32) for place in (1, 2))),
             self._points([found.place for found in turtle.rounds]),
@@ -217,11 +221,19 @@ def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floa
     return Prototype(
         strokes, (_concatenated(raised, np.int16), _concatenated(states, np.int32), _constant_or_all(widths, sizes, np.float64),
                   _constant_or_all(colours, sizes, np.int32)),
-        _transformed([(part, part.prototype.corners) for part in instances], len(end)),
+        _transformed([(part, part.prototype.corners) for part in instances], len(end)), _rotated_normals(instances),
         tuple(_concatenated([part.prototype.of_polygons[place] for part in instances], np.int64) for place in range(3)),
         _transformed([(part, part.prototype.centres) for part in instances], len(end)),
         tuple(_concatenated([part.prototype.of_discs[place] for part in instances], np.float64 if place == 0 else np.int64)
               for place in range(4)), end, rotation, carried)
+
+
+def _rotated_normals(instances: Sequence[Instance]) -> Floats:
+    """The normals at the corners of all polygons, none if all are flat."""
+    if not any(len(part.prototype.normals) for part in instances):
+        return np.empty((0, 3))
+    return np.concatenate([part.prototype.normals @ part.rotation.T if len(part.prototype.normals)
+                           else np.zeros((len(part.prototype.corners), 3)) for part in instances])
 
 
 def _concatenated(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
@@ -253,7 +265,8 @@ def _transformed(parts: Sequence[tuple[Instance, Floats]], size: int) -> Floats:
 
 def _as_scene(prototype: Prototype, unknown: tuple[str, ...]) -> Scene:
     """A prototype as a scene."""
-    polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:])
+    polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:],
+                        prototype.normals)
     radii, kinds, states, colours = prototype.of_discs
     discs = Discs(prototype.centres, radii, kinds, states, colours)
     strokes = Segments(prototype.strokes.reshape(-1, 2 * prototype.strokes.shape[1]), *prototype.of_strokes)

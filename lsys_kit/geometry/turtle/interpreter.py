@@ -14,10 +14,12 @@ from lsys_kit.derivation.core.interpretation import interpretations, modules_bet
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
-from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, WIDTH
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, WIDTH, initial_colour
 from lsys_kit.geometry.turtle.instructions import LARGEST, Instruction, instructions, unknown_commands
+from lsys_kit.geometry.turtle.patches import Face
 from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
-from lsys_kit.geometry.turtle.surfaces import Surface, surface_called, surfaces
+from lsys_kit.geometry.turtle.surfaces import Surface, surfaces, surfaces_by_symbol
+from lsys_kit.notation.model.system import LSystem
 
 
 class Turtle(ABC):
@@ -44,11 +46,13 @@ class Turtle(ABC):
         The values of the attributes that can be reset.
     state
         The state of the module that is being interpreted.
+    surfaces
+        The surfaces that it can draw, by their symbols.
     """
 
     __slots__ = ("bracket_limit", "colour", "expects_surface", "first_width", "gravitropism", "initial", "last", "length",
                  "mirror", "open_polygons", "orientation", "outlines", "position", "restored", "rounds", "second_heading",
-                 "stack", "state", "tropisms", "unknown", "width")
+                 "stack", "state", "surfaces", "tropisms", "unknown", "width")
 
     def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation
@@ -65,10 +69,12 @@ class Turtle(ABC):
         self.outlines: list[Outline] = []
         self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
+        self.surfaces: Mapping[str, Surface] = {}
 
-    def begin_with_colour(self, colour: int) -> None:
-        """Take a colour, as the one that can be reset."""
-        self.colour = self.initial["colour"] = colour
+    def take_look(self, system: LSystem) -> None:
+        """Take the colour with which the turtle of a system begins, as the one that can be reset, and its surfaces."""
+        self.colour = self.initial["colour"] = initial_colour(system)
+        self.surfaces = surfaces_by_symbol(system)
 
     @abstractmethod
     def forward(self, length: float, drawn: bool) -> None:
@@ -83,10 +89,13 @@ class Turtle(ABC):
         """A point given by its coordinates in the frame of the turtle."""
 
     def draw_surface(self, surface: Surface, size: float) -> None:
-        """Draw a surface at the position of the turtle."""
+        """Draw a surface at the position of the turtle: in the plane its outlines."""
         if size:
-            self.outlines += [Outline([self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face],
-                                      self.state, self.colour) for face in surface.faces]
+            self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in surface.outlines]
+
+    def local_points(self, face: Face, size: float) -> list[Any]:
+        """The corners of a face of a surface of some size."""
+        return [self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face]
 
 
 LAST_COLOUR = 2 ** 31 - 1
@@ -191,7 +200,7 @@ def _expect_surface(turtle: Turtle, _: Instruction) -> None:
 def _draw_expected_surface(turtle: Turtle, instruction: Instruction) -> None:
     if turtle.expects_surface:
         turtle.expects_surface = False
-        if surface := surface_called(instruction.symbol):
+        if surface := turtle.surfaces.get(instruction.symbol):
             turtle.draw_surface(surface, instruction.factor * turtle.length + instruction.addend)
         else:
             turtle.unknown[f"~{instruction.symbol}"] = None

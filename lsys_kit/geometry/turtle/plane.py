@@ -17,7 +17,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.commands import initial_colour, initial_step
+from lsys_kit.geometry.turtle.commands import initial_step
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
@@ -153,7 +153,7 @@ def trace(word: Word) -> Path:
     system = word.states.system
     dialect = TURTLE_DIALECTS[system.turtle]
     turtle = PlaneTurtle(dialect.left, initial_step(system), dialect.width)
-    turtle.begin_with_colour(initial_colour(system))
+    turtle.take_look(system)
     run_turtle(turtle, word, PLANE_HANDLERS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
     steps: dict[str, Any] = {name: np.array(column, kind)

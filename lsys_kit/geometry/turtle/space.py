@@ -19,11 +19,13 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import WIDTH, initial_colour, initial_step
+from lsys_kit.geometry.turtle.commands import WIDTH, initial_step
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
-from lsys_kit.geometry.turtle.shapes import collected_shapes
+from lsys_kit.geometry.turtle.mode import in_plane
+from lsys_kit.geometry.turtle.shapes import Outline, collected_shapes
+from lsys_kit.geometry.turtle.surfaces import Surface
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -39,13 +41,16 @@ _STROKE_COLUMNS = 10
 
 
 class SpaceTurtle(Turtle):
-    """A turtle in space, whose position is a point and whose orientation is a frame."""
+    """A turtle in space, whose position is a point and whose orientation is a frame.
 
-    __slots__ = ("start", "strokes")
+    Where it stays in the plane of the picture it is `flat`, and draws surfaces by their outlines.
+    """
+
+    __slots__ = ("flat", "start", "strokes")
 
     def __init__(self, frame: TurtleFrame, step: float, first_width: float = WIDTH) -> None:
         super().__init__((0.0, 0.0, 0.0), frame, step, first_width)
-        self.start = frame
+        self.start, self.flat = frame, False
         self.strokes = array("d")
 
     def forward(self, length: float, drawn: bool) -> None:
@@ -62,10 +67,24 @@ class SpaceTurtle(Turtle):
         head, left, up, rotations = self.start
         return *_rotated_towards(head, left, *cos_sin(degrees)), up, rotations
 
+    def draw_surface(self, surface: Surface, size: float) -> None:
+        if self.flat or not surface.normals:
+            super().draw_surface(surface, size)
+            return
+        for face, normals in zip(surface.faces, surface.normals, strict=True) if size else ():
+            self.outlines.append(Outline(self.local_points(face, size), self.state, self.colour,
+                                         [_combined(self.orientation, normal) for normal in normals]))
+
     def local_point(self, ahead: float, left: float, up: float) -> Vector:
-        (x, y, z), ((hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _) = self.position, self.orientation
-        return (x + ahead * hx + left * lx + up * ux, y + ahead * hy + left * ly + up * uy,
-                z + ahead * hz + left * lz + up * uz)
+        (x, y, z), (u, v, w) = self.position, _combined(self.orientation, (ahead, left, up))
+        return x + u, y + v, z + w
+
+
+def _combined(frame: TurtleFrame, vector: Vector) -> Vector:
+    """A vector that is given in a frame."""
+    (hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _ = frame
+    ahead, left, up = vector
+    return ahead * hx + left * lx + up * ux, ahead * hy + left * ly + up * uy, ahead * hz + left * lz + up * uz
 
 
 def initial_frame(dialect: str, heading: float = 90.0) -> TurtleFrame:
@@ -254,7 +273,8 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     turn = float(system.angle) if angle is None else angle
     turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system),
                          TURTLE_DIALECTS[system.turtle].width)
-    turtle.begin_with_colour(initial_colour(system))
+    turtle.take_look(system)
+    turtle.flat = in_plane(system)
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))

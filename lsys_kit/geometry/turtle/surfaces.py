@@ -1,34 +1,45 @@
-"""Predefined surfaces, as in `~L(2)`: leaves, needles, petals, sepals, buds, flowers and fruits.
+"""Surfaces that `~` draws, as in `~L(2)`: leaves, needles, petals, sepals, buds, flowers and fruits, and those of a model.
 
-Their shapes are defined in `surfaces.toml`: blades by the outline of one half, flowers by their petals, solids by a profile.
+The kit's own are defined in `surfaces.toml`: blades by their midrib and margin, flowers by their petals, solids by a profile.
 """
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import Any
+
+import numpy as np
 
 from lsys_kit.errors import quotable
 from lsys_kit.geometry.turtle.commands import COMMANDS
+from lsys_kit.geometry.turtle.patches import (
+    Face,
+    Facets,
+    blade_control,
+    joined_facets,
+    mirrored_control,
+    patch_facets,
+    polygon_facets,
+    revolved_facets,
+    rolled,
+    turned,
+)
 from lsys_kit.notation.model.modules import flat
+from lsys_kit.notation.model.surfaces import ROW, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
-Corner: TypeAlias = tuple[float, float, float]
-"""A point in the frame of the turtle: ahead, to the left, up."""
-Faces: TypeAlias = tuple[tuple[Corner, ...], ...]
-DECIMALS = 4
-"""So many decimals of a corner are kept: a surface is about 1 long."""
+PATCH_FACES = 5
+"""A patch that a model declares is drawn as so many rows and columns of faces."""
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface composed of plane faces.
+    """A surface composed of faces.
 
     Attributes
     ----------
@@ -37,91 +48,90 @@ class Surface:
     symbols
         The symbols that stand for it after a tilde.
     faces
-        The corners of each face, in order; the surface has about unit length.
+        The corners of each face, in order.
+    normals
+        The unit normal at each corner; none for a flat surface.
+    outlines
+        What is drawn of it in the plane of a picture.
     """
 
     name: str
     symbols: tuple[str, ...]
-    faces: Faces
+    faces: tuple[Face, ...]
+    normals: tuple[Face, ...]
+    outlines: tuple[Face, ...]
 
 
 @cache
 def surfaces() -> Mapping[str, Surface]:
-    """All surfaces, by name.
+    """The surfaces that the kit has, by name; each is about 1 long.
 
     >>> list(surfaces())
     ['leaf', 'needle', 'petal', 'sepal', 'bud', 'flower', 'rosette', 'fruit']
     >>> len(surfaces()["bud"].faces)
-    25
+    48
     """
     tables = tomllib.loads((files(__package__) / "surfaces.toml").read_text(encoding="utf-8"))
-    return {name: Surface(name, tuple(table["symbols"]), _rounded(_faces(table))) for name, table in tables.items()}
+    return {name: Surface(name, tuple(table["symbols"]), *_facets(table)) for name, table in tables.items()}
 
 
-def _faces(table: Mapping[str, Any]) -> Faces:
+def _facets(table: Mapping[str, Any]) -> Facets:
     """The faces of a surface, as it is described."""
     if "profile" in table:
-        return _solid_of_revolution(table["profile"], table["sides"])
-    blade = _blade(table["outline"], table.get("fold", 0))
+        return revolved_facets(table["profile"], table["sides"], table["pieces"])
+    blade = _blade(table)
     if "petals" not in table:
         return blade
     turns = [360 * number / table["petals"] for number in range(table["petals"])]
     if "opening" in table:
-        opened = [[_turned(_rolled(corner, 90), table["opening"]) for corner in face] for face in blade]
-        return tuple(tuple(_rolled(corner, turn) for corner in face) for turn in turns for face in opened)
-    return tuple(tuple(_turned(corner, turn) for corner in face) for turn in turns for face in blade)
+        opened = blade.mapped(rolled(90)).mapped(turned(table["opening"]))
+        return joined_facets([opened.mapped(rolled(turn)) for turn in turns])
+    return joined_facets([blade.mapped(turned(turn)) for turn in turns])
 
 
-def _blade(outline: Sequence[Sequence[float]], fold: float) -> Faces:
-    """A blade: two halves on both sides of its midrib, raised by the fold.
+def _blade(table: Mapping[str, Any]) -> Facets:
+    """A blade: two halves on both sides of its midrib, perhaps with a stalk."""
+    control = blade_control(table["midrib"], table["margin"], table["bulge"])
+    halves = [patch_facets(half, *table["faces"]) for half in (control, mirrored_control(control))]
+    if "stalk" in table:
+        length, width = table["stalk"]
+        ahead = [length * row / 3 for row in range(ROW)]
+        control = blade_control([(x, 0.0) for x in ahead], [(x, width / 2, 0.0) for x in ahead], 0.0)
+        halves += [patch_facets(half, 1, 1) for half in (control, mirrored_control(control))]
+    return joined_facets(halves)
 
-    >>> _blade([(0, 0), (1, 2), (2, 0)], 0)
-    (((0, 0.0, 0.0), (1, 2.0, 0.0), (2, 0.0, 0.0)), ((0, 0.0, 0.0), (1, -2.0, 0.0), (2, 0.0, 0.0)))
+
+@lru_cache(maxsize=256)
+def declared_surface(shape: SurfaceShape) -> Surface:
+    """A surface that a model declares.
+
+    >>> [len(faces) for faces in declared_surface(SurfaceShape("scale", ((0, 0, 0), (1, 0, 0), (1, 1, 0)))).faces]
+    [3]
     """
-    aside, up = math.cos(math.radians(fold)), math.sin(math.radians(fold))
-    return tuple(tuple((ahead, side * width * aside, width * up) for ahead, width in outline) for side in (1, -1))
+    if shape.polygon:
+        facets = polygon_facets([_floats(corner) for corner in shape.polygon])
+    else:
+        controls = (np.array([_floats(point) for point in patch]).reshape(ROW, ROW, 3) for patch in shape.patches)
+        facets = joined_facets([patch_facets(control, PATCH_FACES, PATCH_FACES) for control in controls])
+    return Surface(shape.name, (shape.name,), *facets)
 
 
-def _turned(corner: Corner, degrees: float) -> Corner:
-    """A corner after a turn to the left."""
-    (ahead, left, up), cos, sin = corner, math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return cos * ahead - sin * left, sin * ahead + cos * left, up
+def _floats(point: Sequence[Any]) -> tuple[float, float, float]:
+    ahead, left, up = map(float, point)
+    return ahead, left, up
 
 
-def _rolled(corner: Corner, degrees: float) -> Corner:
-    """A corner after a roll to the right, about the direction ahead."""
-    (ahead, left, up), cos, sin = corner, math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return ahead, cos * left - sin * up, sin * left + cos * up
+@lru_cache(maxsize=64)
+def surfaces_by_symbol(system: LSystem) -> Mapping[str, Surface]:
+    """The surfaces of a system, by what stands for them after a tilde: its own, and those of the kit.
 
-
-def _solid_of_revolution(profile: Sequence[Sequence[float]], sides: int) -> Faces:
-    """The faces between the rings of a profile that is turned about the direction ahead; at its ends they are triangles.
-
-    >>> len(_solid_of_revolution([(0, 0), (1, 1), (2, 1), (3, 0)], 4))
-    12
+    >>> from lsys_kit.notation.read import read
+    >>> found = surfaces_by_symbol(read("surface L: (0, 0) (1, 0) (1, 1)\\naxiom: ~L"))
+    >>> found["L"].name, found["leaf"].name, len(found["L"].faces)
+    ('L', 'leaf', 1)
     """
-    rings = [[_rolled((ahead, out, 0.0), 360 * side / sides) for side in range(sides)] for ahead, out in profile]
-    return tuple(tuple(dict.fromkeys((here[side], there[side], there[side - 1], here[side - 1])))
-                 for here, there in pairwise(rings) for side in range(sides))
-
-
-def _rounded(faces: Faces) -> Faces:
-    """Corners with few decimals, and no negative zeros."""
-    return tuple(tuple((_few(ahead), _few(left), _few(up)) for ahead, left, up in face) for face in faces)
-
-
-def _few(number: float) -> float:
-    return round(number, DECIMALS) + 0.0
-
-
-@cache
-def surface_called(symbol: str) -> Surface | None:
-    """The surface that a symbol stands for after a tilde, or None.
-
-    >>> surface_called("K").name
-    'flower'
-    """
-    return next((surface for surface in surfaces().values() if symbol in surface.symbols), None)
+    kits = {symbol: surface for surface in surfaces().values() for symbol in surface.symbols}
+    return {**kits, **{shape.name: declared_surface(shape) for shape in system.surfaces}}
 
 
 def passed_over(unknown: Sequence[str]) -> str:
@@ -156,9 +166,10 @@ def surfaces_of(system: LSystem) -> Mapping[str, str]:
     >>> surfaces_of(read("axiom: A\\nA -> F [+ ~ L] B\\ninterpretation:\\nB -> ~flower(2)"))
     {'L': 'leaf', 'flower': 'flower', 'B': 'flower'}
     """
+    known = surfaces_by_symbol(system)
     words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
     called = [(behind.symbol, surface.name) for word in words for before, behind in pairwise(word)
-              if before.symbol == "~" and (surface := surface_called(behind.symbol))]
+              if before.symbol == "~" and (surface := known.get(behind.symbol))]
     drawn = [(module.symbol, command.surface) for word in words for module in word
             for command in COMMANDS[system.turtle].get(module.symbol, ()) if command.surface]
     found = dict((*called, *drawn))

@@ -15,6 +15,7 @@ from typing import Any
 from lsys_kit.notation.model.arithmetic import Value, shortest_decimal
 from lsys_kit.notation.model.expressions import Expression, TextSpan
 from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, flat, joined
+from lsys_kit.notation.model.surfaces import SurfaceShape
 
 USUAL_STEPS = 5
 """How many steps a system is derived that does not say how many."""
@@ -136,6 +137,8 @@ class LSystem:
         Rules that shorten the word after a step, until none applies.
     ignored, considered
         Symbols that contexts pass over; or, where these are given, the only ones that they do not pass over.
+    surfaces
+        The surfaces that it declares, which `~` draws by their names.
     branches
         Which branches a right context may name: "any" of those behind a module, in their order, whatever stands between them;
         the "next" alone, as in cpfg; or none, where right contexts read the word "flat", as if it had no brackets. It is "any"
@@ -188,6 +191,7 @@ class LSystem:
     decomposition_depth: int | None = None
     turtle: str = "abop"
     branches: str = ANY_BRANCH
+    surfaces: tuple[SurfaceShape, ...] = ()
     cells: str = field(default="rectangles", compare=False)
     widths: str = field(default="", compare=False)
     colours: str = field(default="", compare=False)

@@ -16,6 +16,7 @@ from lark import Token, Transformer, v_args
 from lsys_kit.budget import current
 from lsys_kit.notation.analysis.checks import closest
 from lsys_kit.notation.analysis.problems import problem
+from lsys_kit.notation.analysis.surface_checks import PointList, SurfaceText
 from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
@@ -49,6 +50,14 @@ def place_of(*parts: Any) -> TextSpan:
 def check_name(token: Token) -> None:
     if len(token) > current().name:
         raise problem("name too long", place_of(token), most=current().name)
+
+
+def _surface_name(keyword: Token) -> str:
+    """The name of a surface, in the words that begin its declaration."""
+    name = keyword[:-1].split()[1]
+    if len(name) > current().name:
+        raise problem("name too long", place_of(keyword), most=current().name)
+    return name
 
 
 def _symbol(token: Token) -> str:
@@ -229,6 +238,19 @@ class Statements(Transformer[Any, Any]):
 
     def colours(self, _: Token, source: Token) -> tuple[str, str]:
         return "colours", str(source)
+
+    def polygon(self, keyword: Token, *points: Pattern) -> tuple[str, SurfaceText]:
+        at = place_of(keyword)
+        return "surface", SurfaceText(_surface_name(keyword), (PointList(points, at),), False, at)
+
+    def patches(self, keyword: Token, *patches: PointList) -> tuple[str, SurfaceText]:
+        return "surface", SurfaceText(_surface_name(keyword), patches, True, place_of(keyword))
+
+    def patch(self, keyword: Token, *points: Pattern) -> PointList:
+        return PointList(points, place_of(keyword))
+
+    def point(self, *coordinates: Expression) -> Pattern:
+        return Pattern("point", coordinates, place_of(*coordinates))
 
     def alphabet(self, _: Token, *names: Token) -> tuple[str, tuple[str, ...]]:
         return "alphabet", tuple(map(str, names))

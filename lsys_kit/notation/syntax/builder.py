@@ -17,6 +17,7 @@ from lsys_kit.notation.analysis.checks import (
     value_of,
 )
 from lsys_kit.notation.analysis.problems import problem
+from lsys_kit.notation.analysis.surface_checks import SurfaceText, checked_surfaces
 from lsys_kit.notation.model.expressions import names_in
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
@@ -53,6 +54,7 @@ class Draft:
     sections: dict[str, list[Production]] = field(
         default_factory=lambda: {"productions": [], "decomposition": [], "interpretation": []})
     meta: list[MetaRule] = field(default_factory=list)
+    surfaces: list[SurfaceText] = field(default_factory=list)
     settings: dict[str, Any] = field(default_factory=dict)
     section: str = "productions"
     deferred: list[tuple[str, Any, tuple[int, int]]] = field(default_factory=list)
@@ -75,6 +77,8 @@ class Draft:
             self.section = record
         elif kind == "meta":
             self.meta.append(replace(record, at=at))
+        elif kind == "surface":
+            self.surfaces.append(record)
         elif kind == "deferred":
             self.deferred.append((*record, at))
         else:
@@ -112,7 +116,8 @@ def build_system(draft: Draft) -> LSystem:
         check_field(draft.settings["field"], names)
     sections = {section: tuple(productions) for section, productions in draft.sections.items()}
     return LSystem(draft.axiom, constants=tuple(draft.constants), meta=tuple(draft.meta), notation=draft.notation,
-                   source=source, notes=tuple(draft.notes), **sections, **_checked_settings(draft))  # type: ignore[arg-type]
+                   source=source, notes=tuple(draft.notes), surfaces=checked_surfaces(draft.surfaces),
+                   **sections, **_checked_settings(draft))  # type: ignore[arg-type]
 
 
 def _checked_settings(draft: Draft) -> dict[str, Any]:

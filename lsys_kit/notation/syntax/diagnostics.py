@@ -36,11 +36,12 @@ from lsys_kit.notation.syntax.failure import (
     unclosed_bracket,
 )
 from lsys_kit.notation.syntax.predecessor_diagnostics import diagnose_predecessor
+from lsys_kit.notation.syntax.surface_diagnostics import surface_declaration
 from lsys_kit.notation.syntax.text.statements import ARROW
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
             "meta", "productions", "decomposition", "decomposition depth", "interpretation", "cells", "branches", "widths",
-            "colours", "field")
+            "colours", "field", "surface")
 _SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books call a keyword."""
 _CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),
@@ -182,7 +183,8 @@ def _anything_else(failure: ParseFailure) -> ModelSyntaxError:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows, misspelling,
-    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals, value_in_parentheses,
-    _constant_declaration)
+    foreign_comment, surface_declaration, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows,
+    misspelling,
+    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals,
+    value_in_parentheses, _constant_declaration)
 """The diagnostics of the kit's own notation and of plant strings, the most specific first."""

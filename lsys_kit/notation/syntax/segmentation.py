@@ -105,7 +105,7 @@ def _whole_and_parts(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
     rewritten = {module.symbol for rule in system.rules for module in rule.predecessors}
     rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
     shown = [m.symbol for m in (*system.axiom, *(m for rule in system.rules for m in rule.modules))]
-    whole = rewritten | set(system.alphabet)
+    whole = rewritten | set(system.alphabet) | {surface.name for surface in system.surfaces}
     return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
 
 

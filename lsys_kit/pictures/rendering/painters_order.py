@@ -162,9 +162,10 @@ def _inverse(slots: Integers) -> Integers:
 
 
 def _faces(scene: ProjectedScene, colours: Integers) -> Areas:
-    """Polygons, as bright as they face the light, with darker edges."""
+    """Polygons, as bright as they face the light, with darker edges; there are none between the faces of a curved surface."""
     many, bright = len(scene.polygons), brightness(scene.normals)
-    inside, edges = (shade_numbers(colours[:many], scene.nearness[:many], bright + more) for more in (0, EDGE))
+    inside, edges = (shade_numbers(colours[:many], scene.nearness[:many], bright + more)
+                     for more in (0, np.where(scene.polygons.smooth, 0, EDGE)))
     return Areas(scene.polygons.points, scene.polygons.starts, inside, edges)
 
 

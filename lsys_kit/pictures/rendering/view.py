@@ -16,6 +16,7 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.geometry.smoothing import smoothed
 
 View: TypeAlias = tuple[float, float]
 """The side of the viewer, in degrees: around, 0 at the front and 90 at the right; and above, 0 level and 90 from the top."""
@@ -137,6 +138,11 @@ def project(scenes: Sequence[Scene], view: View | None = None) -> list[Scene]:
     return [_projected(scene, cylinder, view or FROM_THE_RIGHT) for scene in scenes]
 
 
+def project_smoothly(scenes: Sequence[Scene], view: View | None = None) -> list[Scene]:
+    """The same, with finer faces in the curved surfaces of scenes that have few."""
+    return project([smoothed(scene) if len(scene.polygons) else scene for scene in scenes], view)
+
+
 def lies_flat(scene: Scene) -> bool:
     """Whether all of a scene lies in the plane of the picture, as it is seen from the front.
 
@@ -167,7 +173,7 @@ def _flattened(scene: Scene) -> Scene:
     """A scene in space seen from the front, as one in the plane."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     return Scene(replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
-                 polygons=replace(polygons, points=polygons.points[:, ::2]),
+                 polygons=replace(polygons, points=polygons.points[:, ::2], normals=np.empty((0, 3))),
                  discs=replace(discs, centres=discs.centres[:, ::2]), unknown=scene.unknown)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -17,7 +17,7 @@ from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unk
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
-from lsys_kit.geometry.turtle.surfaces import passed_over, surface_called, surfaces
+from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
@@ -59,14 +59,14 @@ def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> lis
         drawn = {**drawn, _TILDE: (Module("~"),)}
     handlers = PLANE_HANDLERS if mode is DrawingMode.PLANE else SPACE_HANDLERS
     calls = instructions(drawn, system.turtle, system.angle)
-    return [[_call(each) for each in calls[state] if each.action in handlers] for state in numbers]
+    known = surfaces_by_symbol(system)
+    return [[_call(each, known) for each in calls[state] if each.action in handlers] for state in numbers]
 
 
-def _call(instruction: Instruction) -> list[Any]:
+def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[Any]:
     action, factor, addend, values, symbol, surface = instruction
     if action == "draw expected surface":
-        called = surface_called(symbol)
-        surface = called.name if called else ""
+        surface = symbol if symbol in known else ""
     return [action, _plain(factor), _plain(addend), [*map(_plain, values)] or 0, surface or 0]
 
 
@@ -95,13 +95,20 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
     return {"side": dialect.left, "length": initial_step(system), "width": dialect.width,
             "colour": initial_colour(system), "natural": has_natural_colours(system), "heading": float(system.heading),
             "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"), "calls": calls,
-            "surfaces": {name: [[*map(list, face)] for face in surfaces()[name].faces] for name in sorted(named)},
+            "surfaces": {name: faces_in(surfaces_by_symbol(system)[name], drawing_mode(system)) for name in sorted(named)},
             "colours": [*CHOSEN],
             "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row)}
 
 
+def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, Any]:
+    """The faces of a surface in a book, and whether they are those of a curved one, which have no edges."""
+    smooth = mode is DrawingMode.SPACE and bool(surface.normals)
+    return {"smooth": smooth, "faces": [[*map(list, face)] for face in (surface.faces if smooth else surface.outlines)]}
+
+
 def _not_surfaces(system: LSystem) -> Iterable[str]:
     """What stands behind a tilde and is no surface, with its tilde."""
+    known = surfaces_by_symbol(system)
     words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
     return dict.fromkeys(f"~{behind.symbol}" for word in words for before, behind in pairwise(word)
-                         if before.symbol == "~" and surface_called(behind.symbol) is None)
+                         if before.symbol == "~" and behind.symbol not in known)

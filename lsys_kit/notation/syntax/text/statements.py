@@ -10,7 +10,8 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
-_STARTS = re.compile(rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?[A-Za-zωδ]+\s*:(?!.*[<>=])")
+_STARTS = re.compile(
+    rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?(?:surface[ \t]+\w+|[A-Za-zωδ]+)\s*:(?!.*[<>=])")
 _CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
 _AT_THE_MARGIN, _INDENT = re.compile(r"^\S", re.MULTILINE), re.compile(r"^[^\S\n]*+(?=\S)", re.MULTILINE)
 _FILLED_LINE = re.compile(r"^[^\S\n]*+\S.*", re.MULTILINE)

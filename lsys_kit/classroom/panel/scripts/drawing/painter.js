@@ -86,7 +86,8 @@ function paintShapes(pen, shapes, frame, seen, theme, order, marked) {
     const corners = cornersOf(faces, i), colour = faces.colours[i], outline = faceOutline(seen, corners);
     if (!nearness) return fill(outline, faces, i, mixed(shade(colour), theme.paper, FILLED), shade(colour), FACE_EDGE);
     const near = meanOf(nearness, corners), bright = brightness(normalOf(corners, shapes, frame));
-    return fill(outline, faces, i, shade(colour, near, bright), shade(colour, near, Math.max(0, bright + EDGE)), FACE_EDGE);
+    const edge = faces.smooth?.[i] ? bright : Math.max(0, bright + EDGE); // a curved surface has no edges between its faces
+    return fill(outline, faces, i, shade(colour, near, bright), shade(colour, near, edge), FACE_EDGE);
   }
 
   function paintRound(i) {

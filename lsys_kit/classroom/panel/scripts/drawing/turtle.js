@@ -42,7 +42,7 @@ function openTurtle({ mode, turtle, states, symbols }) {
   const calls = turtle.calls.map((found) => found.filter(([name]) => Object.hasOwn(actions, name))
     .map(([name, factor, given, values, surface]) => {
       const addend = Number(given);
-      return { act: actions[name], factor, addend, values: values || [], faces: surface ? turtle.surfaces[surface] : null,
+      return { act: actions[name], factor, addend, values: values || [], surface: surface ? turtle.surfaces[surface] : null,
         amount: amountNumber(factor, addend) };
     }));
   const ofStates = states.map(([symbol]) => symbols[symbol][2] || SIGN_COLOUR);
@@ -86,7 +86,8 @@ function shapesOf({ strokes, faces, rounds }, colourOf) {
   return {
     strokes: { n: strokes.to.length, from: whole(strokes.from), to: whole(strokes.to), orders: whole(strokes.orders),
       widths: new Float64Array(strokes.widths), ...common(strokes) },
-    faces: { n: faces.states.length, starts: whole(faces.starts), corners: whole(faces.corners), ...common(faces) },
+    faces: { n: faces.states.length, starts: whole(faces.starts), corners: whole(faces.corners),
+      smooth: faces.smooth, ...common(faces) },
     rounds: { n: rounds.states.length, centres: whole(rounds.centres), radii: new Float64Array(rounds.radii),
       kinds: whole(rounds.kinds), ...common(rounds) },
   };

@@ -43,7 +43,7 @@ export function newTurtle(trail, { length, width, colour }) {
     ...initial, initial, trail, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
     tropisms: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, openPolygons: [],
     strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
-    faces: { starts: [0], corners: [], colours: [], positions: [], states: [] },
+    faces: { starts: [0], corners: [], smooth: [], colours: [], positions: [], states: [] },
     rounds: { centres: [], radii: [], kinds: [], colours: [], positions: [], states: [] },
   };
 }
@@ -152,9 +152,10 @@ function endPolygon(turtle) {
   if (outline && outline.corners.length > 2) addFace(turtle.faces, outline);
 }
 
-function addFace(faces, { corners, colour, place, state }) {
+function addFace(faces, { corners, colour, place, state }, smooth = false) {
   for (const corner of corners) faces.corners.push(corner);
   faces.starts.push(roomFor(faces.corners.length));
+  faces.smooth.push(smooth);
   faces.colours.push(colour);
   faces.positions.push(place);
   faces.states.push(state);
@@ -162,11 +163,11 @@ function addFace(faces, { corners, colour, place, state }) {
 
 function drawSurface(turtle, call) {
   const size = amountOf(call, turtle.length), { colour, place, state } = turtle;
-  if (!size || !call.faces) return;
-  for (const face of call.faces) {
+  if (!size || !call.surface) return;
+  for (const face of call.surface.faces) {
     const corners = face.map(([ahead, left, up]) =>
       turtle.trail.local(turtle.orientation, turtle.position, size * ahead, size * left, size * up));
-    addFace(turtle.faces, { corners, colour, place, state });
+    addFace(turtle.faces, { corners, colour, place, state }, call.surface.smooth);
   }
 }
 
