@@ -57,10 +57,9 @@ class ShootTurtle(SpaceTurtle):
         """The number of the last stroke on its branch."""
         return NO_SHOOT if self.last is None else self.last
 
-    def forward(self, length: float, drawn: bool) -> None:
-        if drawn:
-            self.mothers.append(self.shoot)
-        super().forward(length, drawn)
+    def stroke(self, start: Vector, end: Vector, width: float) -> None:
+        self.mothers.append(self.shoot)
+        super().stroke(start, end, width)
 
 
 class Standpoint(NamedTuple):

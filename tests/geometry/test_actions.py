@@ -103,6 +103,7 @@ def turtle_after(*names: str) -> SpaceTurtle:
     """A turtle in space after some actions."""
     turtle = SpaceTurtle(((0.6, 0.0, 0.8), (0.0, 1.0, 0.0), (-0.8, 0.0, 0.6), 0), 1.0)
     turtle.take_look(LSystem((), ()))
+    turtle.patches = {1.0: {(row, column): (float(row), float(column), 0.0) for row in range(4) for column in range(4)}}
     for name in names:
         SPACE_HANDLERS[name](turtle, operand(Instruction(name, 0.0, 30.0, (1.0, 2.0, 3.0), "L", "leaf"), 90.0))
     return turtle
@@ -111,6 +112,7 @@ def turtle_after(*names: str) -> SpaceTurtle:
 @pytest.mark.parametrize("action", ACTIONS)
 def test_an_action_does_what_the_table_says(action: str) -> None:
     effects, way = ACTIONS[action], ("begin polygon", "draw", "push", "turn", "draw", "draw", "expect surface")
+    way += ("begin cylinder",) * action.endswith("cylinder")
     before, after = turtle_after(*way), turtle_after(*way, action)
     assert (before.position != after.position) == (Effect.MOVES in effects)
     assert (before.orientation != after.orientation) == (Effect.TURNS in effects)

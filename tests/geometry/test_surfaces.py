@@ -110,7 +110,8 @@ def test_a_surface_that_nobody_knows_is_listed_once():
 
 @pytest.mark.parametrize(("word", "said"), [
     ("F ~X(2) ~l ~X",
-     "no surface is called X or l: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit"),
+     "no surface is called X or l: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit; a model "
+     "declares others"),
     ("F RH ~ Leaf", "passed over, without a meaning here: RH; no surface is called Leaf: there are L (leaf)"),
     ("F ~", "passed over, because no surface is named after it: ~"), ("F ~L ~rosette(2)", ""),
 ])

@@ -63,6 +63,7 @@ ACTIONS: Mapping[str, Effect] = {
     "level": _TURNS | _LEAVES_PLANE,
     "gravitropism": _TURNS | _LEAVES_PLANE,
     "set tropism": _LEAVES_PLANE,
+    "set heading": _TURNS | _LEAVES_PLANE,
 
     "set length": _INSTANCEABLE, "reset length": _INSTANCEABLE, "set length once": _INSTANCEABLE,
     "set width": _INSTANCEABLE, "reset width": _INSTANCEABLE, "set width once": _INSTANCEABLE,
@@ -82,5 +83,11 @@ ACTIONS: Mapping[str, Effect] = {
     "draw circle": _VISIBLE | _INSTANCEABLE,
     "draw disc": _VISIBLE | _INSTANCEABLE,
     "draw sphere": _VISIBLE | _INSTANCEABLE,
+    "begin cylinder": _LEAVES_PLANE,
+    "continue cylinder": _VISIBLE | _LEAVES_PLANE,
+    "end cylinder": _VISIBLE | _LEAVES_PLANE,
+    "begin patch": _LEAVES_PLANE,
+    "set control point": _LEAVES_PLANE,
+    "draw patch": _VISIBLE | _LEAVES_PLANE,
 }
 """What each action does."""

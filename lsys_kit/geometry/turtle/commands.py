@@ -99,6 +99,8 @@ def _colour_step(addend: int) -> Command:
 _plain, _more, _times = partial(Command, argument=""), partial(Command, argument="more"), partial(Command, argument="times")
 _LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 0.0, 180, "")
 _DOWN, _OPEN = Command("gravitropism", 0.0, math.inf, ""), _plain("push")
+_PARTS = 8
+"""A curve has so many parts, where no number says otherwise."""
 _LEAF, _FLOWER = Command("draw surface", 1 / 2, surface="leaf"), Command("draw surface", 1 / 4, surface="rosette")
 
 COMMAND_TABLE: tuple[Row, ...] = (
@@ -121,6 +123,7 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("^",    "",     "",    "pitch its head up",                                    Command("pitch", -1.0)),
     Row("\\",   "",     "",    "roll to its left, by the angle or x degrees",          Command("roll")),
     Row("/",    "RH",   "",    "roll to its right",                                    Command("roll", -1.0)),
+    Row("@R",   "",     "",    "its head points in the direction (x, y, z)",           Command("set heading")),
     Row("$ @v", "$",    "",    "roll until its left is level and its up points up",    _plain("level")),
     Row("",     "RV",   "",    "bend down, with the strength x or that of `V`",        Command("gravitropism")),
     Row("",     "RG",   "",    "bend straight down",                                   _DOWN),
@@ -161,6 +164,12 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("~",    "",     "",    "a surface: the next symbol, as long as the step or x", _plain("expect surface")),
     Row("",     "",     "L",   "a leaf",                                               _LEAF),
     Row("",     "",     "F",   "a flower",                                             _FLOWER),
+    Row("@Gs",  "",     "",    "a generalised cylinder begins: `F` leaves no stroke",  _plain("begin cylinder")),
+    Row("@Gc",  "",     "",    "the cylinder comes here in a curve, of x parts",       Command("continue cylinder", 0.0, _PARTS)),
+    Row("@Ge",  "",     "",    "the same, and the cylinder ends",                      Command("end cylinder", 0.0, _PARTS)),
+    Row("@PS",  "",     "",    "a patch with the number x begins",                     Command("begin patch")),
+    Row("@PC",  "",     "",    "here is a control point of patch x, in row y and column z", Command("set control point")),
+    Row("@PD",  "",     "",    "the patch x is drawn, in y rows and z columns",        Command("draw patch")),
     Row("@o",   "",     "",    "a circle, as wide as a stroke or x",                   Command("draw circle")),
     Row("@c",   "",     "",    "a disc, as wide as a stroke or x",                     Command("draw disc")),
     Row("@O",   "",     "",    "a sphere, as wide as a stroke or x",                   Command("draw sphere")),

@@ -36,6 +36,8 @@ class Turtle(ABC):
         Whether Fractint's turns are mirrored, -1, or not, 1; and its second heading, in degrees to the left of the first.
     tropisms
         The tropisms, by number.
+    axis, patches
+        The last control point of a generalised cylinder, None outside of one; the control points of patches, by their numbers.
     last
         The number of the last stroke (in the plane, of its path step); None before the first.
     restored
@@ -50,9 +52,9 @@ class Turtle(ABC):
         The surfaces that it can draw, by their symbols.
     """
 
-    __slots__ = ("bracket_limit", "colour", "expects_surface", "first_width", "gravitropism", "initial", "last", "length",
-                 "mirror", "open_polygons", "orientation", "outlines", "position", "restored", "rounds", "second_heading",
-                 "stack", "state", "surfaces", "tropisms", "unknown", "width")
+    __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "gravitropism", "initial", "last",
+                 "length", "mirror", "open_polygons", "orientation", "outlines", "patches", "position", "restored", "rounds",
+                 "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
 
     def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation
@@ -60,6 +62,8 @@ class Turtle(ABC):
         self.length, self.width, self.colour, self.gravitropism = step, float(OWN), OWN, 0.0
         self.first_width, self.mirror, self.second_heading = first_width, 1, 0.0
         self.tropisms: Mapping[float, tuple[float, float, float]] = {}
+        self.axis: Any = None
+        self.patches: dict[float, dict[tuple[float, float], Any]] = {}
         self.restored: tuple[tuple[str, float], ...] = ()
         self.initial = {name: getattr(self, name) for name in ("length", "width", "colour", "gravitropism")}
         self.state, self.expects_surface = -1, False
@@ -105,7 +109,7 @@ Handler: TypeAlias = Callable[[Any, Any], None]
 """Carries out an instruction, given a turtle and the operand of the instruction."""
 
 _SAVED_ATTRIBUTES = ("position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
-                     "mirror", "second_heading")
+                     "mirror", "second_heading", "axis")
 _saved_state = attrgetter(*_SAVED_ATTRIBUTES)
 
 
@@ -165,12 +169,14 @@ def _set_once(name: str, change: Handler) -> Handler:
 def _push(turtle: Turtle, _: Instruction) -> None:
     _check_depth(turtle, turtle.stack)
     turtle.stack.append(_saved_state(turtle))
+    turtle.axis = None
 
 
 def _pop(turtle: Turtle, _: Instruction) -> None:
     if turtle.stack:
         (turtle.position, turtle.orientation, turtle.length, turtle.width, turtle.colour, turtle.gravitropism,
-         turtle.tropisms, turtle.last, turtle.restored, turtle.mirror, turtle.second_heading) = turtle.stack.pop()
+         turtle.tropisms, turtle.last, turtle.restored, turtle.mirror, turtle.second_heading,
+         turtle.axis) = turtle.stack.pop()
 
 
 def _begin_polygon(turtle: Turtle, _: Instruction) -> None:

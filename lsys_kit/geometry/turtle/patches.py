@@ -73,9 +73,14 @@ def patch_facets(control: Floats, along: int, across: int) -> Facets:
     >>> found.normals[0][0]
     (0.0, 0.0, 1.0)
     """
+    points, normals = patch_grid(control, along, across)
+    return _grid_facets(points, normals, _boundary(points))
+
+
+def patch_grid(control: Floats, along: int, across: int) -> tuple[Floats, Floats]:
+    """The points of a patch at even parameters, and the normals there, as they are."""
     rows, columns = np.linspace(0, 1, along + 1), np.linspace(0, 1, across + 1)
-    points = _tensor(_bernstein(rows), control, _bernstein(columns))
-    return _grid_facets(points, _normals(control, rows, columns), _boundary(points))
+    return _tensor(_bernstein(rows), control, _bernstein(columns)), _normals(control, rows, columns)
 
 
 def _bernstein(t: Floats) -> Floats:

@@ -20,6 +20,7 @@ import numpy as np
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import WIDTH, initial_step
+from lsys_kit.geometry.turtle.curves import CURVE_HANDLERS
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
@@ -58,10 +59,15 @@ class SpaceTurtle(Turtle):
         x, y, z = start
         self.position = end = x + length * hx, y + length * hy, z + length * hz
         if drawn:
-            self.last = len(self.strokes) // _STROKE_COLUMNS
-            self.strokes.extend((*start, *end, len(self.stack), self.state, self.width, self.colour))
+            if self.axis is None:
+                self.stroke(start, end, self.width)
             for pull in self.tropisms.values():
                 _bend_by_tropism(self, pull)
+
+    def stroke(self, start: Vector, end: Vector, width: float) -> None:
+        """Leave a stroke."""
+        self.last = len(self.strokes) // _STROKE_COLUMNS
+        self.strokes.extend((*start, *end, len(self.stack), self.state, width, self.colour))
 
     def initial_orientation(self, degrees: float) -> TurtleFrame:
         head, left, up, rotations = self.start
@@ -215,6 +221,19 @@ def _set_position(turtle: SpaceTurtle, instruction: Instruction) -> None:
     turtle.position = _from_cpfg((x, y, z))
 
 
+def _set_heading(turtle: SpaceTurtle, instruction: Instruction) -> None:
+    """Take a heading H, and an up U as far as H lets it: `@R(x, y, z)`, or `@R(x, y, z, x, y, z)` with both."""
+    x, y, z, *others = (*instruction.values, 0.0, 0.0, 0.0)
+    head = _from_cpfg((x, y, z))
+    if math.hypot(*head) <= _NEGLIGIBLE:
+        return
+    head, (_, left, up, _) = _unit(head), turtle.orientation
+    wanted = _from_cpfg((others[0], others[1], others[2])) if len(instruction.values) > 5 else up
+    across = next(side for side in (_cross(wanted, head), _cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
+    left = _unit(across)
+    turtle.orientation = head, left, _cross(head, left), 0
+
+
 def _from_cpfg(point: Vector) -> Vector:
     """A point or direction in the axes used here, given in cpfg's, where y grows upwards and z towards the viewer."""
     x, y, z = point
@@ -233,7 +252,7 @@ def _return_to_stroke(turtle: SpaceTurtle, instruction: Instruction) -> None:
 _ROTATIONS: Mapping[str, Handler] = {
     "turn": _turn, "turn by mirrored angle": _turn_by_mirrored_angle, "turn back": _turn, "pitch": _pitch, "roll": _roll}
 SPACE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS, **FRACTINT_HANDLERS, **_ROTATIONS, "level": _level,
+    **COMMON_HANDLERS, **FRACTINT_HANDLERS, **CURVE_HANDLERS, **_ROTATIONS, "level": _level, "set heading": _set_heading,
     "gravitropism": _bend_by_gravitropism, "set tropism": _set_tropism,
     "set position": _set_position, "return to stroke": _return_to_stroke}
 """The handlers of the turtle in space, by action."""

@@ -145,16 +145,18 @@ def passed_over(unknown: Sequence[str]) -> str:
     Examples
     --------
     >>> passed_over(["~X"])
-    'no surface is called X: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit'
+    'no surface is called X: there are L (leaf), needle, ...; a model declares others'
     >>> passed_over(["~"])
     'passed over, because no surface is named after it: ~'
     """
     names = [symbol[1:] for symbol in unknown if symbol[0] == "~" and symbol != "~"]
-    others = [symbol for symbol in unknown if symbol[0] != "~"]
+    others = [symbol for symbol in unknown if symbol[0] != "~" and symbol != "@PD"]
     there_are = ", ".join(f"{surface.symbols[0]} ({surface.name})" if len(surface.symbols) > 1 else surface.name
                           for surface in surfaces().values())
     said = [f"passed over, without a meaning here: {quotable(' '.join(others))}" if others else "",
-            f"no surface is called {quotable(' or '.join(names))}: there are {there_are}" if names else "",
+            f"no surface is called {quotable(' or '.join(names))}: there are {there_are}; a model declares others"
+            if names else "",
+            "@PD draws a patch whose sixteen control points are set by @PC" if "@PD" in unknown else "",
             "passed over, because no surface is named after it: ~" if "~" in unknown else ""]
     return "; ".join(filter(None, said))
 

@@ -74,7 +74,7 @@ def capsules(cylinders: Cylinders) -> Floats:
 
 
 def stripes(cylinders: Cylinders) -> tuple[Floats, Floats]:
-    """The corners of the light and of the dark stripes, each of shape (n, 4, 2)."""
+    """The corners of the light and of the dark stripes, each of shape (n, 6, 2)."""
     aside = cylinders.left @ LIGHT[:2]
     brightest = np.arctan2(aside, LIGHT[2])
     away = np.where(aside < 0, 1.0, -1.0)  # to which side it grows dark
@@ -83,9 +83,9 @@ def stripes(cylinders: Cylinders) -> tuple[Floats, Floats]:
 
 
 def _stripe(cylinders: Cylinders, first: Floats, last: Floats) -> Floats:
-    """The corners of stripes between two angles of the normal, up to the round ends."""
-    corners = []
-    for end, angle in ((0, first), (1, first), (1, last), (0, last)):
+    """The corners of stripes between two angles of the normal, up to the round ends, which they follow."""
+    corners, middle = [], (first + last) / 2
+    for end, angle in ((0, middle), (0, first), (1, first), (1, middle), (1, last), (0, last)):
         way = np.sin(angle)[:, None] * cylinders.left + (2 * end - 1) * np.cos(angle)[:, None] * cylinders.along
         corners.append(cylinders.ends[:, end] + cylinders.radii[:, end, None] * way)
     return np.stack(corners, axis=1)

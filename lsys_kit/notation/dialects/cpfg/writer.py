@@ -30,12 +30,12 @@ def module_text(module: Module | Pattern) -> str:
 
 
 def joined_word(texts: Iterable[str]) -> str:
-    """The texts of modules as one word: a blank only where "@T" would make a symbol with the letter after it.
+    """The texts of modules as one word: a blank only where "@T" and the like would make a symbol with the letter after it.
 
     >>> joined_word(["F", "@T", "s", "[", "+", "F", "]"])
     'F@T s[+F]'
     """
-    return re.sub(r"@T(?=\0[a-z])", "@T ", "\0".join(texts)).replace("\0", "")
+    return re.sub(r"(@T(?=\0[a-z])|@G(?=\0[sce])|@P(?=\0[SCD]))", r"\1 ", "\0".join(texts)).replace("\0", "")
 
 
 def system_text(system: LSystem) -> str:

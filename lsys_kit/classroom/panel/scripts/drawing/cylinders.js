@@ -25,7 +25,10 @@ export function cylinder([ax, ay], [bx, by], [ra, rb]) {
     const [x, y, radius, way] = end ? [bx, by, rb, 1] : [ax, ay, ra, -1], aside = radius * Math.sin(angle), ahead = way * radius * Math.cos(angle);
     return [x + aside * left[0] + ahead * along[0], y + aside * left[1] + ahead * along[1]];
   };
-  const stripe = (first, last) => polygon([at(0, first), at(1, first), at(1, last), at(0, last)]);
+  const stripe = (first, last) => {
+    const middle = (first + last) / 2;
+    return polygon([at(0, middle), at(0, first), at(1, first), at(1, middle), at(1, last), at(0, last)]);
+  };
   return { body: capsule(ax, ay, bx, by, ra, rb, Math.atan2(left[1], left[0])),
     light: stripe(Math.max(brightest - LIT, -RIM), Math.min(brightest + LIT, RIM)),
     dark: stripe(brightest + away * DARK, (away * Math.PI) / 2) };

@@ -13,7 +13,7 @@ const RAMP_START = 16, RAMP_END = 23; // the colours from bark to leaves
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
 const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
-  "mirror", "secondHeading"];
+  "mirror", "secondHeading", "axis"];
 
 // The colours of the ramp, stretched so that the farthest that is drawn is its end.
 export function stretchRamp(...groups) {
@@ -41,7 +41,7 @@ export function newTurtle(trail, { length, width, colour }) {
   const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 };
   return {
     ...initial, initial, trail, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
-    tropisms: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, openPolygons: [],
+    tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, openPolygons: [],
     strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
     faces: { starts: [0], corners: [], smooth: [], colours: [], positions: [], states: [] },
     rounds: { centres: [], radii: [], kinds: [], colours: [], positions: [], states: [] },
@@ -69,19 +69,27 @@ export function roomFor(many) {
 }
 
 function moveAhead(turtle, length, drawn) {
-  const from = turtle.position, to = turtle.trail.step(turtle.orientation, length, from), { strokes } = turtle;
+  const from = turtle.position, to = turtle.trail.step(turtle.orientation, length, from);
   turtle.position = to;
   if (!drawn) return;
+  if (!turtle.axis) {
+    recordStroke(turtle, from, to, turtle.width);
+    turtle.strokes.lengths.push(Math.abs(length));
+  }
+  if (turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
+}
+
+// A stroke between two points; how long it is, its points may say only later.
+export function recordStroke(turtle, from, to, width) {
+  const { strokes } = turtle;
   turtle.last = to;
   strokes.from.push(from);
   strokes.to.push(to);
-  strokes.lengths.push(Math.abs(length));
   strokes.orders.push(turtle.stack.length);
-  strokes.widths.push(turtle.width);
+  strokes.widths.push(width);
   strokes.colours.push(turtle.colour);
   strokes.positions.push(turtle.place);
   strokes.states.push(turtle.state);
-  if (turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
 }
 
 function recordVertex(turtle) {
@@ -136,6 +144,7 @@ const setOnce = (name, change) => (turtle, call) => {
 
 function openBranch(turtle) {
   roomFor(turtle.stack.push(REMEMBERED.map((name) => turtle[name])));
+  turtle.axis = null;
 }
 
 function closeBranch(turtle) {
@@ -152,7 +161,7 @@ function endPolygon(turtle) {
   if (outline && outline.corners.length > 2) addFace(turtle.faces, outline);
 }
 
-function addFace(faces, { corners, colour, place, state }, smooth = false) {
+export function addFace(faces, { corners, colour, place, state }, smooth = false) {
   for (const corner of corners) faces.corners.push(corner);
   faces.starts.push(roomFor(faces.corners.length));
   faces.smooth.push(smooth);

@@ -5,10 +5,12 @@
 // away from the viewer. An orientation is the number of a frame, of which 0 is the first; point 0 is the origin.
 
 import { commonActions, roomFor } from "./turtle_actions.js";
+import { curveActions, onCurve } from "./turtle_curves.js";
 import { returnToStroke } from "./turtle_plane.js";
 
-const TURNED = 0, PITCHED = 1, ROLLED = 2, LEVELLED = 3, BENT_DOWN = 4, BENT_TOWARDS = 5; // how a frame is made
-const ABSOLUTE = -1, BETWEEN = -2; // points that lie in no frame: given by coordinates, or as a part of the way to another
+const TURNED = 0, PITCHED = 1, ROLLED = 2, LEVELLED = 3, BENT_DOWN = 4, BENT_TOWARDS = 5, POINTED = 6; // how a frame is made
+// Points that lie in no frame: given by coordinates, as a part of the way to another, on a curve, or as a mean of others.
+const ABSOLUTE = -1, BETWEEN = -2, CURVED = -3, BLENDED = -4;
 const HEAD_AT = 0, LEFT_AT = 3, UP_AT = 6, FRAME_SIZE = 9; // where the vectors of a frame stand, and how many numbers it has
 const NEGLIGIBLE = 1e-12; // smaller sines are taken for 0
 const RENORMALISED_AFTER = 1000; // rotations a frame is made orthonormal again
@@ -17,7 +19,7 @@ const QUARTERS = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
 export function spaceTrail(setting) {
   const frames = { parents: [0], kinds: [TURNED], numbers: [0], values: [0] };
-  const points = { parents: [0], frames: [ABSOLUTE], a: [0], b: [0], c: [0] }, pulls = [];
+  const points = { parents: [0], frames: [ABSOLUTE], a: [0], b: [0], c: [0] }, pulls = [], spans = [];
 
   // A rotation by an amount, by gravitropism of a strength, by a tropism; the meaning of number and value depends on the kind.
   function frame(parent, kind, number, value) {
@@ -46,15 +48,18 @@ export function spaceTrail(setting) {
     local: (orientation, parent, ahead, left, up) => point(parent, orientation, ahead, left, up),
     between: (last, part) => point(points.parents[last], BETWEEN, part, last, 0),
     at: ([x, y, z]) => point(0, ABSOLUTE, x, y, z),
-    packed: () => packedTrail(setting, points, frames, pulls),
+    curved: (before, after, share) => point(0, CURVED, share, spans.push([before, after]) - 1, 0),
+    blended: (numbers, weights) => point(0, BLENDED, 0, spans.push([numbers, weights]) - 1, 0),
+    pointed: (orientation, directions) => frame(orientation, POINTED, pulls.push(directions) - 1, 0),
+    packed: () => packedTrail(setting, points, frames, pulls, spans),
   };
 }
 
-function packedTrail({ side }, points, frames, pulls) {
+function packedTrail({ side }, points, frames, pulls, spans) {
   const n = points.parents.length, m = frames.parents.length, real = (numbers) => new Float64Array(numbers);
   return {
     n, x: real(n), y: real(n), z: real(n), parents: new Int32Array(points.parents), frames: new Int32Array(points.frames),
-    a: real(points.a), b: real(points.b), c: real(points.c),
+    a: real(points.a), b: real(points.b), c: real(points.c), spans,
     rotations: {
       n: m, side, pulls, axes: real(FRAME_SIZE * m), since: new Int32Array(m), parents: new Int32Array(frames.parents),
       kinds: new Uint8Array(frames.kinds), numbers: new Int32Array(frames.numbers), values: real(frames.values),
@@ -82,6 +87,14 @@ function setTropism(turtle, { values }) {
   turtle.tropisms = new Map(turtle.tropisms).set(number, fromCpfg(towards.map((part) => elasticity * part)));
 }
 
+// `@R(x, y, z)`, or with an up `@R(x, y, z, x, y, z)`.
+function setHeading(turtle, { values }) {
+  const [x, y, z, ...up] = [...values, 0, 0, 0];
+  const heading = fromCpfg([x, y, z]);
+  if (Math.hypot(...heading) <= NEGLIGIBLE) return;
+  turtle.orientation = turtle.trail.pointed(turtle.orientation, [heading, values.length > 5 ? fromCpfg(up) : null]);
+}
+
 function setPosition(turtle, { values }) {
   turtle.position = turtle.trail.at(fromCpfg([...values, 0, 0, 0]));
 }
@@ -91,7 +104,7 @@ const fromCpfg = ([x, y, z]) => [x, -z, y];
 
 export function spaceActions() {
   return {
-    ...commonActions(), "turn": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
+    ...commonActions(), ...curveActions(), "set heading": setHeading, "turn": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
     "roll": rotationBy(ROLLED), "level": rollLevel, "gravitropism": bendByGravitropism,
     "set tropism": setTropism, "set position": setPosition, "return to stroke": returnToStroke,
   };
@@ -106,7 +119,7 @@ function cosineAndSine(degrees) {
 
 // Find where the points of a trail lie for an angle; an amount of rotation is a factor of the angle and further degrees.
 export function placeInSpace(trail, amounts, angle, heading) {
-  const { n, x, y, z, parents, frames, a, b, c, rotations } = trail, { axes } = rotations;
+  const { n, x, y, z, parents, frames, a, b, c, spans, rotations } = trail, { axes } = rotations;
   placeFrames(rotations, amounts, angle, heading);
   for (let i = 1; i < n; i++) {
     const from = parents[i], at = FRAME_SIZE * frames[i], ahead = a[i];
@@ -116,10 +129,21 @@ export function placeInSpace(trail, amounts, angle, heading) {
       z[i] = z[from] + ahead * axes[at + 2] + b[i] * axes[at + LEFT_AT + 2] + c[i] * axes[at + UP_AT + 2];
     } else if (frames[i] === ABSOLUTE) {
       [x[i], y[i], z[i]] = [ahead, b[i], c[i]];
-    } else {
+    } else if (frames[i] === BETWEEN) {
       for (const places of [x, y, z]) places[i] = places[from] + ahead * (places[b[i]] - places[from]);
+    } else {
+      [x[i], y[i], z[i]] = frames[i] === CURVED ? placeOnCurve(trail, ahead, spans[b[i]]) : blend(trail, spans[b[i]]);
     }
   }
+}
+
+function placeOnCurve({ x, y, z, rotations: { axes } }, share, ends) {
+  const [first, last] = ends.map(({ position: i }) => [x[i], y[i], z[i]]);
+  return onCurve(share, first, last, ends.map(({ orientation }) => axes.subarray(FRAME_SIZE * orientation, FRAME_SIZE * orientation + 3)));
+}
+
+function blend({ x, y, z }, [numbers, weights]) {
+  return [x, y, z].map((places) => numbers.reduce((sum, number, k) => sum + weights[k] * places[number], 0));
 }
 
 function placeFrames({ n, side, pulls, axes, since, parents, kinds, numbers, values }, amounts, angle, heading) {
@@ -131,8 +155,9 @@ function placeFrames({ n, side, pulls, axes, since, parents, kinds, numbers, val
     const rotated = kind <= ROLLED ? rotateTowards(axes, to, kind, turned[numbers[i]])
       : kind === LEVELLED ? makeLevel(axes, to)
       : kind === BENT_DOWN ? bendDown(axes, to, values[i])
-      : bendTowards(axes, to, pulls[numbers[i]]);
-    since[i] = since[parents[i]] + rotated;
+      : kind === BENT_TOWARDS ? bendTowards(axes, to, pulls[numbers[i]])
+      : pointTowards(axes, to, pulls[numbers[i]]);
+    since[i] = kind === POINTED ? 0 : since[parents[i]] + rotated;
     if (since[i] > RENORMALISED_AFTER) since[i] = renormalise(axes, to);
   }
 }
@@ -185,6 +210,19 @@ function bendTowards(axes, at, [px, py, pz]) {
   return true;
 }
 
+// H takes a direction, and U one that is given, or the one that it has, as far as that lets it.
+function pointTowards(axes, at, [heading, up]) {
+  const length = Math.hypot(...heading), head = heading.map((part) => part / length), before = [...axes.subarray(at, at + FRAME_SIZE)];
+  const own = before.slice(UP_AT), sides = [cross(up ?? own, head), cross(own, head), before.slice(LEFT_AT, UP_AT)];
+  axes.set(head, at + HEAD_AT);
+  axes.set(sides.find((side) => Math.hypot(...side) > NEGLIGIBLE), at + LEFT_AT);
+  scaleToUnit(axes, at + LEFT_AT);
+  setCross(axes, at + UP_AT, at + HEAD_AT, at + LEFT_AT);
+  return false;
+}
+
+const cross = ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+
 function rotateAbout(axes, at, [ax, ay, az], radians) {
   const cos = Math.cos(radians), sin = Math.sin(radians);
   for (let i = at; i < at + FRAME_SIZE; i += 3) {
@@ -209,6 +247,5 @@ function scaleToUnit(axes, at) {
 }
 
 function setCross(axes, to, a, b) {
-  const [ax, ay, az] = axes.subarray(a, a + 3), [bx, by, bz] = axes.subarray(b, b + 3);
-  axes.set([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], to);
+  axes.set(cross(axes.subarray(a, a + 3), axes.subarray(b, b + 3)), to);
 }
