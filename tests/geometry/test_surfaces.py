@@ -66,7 +66,9 @@ def test_a_solid_is_closed_and_its_faces_look_outwards(name):
 def test_the_petals_of_a_flower_are_hollow_towards_its_axis():
     outlines = surfaces()["flower"].outlines
     for left, right in zip(outlines[::2], outlines[1::2], strict=True):
-        midrib, edges = np.array(left[3]), (np.array(left[-4]) + right[3]) / 2
+        midrib = np.array(max(set(left) & set(right), key=np.linalg.norm))
+        edges = np.mean([max(half, key=lambda corner, other=other: min(np.hypot.reduce(np.array(other) - corner, axis=1)))
+                         for half, other in ((left, right), (right, left))], axis=0)
         outward = np.array([0, *midrib[1:]])
         assert edges @ outward / (edges @ midrib) < midrib @ outward / (midrib @ midrib)
 

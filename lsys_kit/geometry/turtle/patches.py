@@ -20,6 +20,8 @@ Corner: TypeAlias = tuple[float, float, float]
 Face: TypeAlias = tuple[Corner, ...]
 DECIMALS = 4
 """So many decimals of a corner are kept: a surface is about 1 long."""
+OUTLINED, STRAIGHT = 12, 0.02
+"""An outline has so many corners along each side of a patch, except where it bends by less than the angle of this sine."""
 INWARDS = 1e-3
 """Where a patch ends in a point, its normal is taken this part of its length further in."""
 
@@ -73,8 +75,7 @@ def patch_facets(control: Floats, along: int, across: int) -> Facets:
     >>> found.normals[0][0]
     (0.0, 0.0, 1.0)
     """
-    points, normals = patch_grid(control, along, across)
-    return _grid_facets(points, normals, _boundary(points))
+    return _grid_facets(*patch_grid(control, along, across), _boundary(patch_grid(control, OUTLINED, OUTLINED)[0]))
 
 
 def patch_grid(control: Floats, along: int, across: int) -> tuple[Floats, Floats]:
@@ -123,10 +124,21 @@ def _corners(grid: Floats) -> list[list[Corner]]:
 
 
 def _boundary(points: Floats) -> list[Corner]:
-    """The outline of a grid of points."""
+    """The outline of a grid of points, without corners at which it goes straight on in the plane."""
     around = np.concatenate([points[:-1, 0], points[-1, :-1], points[:0:-1, -1], points[0, :0:-1]])
     corners = [_rounded(corner) for corner in around.tolist()]
-    return [corner for corner, behind in pairwise((*corners, corners[0])) if corner != behind]
+    corners = [corner for corner, behind in pairwise((*corners, corners[0])) if corner != behind]
+    bent = [corner for before, corner, behind in zip(corners[-1:] + corners, corners, corners[1:] + corners[:1], strict=False)
+            if _bends(before, corner, behind)]
+    return bent if len(bent) > 2 else corners
+
+
+def _bends(before: Corner, corner: Corner, behind: Corner) -> bool:
+    """Whether an outline bends at a corner, as it is seen in the plane."""
+    ahead, left = corner[0] - before[0], corner[1] - before[1]
+    then_ahead, then_left = behind[0] - corner[0], behind[1] - corner[1]
+    area = ahead * then_left - left * then_ahead
+    return abs(area) > STRAIGHT * math.hypot(ahead, left) * math.hypot(then_ahead, then_left)
 
 
 def _rounded(corner: Sequence[float]) -> Corner:
