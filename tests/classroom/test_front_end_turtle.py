@@ -63,7 +63,8 @@ PATCH = "@PS(1)" + "".join(f"[+({20 * row})f&({15 * column})f(2)@PC(1,{row},{col
 
 def test_natural_colours(page):
     trees = ("&F[&F[&(30)F]]F", "F!(4)F!(1)F[+!(0)F]", "!(0)F[+F]", "F[+F;(3)F]", "F[' ~L]' F ' @O(2)", "F ; F ;(30) F",
-             "!(2)@GsF+F!(1)@Gc(3)&F[+F@GsF^F@Ge]^F@Ge", "@R(1,2,0)F@R(0,0,-1,1,0,0)[+F]&F", PATCH)
+             "!(2)@GsF+F!(1)@Gc(3)&F[+F@GsF^F@Ge]^F@Ge", "@R(1,2,0)F@R(0,0,-1,1,0,0)[+F]&F", PATCH,
+             "&" + "~P[f+~L(0.1)]" * 76)
     expect_drawn(page, [[derive(read(f"colours: natural\naxiom: {tree}"), 0)[0]] for tree in trees], [25.0])
 
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from lsys_kit import derive, draw, read
-from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene, no_segments
 from lsys_kit.geometry.smoothing import smoothed
 from lsys_kit.geometry.turtle.patches import revolved_facets
@@ -173,11 +172,11 @@ def test_a_declared_surface_keeps_its_name_whole():
     assert read(str(system)) == system
 
 
-def test_instanced_surfaces_keep_their_normals():
-    bush = derive(read("angle: 30\naxiom: A\nA -> F[&A]/(90)[+A]~L(0.4)"), 7)
-    whole, fast = trace_in_space(bush[-1]).polygons, scene_of(bush).polygons
-    assert fast.points == pytest.approx(whole.points)
-    assert fast.normals == pytest.approx(whole.normals)
+def test_of_many_surfaces_the_outlines_are_drawn():
+    few, many = (in_space("axiom: &(1)" + "[f(9)~L]" * number).polygons for number in (150, 151))
+    assert len(few) == 150 * len(surfaces()["leaf"].faces)
+    assert len(many) == 151 * len(surfaces()["leaf"].outlines)
+    assert not many.smooth.any()
 
 
 def test_a_few_curved_faces_become_finer_and_lie_nearer_to_the_surface():

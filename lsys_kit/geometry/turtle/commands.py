@@ -165,7 +165,7 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("",     "",     "L",   "a leaf",                                               _LEAF),
     Row("",     "",     "F",   "a flower",                                             _FLOWER),
     Row("@Gs",  "",     "",    "a generalised cylinder begins: `F` leaves no stroke",  _plain("begin cylinder")),
-    Row("@Gc",  "",     "",    "the cylinder comes here in a curve, of x parts",       Command("continue cylinder", 0.0, _PARTS)),
+    Row("@Gc",  "",     "",    "the cylinder comes here in a curve of x parts", Command("continue cylinder", 0.0, _PARTS)),
     Row("@Ge",  "",     "",    "the same, and the cylinder ends",                      Command("end cylinder", 0.0, _PARTS)),
     Row("@PS",  "",     "",    "a patch with the number x begins",                     Command("begin patch")),
     Row("@PC",  "",     "",    "here is a control point of patch x, in row y and column z", Command("set control point")),

@@ -25,7 +25,6 @@ from lsys_kit.geometry.turtle.actions import Effect
 from lsys_kit.geometry.turtle.commands import commands_of, initial_step, symbols_with
 from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.shapes import normals_at_corners
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
@@ -48,8 +47,6 @@ class Prototype:
     ----------
     strokes, corners, centres
         Points, a row for each: the starts and ends of strokes in turn, the corners of polygons, the centres of discs.
-    normals
-        The normals at the corners of polygons, none if all are flat.
     of_strokes, of_polygons, of_discs
         Their attributes: order, state, width, colour; number of corners, state, colour; radius, kind, state, colour. A single
         width or colour holds for all.
@@ -60,7 +57,6 @@ class Prototype:
     strokes: Floats
     of_strokes: AttributeColumns
     corners: Floats
-    normals: Floats
     of_polygons: AttributeColumns
     centres: Floats
     of_discs: AttributeColumns
@@ -198,7 +194,7 @@ class Prototypes:
         return Prototype(
             np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
-            self._points(corners), normals_at_corners(turtle.outlines),
+            self._points(corners),
             (np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
              *(np.array([outline[place] for outline in turtle.outlines], np.int32) for place in (1, 2))),
             self._points([found.place for found in turtle.rounds]),
@@ -221,19 +217,11 @@ def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floa
     return Prototype(
         strokes, (_concatenated(raised, np.int16), _concatenated(states, np.int32), _constant_or_all(widths, sizes, np.float64),
                   _constant_or_all(colours, sizes, np.int32)),
-        _transformed([(part, part.prototype.corners) for part in instances], len(end)), _rotated_normals(instances),
+        _transformed([(part, part.prototype.corners) for part in instances], len(end)),
         tuple(_concatenated([part.prototype.of_polygons[place] for part in instances], np.int64) for place in range(3)),
         _transformed([(part, part.prototype.centres) for part in instances], len(end)),
         tuple(_concatenated([part.prototype.of_discs[place] for part in instances], np.float64 if place == 0 else np.int64)
               for place in range(4)), end, rotation, carried)
-
-
-def _rotated_normals(instances: Sequence[Instance]) -> Floats:
-    """The normals at the corners of all polygons, none if all are flat."""
-    if not any(len(part.prototype.normals) for part in instances):
-        return np.empty((0, 3))
-    return np.concatenate([part.prototype.normals @ part.rotation.T if len(part.prototype.normals)
-                           else np.zeros((len(part.prototype.corners), 3)) for part in instances])
 
 
 def _concatenated(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
@@ -265,8 +253,7 @@ def _transformed(parts: Sequence[tuple[Instance, Floats]], size: int) -> Floats:
 
 def _as_scene(prototype: Prototype, unknown: tuple[str, ...]) -> Scene:
     """A prototype as a scene."""
-    polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:],
-                        prototype.normals)
+    polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:])
     radii, kinds, states, colours = prototype.of_discs
     discs = Discs(prototype.centres, radii, kinds, states, colours)
     strokes = Segments(prototype.strokes.reshape(-1, 2 * prototype.strokes.shape[1]), *prototype.of_strokes)

@@ -50,9 +50,11 @@ class Turtle(ABC):
         The state of the module that is being interpreted.
     surfaces
         The surfaces that it can draw, by their symbols.
+    flat
+        Whether it draws surfaces by their outlines alone.
     """
 
-    __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "gravitropism", "initial", "last",
+    __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "flat", "gravitropism", "initial", "last",
                  "length", "mirror", "open_polygons", "orientation", "outlines", "patches", "position", "restored", "rounds",
                  "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
 
@@ -74,6 +76,7 @@ class Turtle(ABC):
         self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
         self.surfaces: Mapping[str, Surface] = {}
+        self.flat = False
 
     def take_look(self, system: LSystem) -> None:
         """Take the colour with which the turtle of a system begins, as the one that can be reset, and its surfaces."""
@@ -102,6 +105,8 @@ class Turtle(ABC):
         return [self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face]
 
 
+MOST_CURVED = 150
+"""Where more surfaces are drawn, each is drawn by its outlines: one sees little of its curvature."""
 LAST_COLOUR = 2 ** 31 - 1
 """The greatest number of a colour."""
 
@@ -263,12 +268,20 @@ def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
     with _without_garbage_collection():
         compiled = compile_word(word, handlers, prepare)
         turtle.unknown = dict.fromkeys(compiled.unknown)
+        turtle.flat = turtle.flat or _surfaces_in(word, compiled) > MOST_CURVED
         for state in counted(word.numbers(), modules_between_checks(compiled.calls.values())):
             turtle.state = state
             for handler, operand in compiled.calls[state]:
                 handler(turtle, operand)
         if turtle.expects_surface:
             turtle.unknown["~"] = None
+
+
+def _surfaces_in(word: Word, compiled: CompiledWord) -> int:
+    """How many surfaces a word draws."""
+    drawing = {state: many for state, calls in compiled.calls.items()
+               if (many := sum(handler in (_expect_surface, _draw_surface) for handler, _ in calls))}
+    return sum(drawing.get(state, 0) for state in word.numbers()) if drawing else 0
 
 
 @contextmanager

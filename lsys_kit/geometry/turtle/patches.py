@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -20,8 +19,8 @@ Corner: TypeAlias = tuple[float, float, float]
 Face: TypeAlias = tuple[Corner, ...]
 DECIMALS = 4
 """So many decimals of a corner are kept: a surface is about 1 long."""
-OUTLINED, STRAIGHT = 12, 0.02
-"""An outline has so many corners along each side of a patch, except where it bends by less than the angle of this sine."""
+OUTLINED, BESIDE = 16, 0.008
+"""An outline has so many corners along each side of a patch, less those that lie no farther beside it than this."""
 INWARDS = 1e-3
 """Where a patch ends in a point, its normal is taken this part of its length further in."""
 
@@ -124,21 +123,24 @@ def _corners(grid: Floats) -> list[list[Corner]]:
 
 
 def _boundary(points: Floats) -> list[Corner]:
-    """The outline of a grid of points, without corners at which it goes straight on in the plane."""
+    """The outline of a grid of points, with no more corners than are seen in the plane."""
     around = np.concatenate([points[:-1, 0], points[-1, :-1], points[:0:-1, -1], points[0, :0:-1]])
     corners = [_rounded(corner) for corner in around.tolist()]
-    corners = [corner for corner, behind in pairwise((*corners, corners[0])) if corner != behind]
-    bent = [corner for before, corner, behind in zip(corners[-1:] + corners, corners, corners[1:] + corners[:1], strict=False)
-            if _bends(before, corner, behind)]
+    farthest = max(range(len(corners)), key=lambda number: math.dist(corners[number][:2], corners[0][:2]))
+    halves = (_simplified(half) for half in (corners[:farthest + 1], [*corners[farthest:], corners[0]]))
+    bent = [corner for half in halves for corner in half[:-1]]
     return bent if len(bent) > 2 else corners
 
 
-def _bends(before: Corner, corner: Corner, behind: Corner) -> bool:
-    """Whether an outline bends at a corner, as it is seen in the plane."""
-    ahead, left = corner[0] - before[0], corner[1] - before[1]
-    then_ahead, then_left = behind[0] - corner[0], behind[1] - corner[1]
-    area = ahead * then_left - left * then_ahead
-    return abs(area) > STRAIGHT * math.hypot(ahead, left) * math.hypot(then_ahead, then_left)
+def _simplified(line: list[Corner]) -> list[Corner]:
+    """A line without the corners that lie hardly beside it (D. Douglas and T. Peucker, 1973)."""
+    (x, y, _), (to_x, to_y, _) = line[0], line[-1]
+    length = math.hypot(to_x - x, to_y - y)
+    aside = [abs((to_x - x) * (left - y) - (to_y - y) * (ahead - x)) for ahead, left, _ in line[1:-1]] if length else []
+    if max(aside, default=0.0) <= BESIDE * length:
+        return [line[0], line[-1]]
+    bend = aside.index(max(aside)) + 1
+    return [*_simplified(line[:bend + 1])[:-1], *_simplified(line[bend:])]
 
 
 def _rounded(corner: Sequence[float]) -> Corner:

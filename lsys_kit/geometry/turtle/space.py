@@ -44,14 +44,14 @@ _STROKE_COLUMNS = 10
 class SpaceTurtle(Turtle):
     """A turtle in space, whose position is a point and whose orientation is a frame.
 
-    Where it stays in the plane of the picture it is `flat`, and draws surfaces by their outlines.
+    Where it is `flat`, because it stays in the plane of the picture or draws many surfaces, it draws them by their outlines.
     """
 
-    __slots__ = ("flat", "start", "strokes")
+    __slots__ = ("start", "strokes")
 
     def __init__(self, frame: TurtleFrame, step: float, first_width: float = WIDTH) -> None:
         super().__init__((0.0, 0.0, 0.0), frame, step, first_width)
-        self.start, self.flat = frame, False
+        self.start = frame
         self.strokes = array("d")
 
     def forward(self, length: float, drawn: bool) -> None:

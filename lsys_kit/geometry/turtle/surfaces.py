@@ -92,13 +92,16 @@ def _facets(table: Mapping[str, Any]) -> Facets:
 def _blade(table: Mapping[str, Any]) -> Facets:
     """A blade: two halves on both sides of its midrib, perhaps with a stalk."""
     control = blade_control(table["midrib"], table["margin"], table["bulge"])
-    halves = [patch_facets(half, *table["faces"]) for half in (control, mirrored_control(control))]
+    parts = [patch_facets(half, *table["faces"]) for half in (control, mirrored_control(control))]
+    outline = parts[0].outlines[0]
     if "stalk" in table:
         length, width = table["stalk"]
         ahead = [length * row / 3 for row in range(ROW)]
-        control = blade_control([(x, 0.0) for x in ahead], [(x, width / 2, 0.0) for x in ahead], 0.0)
-        halves += [patch_facets(half, 1, 1) for half in (control, mirrored_control(control))]
-    return joined_facets(halves)
+        stalk = blade_control([(x, 0.0) for x in ahead], [(x, width / 2, 0.0) for x in ahead], 0.0)
+        parts += [patch_facets(half, 1, 1) for half in (stalk, mirrored_control(stalk))]
+        outline = ((0.0, 0.0, 0.0), *outline[1:], (length, width / 2, 0.0), (0.0, width / 2, 0.0))
+    mirrored = tuple((ahead, 0.0 - left, up) for ahead, left, up in reversed(outline))
+    return joined_facets(parts)._replace(outlines=(outline, mirrored))
 
 
 @lru_cache(maxsize=256)

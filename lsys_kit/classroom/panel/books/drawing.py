@@ -100,10 +100,11 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
             "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row)}
 
 
-def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, Any]:
-    """The faces of a surface in a book, and whether they are those of a curved one, which have no edges."""
-    smooth = mode is DrawingMode.SPACE and bool(surface.normals)
-    return {"smooth": smooth, "faces": [[*map(list, face)] for face in (surface.faces if smooth else surface.outlines)]}
+def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[Any]]:
+    """The faces of a surface in a book, none where it is flat, and its outlines."""
+    curved = mode is DrawingMode.SPACE and bool(surface.normals)
+    return {"faces": [[*map(list, face)] for face in surface.faces if curved],
+            "outlines": [[*map(list, face)] for face in surface.outlines]}
 
 
 def _not_surfaces(system: LSystem) -> Iterable[str]:

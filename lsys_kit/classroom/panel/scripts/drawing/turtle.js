@@ -9,6 +9,8 @@ import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
 const SIGN_COLOUR = "#28A964"; // of what a sign draws
 const MOST_CALLS = 10_000_000;
+const MOST_CURVED = 150; // of more surfaces one sees little of the curvature, and they are drawn by their outlines
+const DRAWS_SURFACE = ["expect surface", "draw surface"];
 const POINTS_KEPT = 300_000; // of the paths of earlier steps, of which two are kept in any case
 const PICTURE_WIDTH = 600, PICTURE_HEIGHT = 400, PICTURE_MARGIN = 12, PICTURE_SCALE = 120;
 const BROADEST_PART = 0.5; // of a picture that the broadest stroke may fill before the drawing is made smaller for it
@@ -39,12 +41,14 @@ function openTurtle({ mode, turtle, states, symbols }) {
     if (!known.has(key)) known.set(key, amounts.push([factor, addend]) - 1);
     return known.get(key);
   };
-  const calls = turtle.calls.map((found) => found.filter(([name]) => Object.hasOwn(actions, name))
+  const compiled = (found) => found.filter(([name]) => Object.hasOwn(actions, name))
     .map(([name, factor, given, values, surface]) => {
       const addend = Number(given);
       return { act: actions[name], factor, addend, values: values || [], surface: surface ? turtle.surfaces[surface] : null,
         amount: amountNumber(factor, addend) };
-    }));
+    });
+  const calls = turtle.calls.map((found) => Object.assign(compiled(found), {
+    surfaces: found.filter(([name]) => DRAWS_SURFACE.includes(name)).length }));
   const ofStates = states.map(([symbol]) => symbols[symbol][2] || SIGN_COLOUR);
   const palette = [...new Set([...ofStates, SIGN_COLOUR, ...turtle.colours])];
   return { inSpace, calls, amounts, palette, paths: new Map(), chosen: turtle.colours.map((name) => palette.indexOf(name)),
@@ -66,9 +70,10 @@ function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofSt
 }
 
 function interpretWord(turtle, word, calls) {
-  let many = 0;
-  for (const state of word) many += calls[state].length;
+  let many = 0, curved = 0;
+  for (const state of word) [many, curved] = [many + calls[state].length, curved + calls[state].surfaces];
   if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${MOST_CALLS.toLocaleString("en")} commands`);
+  turtle.flat = curved > MOST_CURVED;
   for (let place = 0; place < word.length; place++) {
     const state = word[place];
     turtle.place = place;

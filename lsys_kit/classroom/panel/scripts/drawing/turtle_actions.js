@@ -41,7 +41,8 @@ export function newTurtle(trail, { length, width, colour }) {
   const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 };
   return {
     ...initial, initial, trail, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
-    tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, openPolygons: [],
+    tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, flat: false,
+    openPolygons: [],
     strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
     faces: { starts: [0], corners: [], smooth: [], colours: [], positions: [], states: [] },
     rounds: { centres: [], radii: [], kinds: [], colours: [], positions: [], states: [] },
@@ -173,10 +174,11 @@ export function addFace(faces, { corners, colour, place, state }, smooth = false
 function drawSurface(turtle, call) {
   const size = amountOf(call, turtle.length), { colour, place, state } = turtle;
   if (!size || !call.surface) return;
-  for (const face of call.surface.faces) {
+  const curved = !turtle.flat && call.surface.faces.length > 0;
+  for (const face of curved ? call.surface.faces : call.surface.outlines) {
     const corners = face.map(([ahead, left, up]) =>
       turtle.trail.local(turtle.orientation, turtle.position, size * ahead, size * left, size * up));
-    addFace(turtle.faces, { corners, colour, place, state }, call.surface.smooth);
+    addFace(turtle.faces, { corners, colour, place, state }, curved);
   }
 }
 
