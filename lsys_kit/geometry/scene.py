@@ -146,7 +146,10 @@ class Polygons:
     @property
     def smooth(self) -> NDArray[np.bool_]:
         """Shape (n,): whether each is a face of a curved surface."""
-        return self.normals[self.starts[:-1]].any(axis=1) if len(self.normals) else np.zeros(len(self), bool)
+        if not len(self.normals):
+            return np.zeros(len(self), bool)
+        found: NDArray[np.bool_] = np.any(self.normals[self.starts[:-1]], axis=1)
+        return found
 
     def __iter__(self) -> Iterator[Floats]:
         """The corners of each polygon."""

@@ -54,7 +54,8 @@ def _divided(polygons: Polygons, parts: int) -> Polygons:
 def _four_corners(starts: Integers, chosen: Integers) -> Integers:
     """The numbers of the corners of faces, shape (n, 4); of a triangle the last stands twice."""
     first, last = starts[chosen, None], starts[chosen + 1, None] - 1
-    return np.minimum(first + np.arange(_SIDES), last)
+    found: Integers = np.minimum(first + np.arange(_SIDES), last)
+    return found
 
 
 def _grids(corners: Floats, normals: Floats, parts: int) -> Floats:
@@ -70,4 +71,5 @@ def _grids(corners: Floats, normals: Floats, parts: int) -> Floats:
 def _cells(parts: int) -> Integers:
     """The corners of the cells of a grid of points, in order."""
     first = (np.arange(parts)[:, None] * (parts + 1) + np.arange(parts)).ravel()[:, None]
-    return first + np.array([0, parts + 1, parts + 2, 1])
+    found: Integers = first + np.array([0, parts + 1, parts + 2, 1])
+    return found

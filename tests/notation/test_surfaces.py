@@ -172,3 +172,13 @@ def test_what_is_no_name_and_no_text_of_a_surface_is_refused() -> None:
         with_surface(LSystem((), ()), "../leaf.s", FILE)
     with limits(text=9), pytest.raises(ModelLimitError, match="The text has"):
         with_surface(LSystem((), ()), "L", FILE)
+
+
+def test_a_surface_that_a_view_names_is_noted_and_its_file_is_not_opened() -> None:
+    text = "Lsystem: 1\nsurface: l leaf.s 1.5  // a comment\nAxiom: F~l(2)\nendlsystem"
+    system = read(text)
+    assert 'The surface "~l" is in the file "leaf.s", which a model does not open' in " ".join(system.notes)
+    assert [str(module) for module in system.axiom] == ["F", "~", "l(2)"]
+    assert with_surface(system, "l", FILE).surfaces[0].name == "l"
+    with pytest.raises(ModelSyntaxError, match="A surface has a symbol and a file"):
+        read(text.replace("l leaf.s 1.5", "l"))

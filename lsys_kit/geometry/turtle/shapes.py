@@ -29,7 +29,7 @@ class RoundShape(NamedTuple):
     colour: int
 
 
-def normals_at_corners(outlines: Sequence[Outline]) -> Floats:
+def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:
     """The normals at the corners of polygons, as of `Polygons`."""
     if not any(outline.normals for outline in outlines):
         return np.empty((0, 3))
@@ -40,9 +40,9 @@ def collected_shapes(outlines: Sequence[Outline], rounds: Sequence[RoundShape],
                      points: Callable[[list[Any]], Floats]) -> tuple[Polygons, Discs]:
     """The polygons and discs that a turtle has drawn, given a function from positions to coordinates."""
     sizes = [len(outline.corners) for outline in outlines]
+    states, colours = (np.array([outline[field] for outline in outlines], np.int64) for field in (1, 2))
     polygons = Polygons(points([corner for outline in outlines for corner in outline.corners]), np.cumsum([0, *sizes]),
-                        *(np.array([outline[field] for outline in outlines], np.int64) for field in (1, 2)),
-                        normals_at_corners(outlines))
+                        states, colours, _normals_at_corners(outlines))
     discs = Discs(points([found.place for found in rounds]), np.array([found.radius for found in rounds], np.float64),
                   *(np.array([found[field] for found in rounds], np.int64) for field in (2, 3, 4)))
     return polygons, discs

@@ -59,7 +59,8 @@ def _point(point: Pattern) -> SurfacePoint:
         for name in sorted(names_in(coordinate)):
             raise problem("name in surface", coordinate.at, name=name)
         check_expression(coordinate, ())
-    ahead, left, up = (*map(value_of, point.arguments), 0)[:3]
-    if not all(abs(coordinate) <= LARGEST for coordinate in (ahead, left, up)):
+    values = [value_of(coordinate) for coordinate in point.arguments]
+    if not all(-LARGEST <= value <= LARGEST for value in values):
         raise problem("point too far", point.at)
+    ahead, left, up = (*values, 0)[:3]
     return ahead, left, up

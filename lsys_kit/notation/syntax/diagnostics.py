@@ -36,7 +36,6 @@ from lsys_kit.notation.syntax.failure import (
     unclosed_bracket,
 )
 from lsys_kit.notation.syntax.predecessor_diagnostics import diagnose_predecessor
-from lsys_kit.notation.syntax.surface_diagnostics import surface_declaration
 from lsys_kit.notation.syntax.text.statements import ARROW
 
 KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "depth", "alphabet", "ignore", "consider",
@@ -183,7 +182,7 @@ def _anything_else(failure: ParseFailure) -> ModelSyntaxError:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment, surface_declaration, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows,
+    foreign_comment, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows,
     misspelling,
     unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals,
     value_in_parentheses, _constant_declaration)

@@ -19,6 +19,7 @@ from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
 from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_system, segment_with_notes
+from lsys_kit.notation.syntax.surface_diagnostics import surface_declaration
 from lsys_kit.notation.syntax.text.printed import IN_A_SET, printed_statements
 from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.text.transcription import likely, transcribe
@@ -84,5 +85,6 @@ def _lacking(system: LSystem) -> str | None:
 
 
 ABOP = Dialect(
-    name="abop", statements=printed_statements, transformer=_transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=str,
+    name="abop", statements=printed_statements, transformer=_transformer, finish=_finish,
+    diagnostics=(surface_declaration, *DIAGNOSTICS), module=str,
     joined=joined, write=_write, missing_feature=_lacking, likely=likely, transcribe=transcribe)

@@ -115,6 +115,14 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def count(self, keyword: Token, value: Expression) -> tuple[str, Any]:
         return "deferred", ("count", (" ".join(keyword.rstrip(": \t").lower().split()), as_number(value)))
 
+    def view_surface(self, token: Token) -> tuple[str, Any]:
+        """A line of a view file: a symbol, a file, and how large it is."""
+        words = token.split(":", 1)[1].split()
+        if len(words) < 2:
+            raise ActionError(ModelSyntaxError, "A surface has a symbol and a file", place_of(token),
+                              'It reads "surface: l leaf.s 1.5".')
+        return "deferred", ("view surface", (words[0], words[1]))
+
     def mark(self, *_: Token) -> tuple[str, Any]:
         return "deferred", ("mark", None)
 

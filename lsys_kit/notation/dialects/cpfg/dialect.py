@@ -153,6 +153,10 @@ def _notes(draft: Draft) -> Iterator[str]:
         value = _DEFINED.sub("", text[start:end]).strip()
         if constant.at and _infix(constant.value) and not _enclosed(value):
             yield f'The macro "{constant.name}" is a number here; cpfg puts its text in place: write "({value})".'
+    for kind, record, _ in draft.deferred:
+        if kind == "view surface":
+            yield (f'The surface "~{record[0]}" is in the file "{record[1]}", which a model does not open: '
+                   f'with_surface(system, "{record[0]}", text) takes it out of its text.')
     yield from _split_symbols(draft)
     productions = [production for rules in draft.sections.values() for production in rules]
     rewritten = {module.symbol for production in productions for module in production.predecessors}

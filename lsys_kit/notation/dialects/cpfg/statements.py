@@ -16,8 +16,9 @@ KEPT = re.compile(
 _RANGED = re.compile(r"[ \t]*/\*[ \t]*-?[\d./]+[ \t]+\.\.[ \t]+-?[\d./]+([ \t]+by[ \t]+[\d./]+)?[ \t]*\*/")
 """A comment after a constant that gives the range of its slider."""
 _KEYWORD = re.compile(
-    r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider"
-    r"|angle|heading|length)[ \t]*:|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
+    r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b"
+    r"|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider|angle|heading|length|surface)[ \t]*:"
+    r"|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
     re.IGNORECASE)
 _PHASE = re.compile(r"(start|end)[ \t]*+(each)?[ \t]*+:", re.IGNORECASE)
 _AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
