@@ -129,7 +129,7 @@ def test_a_branch_brings_the_turtle_back(found, angle, data):
     branch = [("[",), *data.draw(branched(STROKES[tradition] | WIDTHS[tradition] | TURNS[tradition])), ("]",)]
     at = data.draw(st.integers(0, len(plain)))
     words = [word_of(word, tradition, angle=angle) for word in (plain, [*plain[:at], *branch, *plain[at:]])]
-    assume(len({initial_colour(word.states.system) for word in words}) == 1)  # one that steps through colours begins another way
+    assume(len({initial_colour(word.states.system) for word in words}) == 1)  # steps need another start
     start, without, whole = map(trace_in_space, (word_of(plain[:at], tradition, angle=angle), *words))
     before, added = len(start.segments), len(whole.segments) - len(without.segments)
     for part in ("ends", "widths", "colours", "orders"):
