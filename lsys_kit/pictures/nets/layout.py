@@ -118,6 +118,14 @@ def crossings(layout: Layout) -> int:
     return sum(_crossings(a, b) for a, b in combinations(layout.arcs.values(), 2))
 
 
+def crossed_notes(layout: Layout, widths: Mapping[int, float]) -> int:
+    """The number of notes on arcs, of given widths, that another arc runs through."""
+    return sum(any(p[0] == q[0] and abs(p[0] - layout.notes[arc][0]) < widths[arc] / 2
+                   and min(p[1], q[1]) - 7 < layout.notes[arc][1] < max(p[1], q[1]) + 7
+                   for other, line in layout.arcs.items() if other != arc for p, q in pairwise(line))
+               for arc in layout.notes)
+
+
 def _crossings(first: Sequence[Point], second: Sequence[Point]) -> int:
     """The number of points in which two lines cross, each a sequence of vertices."""
     return sum(_turn(p, q, r) * _turn(p, q, s) < 0 and _turn(r, s, p) * _turn(r, s, q) < 0

@@ -15,7 +15,7 @@ from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import captions_of, notes_of, readable, terms_of, width_of
 from lsys_kit.pictures.nets.layered_layout import layered_layout
-from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, crossings, layout_of
+from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, crossed_notes, crossings, layout_of
 from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
 from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
 from lsys_kit.pictures.style.palette import LABELLED, PALEST, QUIET, colours
@@ -188,12 +188,15 @@ def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts, 
 
 
 def _in_shorter_rows(net: Stages, in_rows: Layout, places: Sequence[int], texts: Texts, widest: float) -> Layout:
-    """Of the layouts in rows that are no wider than allowed the one with the fewest crossings; else the narrowest."""
+    """Of the layouts in rows that are no wider than allowed the one with the fewest notes that lines run through, and then the
+    fewest crossings; else the narrowest."""
     wrapped = [in_rows, *(layout_of(net, planned(net, rows_of(net, places, longest)), texts) for longest in SHORTER_ROWS)]
     fitting = [layout for layout in wrapped if layout.width <= widest]
     if not fitting:
         return min(wrapped, key=lambda layout: layout.width)
-    return min(fitting, key=crossings) if len(in_rows.arcs) <= MOST_LAYERED else fitting[0]
+    if len(in_rows.arcs) > MOST_LAYERED:
+        return fitting[0]
+    return min(fitting, key=lambda layout: (crossed_notes(layout, texts.notes), crossings(layout)))
 
 
 def _description(names: Sequence[str], besides: Sequence[str]) -> str:
