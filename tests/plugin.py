@@ -38,6 +38,8 @@ def pytest_configure(config: pytest.Config) -> None:
     settings.register_profile("quick", settings.get_profile("kit"), max_examples=FEW_EXAMPLES)
     settings.load_profile("quick" if "not slow" in config.option.markexpr else "kit")
     config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
+    if config.option.benchmark_only:
+        config.option.dist = "no"  # several processes would measure each other
 
 
 @pytest.hookimpl(tryfirst=True)
