@@ -102,9 +102,28 @@ def test_sliders_of_both_sides_are_chosen_at_once():
     assert [*both.left.settings] == [*both.right.settings] == ["dt"]
 
 
-@pytest.mark.parametrize("sliders", ["lifetimeA", ["lifeTimeA", "dt"], [3]])
+@pytest.mark.parametrize("side", [{"step": 3}, {"sliders": "dt"}, {"what": "J5"}])
+def test_what_both_sides_share_is_no_setting_of_one(side):
+    with pytest.raises(ModelValueError, match=r"is no setting of one side. It stands beside the two"):
+        compare("J4", side, {})
+
+
+def test_a_link_may_hold_a_constant_that_is_called_like_a_choice():
+    panel = explore("sliders = 3 in 1 .. 5\nwhat = 2 in 1 .. 3\nfield = 1 in 0 .. 2\naxiom: F(sliders)F(what)F(field)", 0)
+    panel.settings = {"sliders": 4}
+    assert explore(panel.link).settings == {"sliders": "4", "what": "2", "field": "1"}
+
+
+@pytest.mark.parametrize("sliders", ["lifetimeA", ["lifeTimeA", "dt"]])
 def test_there_are_no_other_sliders(sliders):
     with pytest.raises(ModelNameError, match="There is no slider"):
+        explore("J4", 3, sliders=sliders)
+
+
+@pytest.mark.parametrize(("sliders", "said"), [
+    (3, "A name or a list of names of sliders is needed, not int"), ([3], "The name of a slider is needed, not int")])
+def test_names_of_sliders_are_texts(sliders, said):
+    with pytest.raises(ModelValueError, match=said):
         explore("J4", 3, sliders=sliders)
 
 

@@ -17,6 +17,9 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
+_COMMON = {"what": "The system", "step": "The step", "sliders": "The choice of sliders"}
+"""What a side cannot have of its own, though `explore` takes it."""
+
 
 def compare(what: LSystem | MapSystem | CellworkSystem | str,
             *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
@@ -78,6 +81,9 @@ def _named(settings: Mapping[str, object]) -> dict[str, Any]:
     for name in settings:
         if not isinstance(name, str):
             raise ModelValueError(f"Constants have names, not {name!r}", hint='A setting is for example {"lifeTimeA": 2}.')
+        if name in _COMMON:
+            raise ModelValueError(f"{_COMMON[name]} is no setting of one side",
+                                  hint='It stands beside the two, as in compare("J4", {}, {"lifeTimeA": 2}, step=9).')
     return dict(settings)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
-from lsys_kit.classroom.link import linked, settings_given
+from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import read_any
@@ -72,8 +72,8 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
             else catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
-        given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
-        return explore(there.system, sliders=sliders, **given)
+        what, constants = there.system, {**there.settings, **settings_given(step, angle, seed), **constants}
+        step, angle, seed = (constants.pop(name, usual) for name, usual in ((STEP, None), (ANGLE, None), (SEED, 0)))
     system = read_any(what) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
@@ -85,9 +85,10 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
 def _without(sliders: str | Collection[str], offered: Collection[str]) -> frozenset[str]:
     """What has no slider, if some have."""
     asked = (sliders,) if isinstance(sliders, str) else sliders
-    require(asked, Collection, "Names of sliders")
+    require(asked, Collection, "A name or a list of names of sliders")
     for name in asked:
-        if not isinstance(name, str) or name not in offered:
-            raise ModelNameError(f"There is no slider {shown(name)}", hint=suggestion(str(name), offered)
+        require(name, str, "The name of a slider")
+        if name not in offered:
+            raise ModelNameError(f"There is no slider {shown(name)}", hint=suggestion(name, offered)
                                  or f"The sliders are: {', '.join(offered)}.")
     return frozenset(offered) - frozenset(asked)
