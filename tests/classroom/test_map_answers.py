@@ -64,6 +64,17 @@ def test_a_reply_names_the_cell_that_should_not_be_there():
     assert "C" not in reply.message.split("clockwise")[1].split("Follow")[0]
 
 
+@pytest.mark.parametrize("answer", ["a -> a[-c][+c]a", "A> -> A>[-C][+C]A>", "C -> C", "map: ABAB"])
+def test_rules_for_other_walls_are_told_from_rules_whose_markers_do_not_match(answer):
+    assert "None of your rules is for a wall of the first cell, A B A B." in check("16.5", answer).message
+    assert "None of your rules" not in check("16.5", "A -> ABA").message
+
+
+def test_two_pairs_of_markers_are_not_taken_for_one_that_is_parted():
+    assert "a wall lies between the two markers" in check("16.5", "A -> A[-C]A[+C]A").message
+    assert "a wall lies between the two markers" not in check("16.5", "A -> A[-C][+C]A[-C][+C]A").message
+
+
 def test_a_rule_that_cannot_be_read_is_answered_in_the_words_of_maps():
     assert "Walls are never erased" in check("16.5", "A -> [-C][+C]").message
     assert exercise_of("16.5").solution not in check("16.5", "A -> A[-C]A").message

@@ -115,9 +115,9 @@ def _same(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> bool:
 
 
 def _alike(exercise: Exercise, mine: MapAnswer, other: MapAnswer) -> bool:
-    """Whether an answer is a wrong one that is understood: rules without markers are none with markers that never match."""
-    marked, others = (any(each.markers for each in answer.own) for answer in (mine, other))
-    return marked == others and _same(exercise, mine, other)
+    """Whether an answer is a wrong one that is understood: it has as many markers, and not others that never match."""
+    markers, others = (sum(len(each.markers) for each in answer.own) for answer in (mine, other))
+    return markers == others and _same(exercise, mine, other)
 
 
 def _first_step_apart(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> int | None:
@@ -135,7 +135,16 @@ def _difference(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Diffe
     own, other = develop(mine.system, step)[step], develop(wanted.system, step)[step]
     mine_cells, wanted_cells = cells_of(own), cells_of(other)
     likeness = (mine_cells & wanted_cells).total() / max(mine_cells.total(), wanted_cells.total())
-    return Difference(_in_words(step, own, other), likeness)
+    said = _in_words(step, own, other) if _has_rule(mine.system) else gettext(
+        "None of your rules is for a wall of the first cell, {walls}. Letters must be the same, with an arrow or without.",
+        walls=" ".join(map(str, mine.system.axiom)))
+    return Difference(said, likeness)
+
+
+def _has_rule(system: MapSystem) -> bool:
+    """Whether any wall of the first cell is replaced."""
+    replaced = {(rule.predecessor.label, bool(rule.predecessor.arrow)) for rule in system.productions}
+    return any((edge.label, bool(edge.arrow)) in replaced for edge in system.axiom)
 
 
 def _in_words(step: int, own: Map, other: Map) -> str:
