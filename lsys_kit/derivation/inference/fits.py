@@ -46,12 +46,13 @@ class Wider:
     def __str__(self) -> str:
         count = "many systems fit" if self.systems is None else "one system fits" if self.systems == 1 \
             else f"{self.systems:,} systems fit"
-        erasing = ", erasing=True" if self.conditions.erasing else ""
-        said = f"With context={self.conditions.context}{erasing} {count}"
+        contexts = self.conditions.context != (0, 0)
+        choices = [f"context={self.conditions.context}"] * contexts + ["erasing=True"] * self.conditions.erasing
+        said = f"With {', '.join(choices)} {count}"
         if not self.left_open:
             return f"{said}."
-        return (f"{said}: of {self.letters} letters, told apart by their neighbours, {self.left_open} can become different "
-                "words.")
+        apart = ", told apart by their neighbours," if contexts else ""
+        return f"{said}: of {self.letters} letters{apart} {self.left_open} can become different words."
 
 
 @dataclass(frozen=True)
@@ -80,7 +81,7 @@ class Refusal:
         found = [str(self.contradiction)] if self.contradiction else []
         if slips:
             more = len(self.slips) - len(slips)
-            slips += [f"one of {more} other places were changed"] if more else []
+            slips += [f"one of {more} other changes were made" if more > 1 else "one other change were made"] if more else []
             found.append(f"A system without contexts would fit if {', or if '.join(slips)}.")
         if self.doubtful:
             steps = " or ".join(map(str, self.doubtful))

@@ -113,8 +113,10 @@ def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
 
 def _wider(rows: tuple[Row, ...], conditions: Conditions, trials: int) -> Iterator[Wider]:
     """Wider conditions under which systems fit, counted with so many trials."""
+    nested = all(map(well_nested, rows))
     for erasing in dict.fromkeys((conditions.erasing, True)):
-        for context in CONTEXTS if all(map(well_nested, rows)) else ():
+        alone = ((0, 0),) * (erasing is not conditions.erasing)
+        for context in (*alone, *CONTEXTS * nested):
             if context[0] >= conditions.context[0] and context[1] >= conditions.context[1]:
                 wider = replace(conditions, erasing=erasing, context=context)
                 problem = problem_of(rows, wider)
