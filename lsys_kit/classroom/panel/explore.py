@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from typing import Any
 
 from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
