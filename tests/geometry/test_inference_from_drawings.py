@@ -185,6 +185,8 @@ def test_a_refusal_says_why(pictures: Sequence[Any], why: str) -> None:
     ([ONE, [(0, 0, 1)]], {}, "The drawing of step 1 must be a picture in the plane"),
     ([ONE, "F+F"], {}, "The drawing of step 1 must be a picture in the plane"),
     ([ONE, [(0, 0, 0, float("nan"))]], {}, "The drawing of step 1 must be a picture in the plane"),
+    ([ONE, TWO], {"context": (1, 0)}, "Erasing and contexts are for words, and these are pictures"),
+    ([ONE, TWO], {"erasing": True}, "Erasing and contexts are for words, and these are pictures"),
     ([ONE, TWO], {"angle": 0}, "The angle is from 1 to 180 degrees, not 0"),
     ([ONE, TWO], {"angle": "1/0"}, '"1/0" has no value'), (["a", "ab"], {"angle": 90}, "An angle is for pictures, and these "
                                                                                        "are words"),

@@ -47,9 +47,9 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
     constants
         The symbols that stay as they are; contexts pass over them. The brackets [ and ] always do.
     erasing
-        Whether a letter may become nothing.
+        Whether a letter may become nothing; of words only.
     context
-        How many neighbours to the left and to the right a production may look at.
+        How many neighbours to the left and to the right a production may look at; of words only.
     angle
         The turning angle of the pictures in degrees; by default that of which all angles between strokes are multiples.
 
@@ -109,6 +109,8 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
     """
     given = [*counted(words, 1)] if isinstance(words, list | tuple) else words
     if isinstance(given, list) and any(map(is_drawing, given)):
+        if erasing or context != (0, 0):
+            raise ModelValueError("Erasing and contexts are for words, and these are pictures", hint="Leave them out.")
         with Task("The search for systems was not finished"):
             return _of_drawings(read_drawings(given), angle)
     if angle is not None:
