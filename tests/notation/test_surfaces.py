@@ -103,6 +103,11 @@ def test_what_is_wrong_with_a_surface_is_said(line: str, message: str, quoted: s
     assert found.hint or "true or false" in message
 
 
+def test_brackets_that_match_are_not_said_to_be_open() -> None:
+    with pytest.raises(ModelSyntaxError, match="A number is typed with a point"):
+        read("axiom: A\nsurfaces leaf: (0,0) (1,0) (1,1)")
+
+
 def test_a_production_for_a_symbol_called_surface_is_no_surface() -> None:
     assert len(read("axiom: surface A\nsurface A -> B").productions) == 1
     with pytest.raises(ModelSyntaxError, match="no condition before the arrow"):
@@ -157,14 +162,24 @@ def test_a_surface_file_of_cpfg_is_taken_into_the_frame_of_the_turtle() -> None:
     ("CONTACT POINT  X: 1", "CONTACT POINT  X:", 'There is no line "CONTACT POINT"', None),
     ("SIZE: 2.0", "SIZE: -1", 'There is no line "SIZE:" with a positive number', 7),
     ("SIZE: 2.0", "", 'There is no line "SIZE:" with a positive number', None),
-    ("X: 0 Y: 0.5 Z: 1", "X: 0 Y: 0.5 Z: 0", "This direction leads nowhere", 6),
-    ("X: 0.00 Y: 2", "X: 0.00 Y: 0", "This direction leads nowhere", 5),
+    ("X: 0 Y: 0.5 Z: 1", "X: 0 Y: 0.5 Z: 0", "This direction cannot be used", 6),
+    ("X: 0.00 Y: 2", "X: 0.00 Y: 0", "This direction cannot be used", 5),
     ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3", "A patch has four lines of four points, and here are 3", None),
 ])
 def test_what_is_wrong_with_a_surface_file_is_said(old: str, new: str, message: str, line: int | None) -> None:
     with pytest.raises(ModelSyntaxError, match=re.escape(message)) as caught:
         with_surface(LSystem((), ()), "L", FILE.replace(old, new))
     assert caught.value.line == line
+
+
+def test_a_surface_file_may_have_the_line_ends_of_windows() -> None:
+    found, wanted = (with_surface(read("axiom: F ~L"), "L", text) for text in (FILE.replace("\n", "\r\n"), FILE))
+    assert found == wanted
+
+
+def test_a_surface_is_not_so_large_that_it_cannot_be_written() -> None:
+    with pytest.raises(ModelValueError, match="A control point is too far away"):
+        with_surface(LSystem((), ()), "L", FILE.replace("SIZE: 2.0", "SIZE: 1e-12"))
 
 
 def test_what_is_no_name_and_no_text_of_a_surface_is_refused() -> None:

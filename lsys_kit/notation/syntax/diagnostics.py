@@ -182,8 +182,7 @@ def _anything_else(failure: ParseFailure) -> ModelSyntaxError:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows,
-    misspelling,
-    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals,
-    value_in_parentheses, _constant_declaration)
+    foreign_comment, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows, misspelling,
+    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals, value_in_parentheses,
+    _constant_declaration)
 """The diagnostics of the kit's own notation and of plant strings, the most specific first."""

@@ -14,12 +14,13 @@ from typing import TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError, require
+from lsys_kit.notation.analysis.surface_checks import LARGEST
 from lsys_kit.notation.model.surfaces import ROW, SurfacePoint, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
 _Vector: TypeAlias = tuple[float, float, float]
 _NUMBER = r"-?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,2})?"
-_ROW = re.compile(rf"^[ \t]*{_NUMBER}(?:[ \t]+{_NUMBER}){{11}}[ \t]*$", re.MULTILINE)
+_ROW = re.compile(rf"^[ \t]*{_NUMBER}(?:[ \t]+{_NUMBER}){{11}}[ \t\r]*$", re.MULTILINE)
 """Four control points, each with its coordinates."""
 DECIMALS = 5
 """So many decimals of a coordinate are kept."""
@@ -43,7 +44,7 @@ def with_surface(system: LSystem, name: str, text: str) -> LSystem:
     ModelSyntaxError
         The text is no such file; the error gives the place.
     ModelValueError
-        The name cannot be the name of a surface.
+        The name cannot be the name of a surface, or a control point is too far away.
 
     Examples
     --------
@@ -111,8 +112,8 @@ def _unit(vector: _Vector, text: str, keyword: str) -> _Vector:
     length = math.hypot(*vector)
     if not length:
         start = text.index(f"{keyword} ")
-        raise ModelSyntaxError("This direction leads nowhere", text, start, start + len(keyword),
-                               "The heading and the up of a surface are at an angle.")
+        raise ModelSyntaxError("This direction cannot be used", text, start, start + len(keyword),
+                               "HEADING and UP are not zero, and not parallel.")
     x, y, z = vector
     return x / length, y / length, z / length
 
@@ -129,5 +130,8 @@ def _placed(line: str, contact: _Vector, axes: Sequence[_Vector], size: float) -
     for first in range(0, len(numbers), 3):
         x, y, z = (number - origin for number, origin in zip(numbers[first:first + 3], contact, strict=True))
         ahead, left, up = (round((x * u + y * v + z * w) / size, DECIMALS) + 0.0 for u, v, w in axes)
+        if not all(abs(coordinate) <= LARGEST for coordinate in (ahead, left, up)):
+            raise ModelValueError("A control point is too far away",
+                                  hint="Divided by the size that the file names, coordinates are about 1.")
         found.append((ahead, left, up))
     return found
