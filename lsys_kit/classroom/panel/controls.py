@@ -16,6 +16,7 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, function_of
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.translation import gettext
 
 
 @dataclass(frozen=True)
@@ -83,13 +84,14 @@ def _operates_on(name: str, expression: Expression) -> bool:
     return (direct and not tells_apart) or any(_operates_on(name, operand) for operand in expression.operands)
 
 
-def slider(name: str, values: Sequence[Value], first: Value, what: str = "the constant") -> dict[str, Any]:
-    """A slider as the browser needs it: the texts of its values, and the place of the first one.
+def slider(name: str, values: Sequence[Value], first: Value, what: str = "") -> dict[str, Any]:
+    """A slider as the browser needs it: the texts of its values, and the place of the first one; `what` it is, if no constant.
 
     >>> slider("c", (1, 2, 3), 2)
     {'name': 'c', 'texts': ['1', '2', '3'], 'hint': 'the constant c', 'index': 1}
     """
-    return {"name": name, "texts": [*map(number_text, values)], "hint": f"{what} {name}", "index": values.index(first)}
+    hint = f"{what} {name}" if what else gettext("the constant {name}", name=name)
+    return {"name": name, "texts": [*map(number_text, values)], "hint": hint, "index": values.index(first)}
 
 
 MOST_VALUES = 2_000

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
+from typing import Any
 
 from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
@@ -71,8 +72,9 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
             else catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
-        what, constants = there.system, {**there.settings, **settings_given(step, angle, seed), **constants}
-        step, angle, seed = (constants.pop(name, usual) for name, usual in ((STEP, None), (ANGLE, None), (SEED, 0)))
+        given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
+        what, step, angle, seed = there.system, given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0)
+        constants = given
     system = read_any(what) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")

@@ -59,7 +59,7 @@ class Opened(Protocol):
     fixed
         The values of those constants or forces that could have a slider, and have none.
     hint
-        What the sliders are, for a tip: "the constant".
+        What the sliders are, for a tip; empty for constants.
     kind
         What its page is called, if it is not in the catalogue.
     """

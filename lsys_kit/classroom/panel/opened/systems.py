@@ -36,7 +36,7 @@ class OpenedSystem:
         A constant is unknown, or its value lies outside of its slider's range.
     """
 
-    hint, kind = "the constant", "L-system"
+    hint, kind = "", "L-system"
 
     def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None,
                  without: Collection[str] = ()) -> None:
