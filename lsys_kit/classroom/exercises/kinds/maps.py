@@ -6,6 +6,7 @@ them, clockwise, and which walls and vertices lie next to which. So the order of
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,6 +26,8 @@ from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
 from lsys_kit.notation.read import is_map
 from lsys_kit.translation import gettext, ngettext
 
+_AXIOM = re.compile(r"\s*(axiom|\\?omega|ω)\s*[:=]", re.IGNORECASE)
+"""How L-systems begin, and maps too, if somebody likes."""
 MOST_WALLS_LAID = 200
 """Larger maps are compared by their cells and walls alone."""
 
@@ -58,7 +61,7 @@ def _read(exercise: Exercise, answer: object) -> MapAnswer:
 
 
 def _read_text(exercise: Exercise, text: str) -> MapAnswer:
-    if is_map(text) or not exercise.given:
+    if is_map(text) or _AXIOM.match(text) or not exercise.given:
         whole = read_map(text)
         return MapAnswer(whole, whole.productions)
     given = read_map(exercise.given).productions
