@@ -165,6 +165,8 @@ def test_a_surface_file_of_cpfg_is_taken_into_the_frame_of_the_turtle() -> None:
     ("X: 0 Y: 0.5 Z: 1", "X: 0 Y: 0.5 Z: 0", "This direction cannot be used", 6),
     ("X: 0.00 Y: 2", "X: 0.00 Y: 0", "This direction cannot be used", 5),
     ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3", "A patch has four lines of four points, and here are 3", None),
+    ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3  1 4 3  1 4 3  1 4 1e12", "A point of this surface is too far away", None),
+    ("CONTACT POINT  X: 1", f"CONTACT POINT  X: {'9' * 400}", "A point of this surface is too far away", None),
 ])
 def test_what_is_wrong_with_a_surface_file_is_said(old: str, new: str, message: str, line: int | None) -> None:
     with pytest.raises(ModelSyntaxError, match=re.escape(message)) as caught:
