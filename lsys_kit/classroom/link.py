@@ -18,7 +18,7 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
-from lsys_kit.pictures.tissues.maps import RANGES
+from lsys_kit.pictures.tissues.forces import RANGES
 
 STEP, ANGLE, SEED = "step", "angle", "seed"
 """The settings that are no constants."""

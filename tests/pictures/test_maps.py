@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 
+import numpy as np
 import pytest
 
 from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, derive, draw, limits
@@ -123,6 +124,7 @@ def test_the_cells_of_a_step_come_to_rest_from_picture_to_picture() -> None:
     assert str(picture) == "step 2 after 0, 20, 100 iterations; 9 vertices, 12 walls, 4 cells"
     assert [scene.width for scene in picture.scenes] == sorted(scene.width for scene in picture.scenes)
     assert [found.text for found in parsed(picture).findall(f"{SVG}text")] == ["0", "20", "100"]
+    assert str(draw(K28, 2, iterations=[np.int64(20)])) == str(draw(K28, 2, iterations=[20]))
     at_rest = draw(K28, 2, iterations=[90_000])
     assert at_rest.scenes[0].box == draw(K28, 2).scenes[-1].box
     assert draw(derive(K28, 0), iterations=[0]).maps[0].counts == (4, 4, 1)

@@ -25,7 +25,7 @@ from lsys_kit.pictures.rendering.view import View, project, view_from
 from lsys_kit.pictures.style.palette import SERIES, tinted
 from lsys_kit.pictures.style.themes import theme
 from lsys_kit.pictures.svg import FilamentRow, described
-from lsys_kit.pictures.tissues.maps import forces_of
+from lsys_kit.pictures.tissues.forces import forces_of
 
 STEPS = 3
 """The default number of steps."""

@@ -9,18 +9,16 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
-from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.derivation.maps.map import Map
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.geometry.tissues.map_layout import equilibria, relaxation_steps, scenes
-from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, Forces
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
@@ -30,6 +28,7 @@ from lsys_kit.pictures.style.labels import letter_svg
 from lsys_kit.pictures.style.palette import PALEST, SERIES, STRONGEST, tinted
 from lsys_kit.pictures.style.themes import drawn_on, theme
 from lsys_kit.pictures.svg import background, described, document, resized
+from lsys_kit.pictures.tissues.forces import forces_of
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -48,8 +47,6 @@ FILLS = tuple((colour, strength) for strength in (PALEST, STRONGEST) for colour 
 """The colours of the first kinds of cells, and how strong they are."""
 REST = 0.13
 """How strong the grey of all further kinds of cells is."""
-RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "damping": (0.1, 10)}
-"""The least and the greatest value of each force."""
 ROUNDING = 1e-6
 """Rounding errors up to this, in pixels, do not enlarge a picture."""
 
@@ -147,9 +144,8 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
     elif n is not None:
         raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
     require(iterations, Sequence, "A list of iterations")
-    require(labels, bool, 'True or False for "labels"')
     if iterations:
-        _check_iterations(iterations)
+        iterations = _checked_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)
         _check_walls(shown)
         places = [*relaxation_steps(what, iterations, forces_of(forces))]
@@ -163,14 +159,17 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
                       labels)
 
 
-def _check_iterations(iterations: Sequence[int]) -> None:
+def _checked_iterations(given: Sequence[int]) -> list[int]:
     """Iterations are counted from 0, and grow."""
-    counted = all(isinstance(one, int) and not isinstance(one, bool) for one in iterations)
-    if not counted or [*iterations] != sorted({*iterations}) or iterations[0] < 0:
-        raise ModelValueError("Iterations are whole numbers from 0 on, each greater than the one before, "
-                              f"not {shown(iterations)}")
-    if len(iterations) > MOST_MAPS:
-        raise ModelValueError(f"A picture shows {MOST_MAPS} iterations at most, not {len(iterations)}")
+    if len(given) > MOST_MAPS:
+        raise ModelValueError(f"A picture shows {MOST_MAPS} iterations at most, not {len(given)}")
+    try:
+        iterations = [whole_number(each, "An iteration") for each in given]
+    except ModelValueError:
+        iterations = []
+    if not iterations or iterations != sorted({*iterations}):
+        raise ModelValueError(f"Iterations are whole numbers from 0 on, each greater than the one before, not {shown(given)}")
+    return iterations
 
 
 def _check_walls(maps: Sequence[Map]) -> None:
@@ -178,23 +177,6 @@ def _check_walls(maps: Sequence[Map]) -> None:
     if walls > current().segments:
         raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
                               limit=current().segments, needed=walls, hint="Take fewer steps, or set limits(segments=...).")
-
-
-def forces_of(choices: dict[str, object], usual: Forces = DEFAULT_FORCES, what: str = "map") -> Forces:
-    """The chosen forces; the others as usual.
-
-    >>> forces_of({"pressure": "1/5"})
-    Forces(stiffness=1.0, rest=0.1, pressure=0.2, damping=1.0)
-    """
-    values: dict[str, float] = {}
-    for name, choice in choices.items():
-        if name not in RANGES:
-            raise ModelNameError(f'A {what} has no "{name}"', hint=f"Its forces are {', '.join(RANGES)}.")
-        values[name] = real_from(choice, name)
-        least, most = RANGES[name]
-        if not least <= values[name] <= most:
-            raise ModelValueError(f'"{name}" must lie between {least} and {most}, not be {values[name]:g}')
-    return replace(usual, **values)
 
 
 class Panel(NamedTuple):

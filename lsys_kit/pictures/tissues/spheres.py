@@ -26,7 +26,8 @@ from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.rendering.view import View, axes, view_from
 from lsys_kit.pictures.style.themes import drawn_on, theme
 from lsys_kit.pictures.svg import background, described, document, resized
-from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, STEPS, WIDTH, MapPicture, cell_colour, forces_of
+from lsys_kit.pictures.tissues.forces import forces_of
+from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, STEPS, WIDTH, MapPicture, cell_colour
 
 if TYPE_CHECKING:
     from PIL.Image import Image

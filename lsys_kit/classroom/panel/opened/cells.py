@@ -17,7 +17,7 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.tissues.maps import forces_of
+from lsys_kit.pictures.tissues.forces import forces_of
 
 SERIES = tuple(map(Fraction, ("1", "1.2", "1.5", "2", "2.5", "3", "4", "5", "6", "8")))
 """Of each power of ten a slider offers these multiples, each about a quarter more than the one before."""
