@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from lsys_kit.errors import ModelFileError, quotable
+from lsys_kit.errors import ModelFileError, ModelValueError, quotable
 
 KIT_MARK = b"lsys-kit"
 """What shows that a file was made by the kit; it is near the beginning or the end of each."""
@@ -62,6 +62,23 @@ def create_file(path: Path, content: bytes) -> None:
             os.rename(draft, path)
         else:
             draft.unlink()
+
+
+def path_from(given: object) -> Path:
+    """The path of a file from what a person gives.
+
+    >>> path_from("plant.png").suffix
+    '.png'
+
+    Raises
+    ------
+    ModelValueError
+        It is neither a text nor a path.
+    """
+    try:
+        return Path(given)  # type: ignore[arg-type]
+    except TypeError:
+        raise ModelValueError(f"The name of a file is needed, not {type(given).__name__}") from None
 
 
 def save_file(path: Path, content: bytes) -> None:

@@ -13,7 +13,7 @@ from lsys_kit.budget import Task, current
 from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.files import marked_xml, save_file
+from lsys_kit.files import marked_xml, path_from, save_file
 from lsys_kit.geometry.meshes.mesh import Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
@@ -204,7 +204,7 @@ class Picture(SVGPicture):
         ModelValueError
             The dots are no number from 24 to 2400, or the file is no .png file.
         """
-        path = Path(path)
+        path = path_from(path)
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
         flat = self._encoders(path, dpi)
         if path.suffix.lower() == ".obj":
@@ -263,7 +263,8 @@ class NetPicture(SVGPicture):
             The dots are no number from 24 to 2400, or the file is no .png file.
         """
         net = {".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))}
-        save_as(Path(path), self._encoders(Path(path), dpi) | net)
+        path = path_from(path)
+        save_as(path, self._encoders(path, dpi) | net)
 
     def __repr__(self) -> str:
         return unescape(self.svg.split('aria-label="')[1].split('"')[0])

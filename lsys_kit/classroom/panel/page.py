@@ -18,7 +18,7 @@ from lsys_kit.classroom.panel.held import SEED, Held, constant_choice, fewest, h
 from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.derivation.core.rules import number_from, real_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
-from lsys_kit.files import save_file
+from lsys_kit.files import path_from, save_file
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import write
@@ -147,9 +147,10 @@ def save_page(path: str | Path, text: str) -> None:
     ModelFileError
         The name ends in something else, a file that the kit did not make is there already, or the file cannot be written.
     """
-    if Path(path).suffix.lower() != ".html":
-        raise ModelFileError(f'A page cannot be written to "{quotable(Path(path).name)}"', hint="Let the name end in .html.")
-    save_file(Path(path), text.encode())
+    path = path_from(path)
+    if path.suffix.lower() != ".html":
+        raise ModelFileError(f'A page cannot be written to "{quotable(path.name)}"', hint="Let the name end in .html.")
+    save_file(path, text.encode())
 
 
 def _held(shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.errors import LSystemError
-from lsys_kit.files import marked_gif, marked_mp4, marked_png
+from lsys_kit.files import marked_gif, marked_mp4, marked_png, path_from
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.notebook import film_bundle
 
@@ -83,8 +83,8 @@ class Film:
         LSystemError
             For .mp4 there is no ffmpeg, or it failed.
         """
-        save_as(Path(path), {".gif": lambda: marked_gif(self.gif), ".apng": lambda: marked_png(self.apng),
-                             ".png": lambda: marked_png(self.apng), ".mp4": lambda: marked_mp4(self.mp4)})
+        save_as(path_from(path), {".gif": lambda: marked_gif(self.gif), ".apng": lambda: marked_png(self.apng),
+                                  ".png": lambda: marked_png(self.apng), ".mp4": lambda: marked_mp4(self.mp4)})
 
     def _film(self, form: str) -> bytes:
         buffer, step = io.BytesIO(), round(1000 * self.seconds)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError
-from lsys_kit.files import marked_png, marked_xml
+from lsys_kit.files import marked_png, marked_xml, path_from
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.pdf.page import pdf
@@ -108,7 +108,8 @@ class SVGPicture(ABC):
         ModelValueError
             The dots are no number from 24 to 2400, or the file is no .png file.
         """
-        save_as(Path(path), self._encoders(Path(path), dpi))
+        path = path_from(path)
+        save_as(path, self._encoders(path, dpi))
 
     def _encoders(self, path: Path, dpi: object = None) -> dict[str, Callable[[], bytes]]:
         """For each extension what encodes the picture."""
