@@ -28,7 +28,7 @@ from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_fro
 from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.kinds import coloured_symbols, kind_of
+from lsys_kit.pictures.kinds import check_drawable, coloured_symbols, kind_of
 from lsys_kit.pictures.legends import legend_of, letters_of
 from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
@@ -137,6 +137,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
 def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
     """The picture in the size and with the looks that were chosen."""
+    check_drawable(what, n)
     given, choices = split_options(choices)
     pixels, options = size_from(size), options_from(given, kind_of(what, choices), coloured_symbols(what))
     with drawn_on(options.theme):
@@ -146,7 +147,7 @@ def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> Any
 
 def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -> AnyPicture:
     if isinstance(what, Stages):
-        _check_choices(choices, ("tokens", "positions"), STAGES)
+        check_choices(choices, ("tokens", "positions"), STAGES)
         return _net_picture(what, options.labels is not False, **choices)
     if isinstance(what, MapSystem | Development):
         draws = sphere_picture if kind_of(what, choices) == SPHERE else partial(map_picture, labels=options.labels is not False)
@@ -154,15 +155,15 @@ def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -
     if isinstance(what, CellworkSystem | CellworkDevelopment):
         return cellwork_picture(what, n, legend=bool(options.legend), **choices)
     if isinstance(what, Lineage):
-        _check_choices(choices, ("intervals",), LINEAGE)
+        check_choices(choices, ("intervals",), LINEAGE)
         return lineage_picture(what, labels=options.labels is not False, legend=options.legend is not False, **choices)
     if isinstance(what, LSystem):
         names = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
-        _check_choices(choices, names, kind_of(what, choices), [each.name for each in what.constants])
+        check_choices(choices, names, kind_of(what, choices), [each.name for each in what.constants])
     return _drawing(what, n, options, **choices)
 
 
-def _check_choices(given: Iterable[str], options: Sequence[str], kind: str, constants: Sequence[str] = ()) -> None:
+def check_choices(given: Iterable[str], options: Sequence[str], kind: str, constants: Sequence[str] = ()) -> None:
     """Every choice is one of the picture, or a constant of the system."""
     options = [*options, "size", *KINDS[kind]]
     for name in given:
@@ -180,9 +181,6 @@ def _net_picture(net: Stages, labels: bool, tokens: Word | None = None, position
 def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options, *, angle: object = None,
              marked: Collection[int] = (), cells: str | None = None, view: object = None, steps: object = (),
              seeds: object = (), **choices: Any) -> AnyPicture:
-    if not isinstance(what, LSystem | Derivation | Word):
-        raise ModelValueError("Only systems, derivations, words, stage diagrams and lineages can be drawn, "
-                              f"not {type(what).__name__}")
     require(marked, Collection, "A collection of states")
     states, side = frozenset(whole_number(each, "A state") for each in marked), None if view is None else view_from(view)
     drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
@@ -281,6 +279,9 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
             raise ModelNameError(f'There is no option "{next(iter(choices))}" here',
                                  hint="What a plot shows is chosen when it is made.")
         return painted(what, new_axes() if ax is None else ax)
+    if isinstance(what, SVGPicture) and choices:
+        raise ModelValueError("What a picture shows is chosen when it is drawn",
+                              hint=f"Give {next(iter(choices))}= to draw(...).")
     picture = what if isinstance(what, SVGPicture) else draw(what, **choices)
     axes = new_axes(picture.theme.ground) if ax is None else ax
     with Task("The figure was not drawn"), drawn_on(picture.theme):

@@ -7,6 +7,7 @@ appears, and of a lineage one step after another.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, check_bytes, counted
@@ -23,13 +24,13 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import derivation_of
-from lsys_kit.pictures.draw import draw, state_colours
+from lsys_kit.pictures.draw import check_choices, draw, state_colours
 from lsys_kit.pictures.formats.film import SECONDS, Film
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.raster import centred, turtle_image
 from lsys_kit.pictures.kinds import coloured_symbols, kind_of
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
-from lsys_kit.pictures.options import Options, options_from, seen_as, split_options
+from lsys_kit.pictures.options import STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import frame_around
 from lsys_kit.pictures.rendering.line_widths import in_units
@@ -89,6 +90,8 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
     side, (given, choices) = None if view is None else view_from(view), split_options(choices)
+    if isinstance(what, SVGPicture | list | tuple):
+        _check_drawn(n, None if turntable else side, given | choices)
     options = _options(what, given)
     with Task("The film was not finished"), drawn_on(options.theme):
         if turntable:
@@ -99,18 +102,28 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
 
 def _options(what: Any, given: Mapping[str, Any]) -> Options:
     """How the pictures of a film look."""
-    if given and isinstance(what, SVGPicture | list | tuple):
-        raise ModelValueError("How a picture looks is chosen when it is drawn", hint=f"Give {next(iter(given))}= to draw(...).")
+    last = what[-1] if isinstance(what, list | tuple) and what else what
+    if isinstance(last, SVGPicture):
+        return Options(theme=replace(last.theme, ground=last.theme.paper))
     options = options_from(given, kind_of(what, {}), coloured_symbols(what))
     if options.theme.transparent:
         raise ModelValueError("A film has a background", hint='Give background="light", "dark" or a colour.')
     return options
 
 
+def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -> None:
+    """Nothing is chosen for pictures that was chosen when they were drawn."""
+    chosen = [*["n"] * (n is not None), *["view"] * (side is not None), *choices]
+    if chosen:
+        raise ModelValueError("What a picture shows is chosen when it is drawn", hint=f"Give {chosen[0]}= to draw(...).")
+
+
 def _shown(what: Any, n: int | None, side: View | None, size: object, choices: Mapping[str, Any], given: Mapping[str, Any],
            options: Options) -> tuple[str, Sequence[Image]]:
     """What a film shows, in words, and its pictures."""
     if isinstance(what, LSystem | Derivation):
+        if isinstance(what, LSystem):
+            _check_choices(choices, ("angle", "view"), kind_of(what, {}), what)
         derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
             return _filmed(draw(derivation, size=size, **given))
@@ -127,6 +140,12 @@ def _shown(what: Any, n: int | None, side: View | None, size: object, choices: M
     if isinstance(what, Stages):
         return _net_film(what, n, size, choices, given)
     return _pictures_film(what, size)
+
+
+def _check_choices(choices: Mapping[str, Any], own: tuple[str, ...], kind: str, system: LSystem) -> None:
+    """Every choice is one of the film, or a constant of the system."""
+    options = *own, "seed", "arithmetic", "field", "seconds", "turntable"
+    check_choices(choices, options, kind, [each.name for each in system.constants])
 
 
 def _derived(what: LSystem | Derivation, n: int | None, choices: Mapping[str, Any]) -> Derivation:
@@ -150,6 +169,7 @@ def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
 def _net_film(net: Stages, n: int | None, size: object, choices: Mapping[str, Any],
               given: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
     """A stage diagram with the tokens of each step."""
+    _check_choices(choices, ("positions",), STAGES, net.system)
     own = {name: value for name, value in choices.items() if name != "positions"}
     derivation = _derived(net.system, n, own)
     told = {"positions": choices["positions"]} if "positions" in choices else {}

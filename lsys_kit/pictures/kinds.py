@@ -11,6 +11,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
@@ -18,6 +19,20 @@ from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.options import CELLWORK, DRAWING, FILAMENT, LINEAGE, MAP, SPHERE, STAGES, STEPS, Symbols
 from lsys_kit.pictures.style.labels import polar_symbols
 from lsys_kit.pictures.tissues.cellworks import labels_of_walls
+
+DRAWABLE = (LSystem, Derivation, Word, MapSystem, Development, CellworkSystem, CellworkDevelopment, Stages, Lineage)
+"""What can be drawn."""
+
+
+def check_drawable(what: object, n: int | None = None) -> None:
+    """It can be drawn, and its number of steps can be chosen if one is."""
+    if not isinstance(what, DRAWABLE):
+        hint = f"For example draw(system({shown(what)})), or draw(read(text))." if isinstance(what, str) else ""
+        raise ModelValueError("Only systems, derivations, words, developments, stage diagrams and lineages can be drawn, "
+                              f"not {type(what).__name__}", hint=hint)
+    if n is not None and isinstance(what, Stages | Lineage):
+        hint = "Give the word of a step as tokens=..., or animate(...)." if isinstance(what, Stages) else ""
+        raise ModelValueError(f"The steps of {kind_of(what, {})} are chosen when it is made, not when it is drawn", hint=hint)
 
 
 def kind_of(what: object, choices: Mapping[str, Any]) -> str:

@@ -117,9 +117,10 @@ def _with_colours(found: Options, value: object, kind: str, symbols: Symbols) ->
 def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
     """The symbols that a name stands for."""
     if not isinstance(symbol, str) or symbol not in symbols:
-        name = quotable(symbol) if isinstance(symbol, str) else type(symbol).__name__
-        hint = suggestion(name, symbols) or f"Symbols are: {', '.join(sorted(symbols))}."
-        raise ModelNameError(f'There is no symbol "{name}" here that could have a colour', hint=hint)
+        text = quotable(symbol) if isinstance(symbol, str) else ""
+        name = f'"{text}"' if isinstance(symbol, str) else shown(symbol)
+        hint = suggestion(text, symbols) or f"Symbols are: {', '.join(sorted(symbols))}."
+        raise ModelNameError(f"There is no symbol {name} here that could have a colour", hint=hint)
     return symbols[symbol]
 
 

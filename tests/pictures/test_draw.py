@@ -127,9 +127,22 @@ def test_a_drawing_goes_into_a_teachers_own_figure():
 
 
 @pytest.mark.parametrize("what", ["J1", None, 3])
-def test_only_systems_derivations_and_words_are_drawn(what):
+@pytest.mark.parametrize("choices", [{}, {"colours": {"F": "red"}}, {"labels": 3}], ids=str)
+def test_only_systems_derivations_and_words_are_drawn(what, choices):
     with pytest.raises(ModelValueError, match="can be drawn"):
-        draw(what)
+        draw(what, **choices)
+
+
+def test_the_name_of_a_system_is_no_system_and_its_system_is_offered():
+    with pytest.raises(ModelValueError, match=r"draw\(system\('J1'\)\)"):
+        draw("J1")
+
+
+@pytest.mark.parametrize("made", [stages, lineage])
+def test_the_steps_of_what_is_made_already_are_not_chosen(made):
+    what = made(system("J1"))
+    with pytest.raises(ModelValueError, match="are chosen when it is made"):
+        draw(what, 3)
 
 
 def test_steps_belong_to_a_system():

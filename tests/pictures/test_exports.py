@@ -354,6 +354,11 @@ def test_a_drawing_needs_axes_in_the_plane():
         figure(draw(BUSH, 2), Figure().add_subplot(projection="3d"))
 
 
+def test_what_a_picture_shows_is_not_chosen_for_its_figure():
+    with pytest.raises(ModelValueError, match="is chosen when it is drawn"):
+        figure(draw(BUSH, 1), n=2)
+
+
 @pytest.mark.slow
 def test_no_window_and_no_pyplot_is_opened_by_an_export(tmp_path):
     code = ("import sys; from lsys_kit import *; p = draw(system('K14'), 2)\n"

@@ -23,6 +23,7 @@ from PIL import Image, ImageSequence
 from lsys_kit import (
     LSystemError,
     ModelFileError,
+    ModelNameError,
     ModelValueError,
     animate,
     cellwork_system,
@@ -283,6 +284,32 @@ def test_what_lies_in_the_plane_is_not_turned(what: Any) -> None:
 def test_what_is_no_picture_makes_no_film(what: object) -> None:
     with pytest.raises(ModelValueError, match="can be animated"):
         animate(what)
+
+
+@pytest.mark.parametrize("choices", [{"n": 3}, {"view": (90, 0)}, {"angle": 20}, {"background": "dark"}], ids=str)
+def test_what_a_picture_shows_is_not_chosen_for_its_film(choices: dict[str, Any]) -> None:
+    with pytest.raises(ModelValueError, match="is chosen when it is drawn"):
+        animate(draw(system("K5"), 1), **choices)
+
+
+@pytest.mark.parametrize(("what", "choices", "said"), [
+    (system("K5"), {"steps": [1, 2]}, "no option \"steps\""), (system("K5"), {"colour": "red"}, "Did you mean \"colours\""),
+    (stages(system("J4")), {"angle": 20}, "no option \"angle\"")], ids=str)
+def test_what_is_no_choice_of_a_film_is_said(what: Any, choices: dict[str, Any], said: str) -> None:
+    with pytest.raises(ModelNameError, match=said):
+        animate(what, 1, **choices)
+
+
+def test_a_picture_keeps_its_paper_on_a_turntable() -> None:
+    film = animate(draw(system("K19"), 1, background="dark"), turntable=True, size=20)
+    assert film.images[0].getpixel((0, 0)) == (0x16, 0x1B, 0x20)
+
+
+@pytest.mark.parametrize("path", [None, 3, b"x.png"])
+def test_a_name_of_a_file_is_a_text_or_a_path(path: Any) -> None:
+    for shown in (draw(system("K5"), 1), draw(stages(system("J4"))), animate(system("K5"), 1)):
+        with pytest.raises(ModelValueError, match="The name of a file is needed"):
+            shown.save(path)
 
 
 # --- the shell --------------------------------------------------------------------------------------------------------

@@ -101,6 +101,8 @@ def test_widths_are_a_kind_or_a_factor(widths):
 def test_a_symbol_that_there_is_not_is_named():
     with pytest.raises(ModelNameError, match=r'There is no symbol "Z".*Symbols are: A, '):
         draw(system("J4"), 2, colours={"Z": "red"})
+    with pytest.raises(ModelNameError, match=r"There is no symbol \(1, 2\) here"):
+        draw(system("J4"), 2, colours={(1, 2): "red"})
 
 
 # --- colours ------------------------------------------------------------------------------------------------------------------
