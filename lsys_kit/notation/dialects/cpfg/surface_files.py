@@ -125,10 +125,10 @@ def _cross(a: _Vector, b: _Vector) -> _Vector:
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
 
 
-def _placed(line: str, contact: _Vector, axes: Sequence[_Vector], size: float) -> list[SurfacePoint]:
+def _placed(line: str, contact: _Vector, axes: Sequence[_Vector], size: float) -> list[_Vector]:
     """The points of a line, in the frame of the turtle."""
     numbers = [*map(float, line.split())]
-    found: list[SurfacePoint] = []
+    found: list[_Vector] = []
     for first in range(0, len(numbers), 3):
         x, y, z = (number - origin for number, origin in zip(numbers[first:first + 3], contact, strict=True))
         ahead, left, up = (round((x * u + y * v + z * w) / size, DECIMALS) + 0.0 for u, v, w in axes)
