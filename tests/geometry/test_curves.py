@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from lsys_kit import derive, draw, read
+from lsys_kit import ModelLimitError, derive, draw, limits, read
 from lsys_kit.geometry.meshes.mesh import mesh_of
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.geometry.turtle.mode import in_plane
@@ -155,6 +155,12 @@ def test_a_patch_without_all_its_control_points_is_named():
     scene = drawn_text("@PS(1)F@PC(1,0,0)@PD(1)@PC(2,0,0)@PD")
     assert len(scene.polygons) == 0
     assert repr(draw(read("axiom: @PS(1)F@PD(1)"), 0)).endswith("@PD draws a patch whose sixteen control points are set by @PC")
+
+
+def test_patches_of_many_faces_keep_to_the_limit_of_memory():
+    points = "".join(f"@PC(1,{row},{column})f" for row in range(4) for column in range(4))
+    with limits(bytes=10**6), pytest.raises(ModelLimitError, match="The patches were not drawn"):
+        drawn_text(f"@PS(1){points}" + "@PD(1,30,30)" * 2)
 
 
 def test_a_heading_is_given_as_cpfg_counts_directions():

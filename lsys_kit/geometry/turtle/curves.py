@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.geometry.scene import OWN, Floats
 from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import Handler
@@ -26,6 +27,8 @@ TANGENT = 1.2
 """The lengths of tangents, where their points are 1 apart."""
 MOST_PARTS = 100
 """A curve has so many parts at most, and a patch so many rows and columns of faces."""
+FACE_BYTES = 1_400
+"""About what a face of a patch takes in memory."""
 _ROWS = 4
 
 
@@ -82,7 +85,7 @@ def _bounded_number(value: float) -> int:
 
 
 def _begin_patch(turtle: Any, instruction: Instruction) -> None:
-    turtle.patches = {**turtle.patches, _number_of(instruction): {}}
+    turtle.patches[_number_of(instruction)] = {}
 
 
 def _set_control_point(turtle: Any, instruction: Instruction) -> None:
@@ -99,6 +102,8 @@ def _draw_patch(turtle: Any, instruction: Instruction) -> None:
     if len(points) != _ROWS**2 or len(rows) != _ROWS or len(columns) != _ROWS:
         turtle.unknown[instruction.symbol] = None
         return
+    check_bytes(FACE_BYTES * len(turtle.outlines), lambda: "The patches were not drawn")
+    check_budget()
     control = np.array([[points[row, column] for column in columns] for row in rows])
     along, across = (_bounded_number(value) for value in (*instruction.values[1:3], *[PATCH_FACES] * 2)[:2])
     grids = [grid.tolist() for grid in patch_grid(control, along, across)]
