@@ -255,7 +255,7 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
     Raises
     ------
     ModelValueError
-        The axes are in space.
+        The axes are in space, or something is chosen for a picture that is drawn already.
 
     Examples
     --------

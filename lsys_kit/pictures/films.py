@@ -72,7 +72,10 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
     Raises
     ------
     ModelValueError
-        It does not develop, or a choice is out of range; or it lies in the plane, and cannot be turned.
+        It does not develop, or a choice is out of range; or it lies in the plane, and cannot be turned. Or it is a picture, for
+        which something is chosen besides `seconds`, `size`, and on a turntable `view`.
+    ModelNameError
+        There is no such choice.
     ModelLimitError
         There are too many steps.
 
