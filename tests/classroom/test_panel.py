@@ -188,6 +188,18 @@ def test_what_was_clicked_stays_lit_wherever_the_mouse_is(explored):
     expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", "2")
 
 
+def test_long_numbers_of_a_word_are_shown_shorter_and_told_whole(explored):
+    panel = explored(read("axiom: A(2/3) B(0.00012345678) C(117.61973158964844) D(0.25)"), 0)
+    assert word_in(panel) == "A(2/3)B(0.0001235)C(117.6197)D(0.25)"
+    told = [each.get_attribute("title") for each in panel.at("[data-position]").all()]
+    assert told == [None, "B(0.00012345678)", "C(117.61973158964844)", None]
+
+
+def test_a_small_stage_diagram_leaves_its_room_to_the_drawing(explored):
+    wide = {view: explored("K5").at(f'[data-view="{view}"]').bounding_box()["width"] for view in ("stages", "drawing")}
+    assert wide["stages"] <= 246 and wide["drawing"] > 600
+
+
 def test_the_word_of_an_empty_drawing_says_so(explored):
     panel = explored(read("axiom: A\nA -> A A"), 2)
     expect(panel.at("canvas")).to_have_attribute("aria-label", re.compile("Drawing of step 2: 4 modules"))

@@ -19,7 +19,9 @@ export function netView(parent, chosen, pointed) {
       viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group",
       style: `min-width:${needed};min-height:${Math.round(least * net.height)}px`, "aria-label": net.description,
     });
-    parent.closest(".lsys-view").style.setProperty("--lsys-needed", needed);
+    const view = parent.closest(".lsys-view").style;
+    view.setProperty("--lsys-needed", needed);
+    view.setProperty("--lsys-widest", `${net.width}px`);
     for (const place of net.places) sheet.append(stage(place, theme));
     for (const arc of net.arcs) sheet.append(
       drawn("path", { class: "lsys-band", d: arc.band }), drawn("path", { class: "lsys-arc", d: arc.path }), drawn("path", { d: arc.head, class: "lsys-head" }));
