@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Container
 from functools import partial
+from html import escape, unescape
 from pathlib import PurePosixPath
 from posixpath import normpath
 from typing import Any
@@ -38,10 +39,15 @@ def markdown_html(text: str, links: Links) -> str:
     '<h2 id="An-alga">An <em>alga</em></h2>\\n<p><code>a -&gt; ab</code></p>\\n'
     >>> markdown_html("<b>no</b> [markup](x.html) [gone](y.html)", {"x.html": "X.html"}.get)
     '<p>&lt;b&gt;no&lt;/b&gt; <a href="X.html">markup</a> gone</p>\\n'
+    >>> markdown_html("2&nbsp;cm &lt; `&lt;`", lambda address: address)
+    '<p>2\\xa0cm &lt; <code>&amp;lt;</code></p>\\n'
     """
     mistune = _mistune()
 
     class Renderer(mistune.HTMLRenderer):  # type: ignore[misc, name-defined]
+        def text(self, text: str) -> str:
+            return escape(unescape(text))
+
         def heading(self, text: str, level: int, **_: Any) -> str:
             return f'<h{level} id="{heading_id(text)}">{text}</h{level}>\n'
 
