@@ -29,7 +29,7 @@ return given.map(({ book, sides }) => sides.map(([around, above]) => {
   const { order, widths, x, y } = seenIn(frame, shapes), { strokes, palette } = shapes;
   const pointsOf = (numbers) => Array.from(numbers, (number) => [x[number], y[number]]);
   return { scale: frame.scale, order: Array.from(order), from: pointsOf(strokes.from), to: pointsOf(strokes.to),
-    looks: Array.from(widths, (width, i) => [palette[strokes.colours[i]], width]) };
+    looks: Array.from(widths, (width, i) => [lineColour(palette[strokes.colours[i]], { ink: "#22303c", paper: "#ffffff" }), width]) };
 }));
 """
 PAINTED = """

@@ -3,7 +3,7 @@
 // `traced` interprets a word once and records a path that depends neither on the angle nor on the heading; `placed` then finds
 // where its points lie, as often as the angle changes.
 
-import { OWN_LOOK, colourNaturally, newTurtle, stretchRamp } from "./turtle_actions.js";
+import { OWN_LOOK, RAMP_START, colourNaturally, newTurtle, stretchRamp } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
 import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
@@ -59,7 +59,7 @@ function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofSt
   const setting = book.data.turtle, trail = inSpace ? spaceTrail(setting) : planeTrail(setting);
   const turtle = newTurtle(trail, setting);
   interpretWord(turtle, book.word(step), calls);
-  if (setting.colour !== OWN_LOOK) stretchRamp(turtle.strokes, turtle.faces, turtle.rounds);
+  if (setting.colour === RAMP_START) stretchRamp(turtle.strokes, turtle.faces, turtle.rounds);
   else if (setting.natural) colourNaturally(turtle.strokes);
   const colourOf = (state, colour) => (colour === OWN_LOOK ? ofStates[state] : chosen[colour % chosen.length]);
   return {

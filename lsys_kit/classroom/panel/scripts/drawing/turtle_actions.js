@@ -9,7 +9,8 @@ export const HOLLOW = 0; // the kind of a circle; discs are 1
 export const BALL = 2; // the kind of a sphere
 const LARGEST_VALUE = 1e50;
 const LAST_COLOUR = 2 ** 31 - 1;
-const RAMP_START = 16, RAMP_END = 23; // the colours from bark to leaves
+export const RAMP_START = 16;
+const RAMP_END = 23; // the colours from bark to leaves
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
 const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
