@@ -13,6 +13,7 @@ from typing import Any
 
 import traitlets
 
+from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
 from lsys_kit.classroom.lessons.declared import lesson
 from lsys_kit.classroom.lessons.lesson import Vote
@@ -31,6 +32,8 @@ LETTERS = "ABCD"
 """The names of the options."""
 NONE = -1
 """No option has been chosen."""
+MOST_SHAPES = 6_000
+"""A vote shows its picture twice: one of more shapes is one of pixels, so that pages stay small."""
 
 
 def vote(number: str, again: bool = False) -> VoteBox:
@@ -137,7 +140,8 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
         return {}
     drawn = draw(_pictured(choices), choices.get("step"),
                  **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")})
-    return svg_bundle(drawn.svg, repr(drawn))
+    with limits(segments=min(MOST_SHAPES, current().segments)):
+        return svg_bundle(drawn.svg, repr(drawn))
 
 
 def _pictured(choices: Mapping[str, Any]) -> LSystem | MapSystem | CellworkSystem:
