@@ -24,12 +24,13 @@ DARK = {"ink": "#e8edf2", "paper": "#161b20", "markEdge": "#e5b84a", "lit": "#ff
 SIZE = 400
 
 ORDERS = """
+const light = { ink: "#22303c", paper: "#ffffff" };
 return given.map(({ book, sides }) => sides.map(([around, above]) => {
   const shapes = placed(traced(bookOf(book), 0), book.turtle.angle), frame = frameOf(shapes, 600, 400, { around, above });
   const { order, widths, x, y } = seenIn(frame, shapes), { strokes, palette } = shapes;
   const pointsOf = (numbers) => Array.from(numbers, (number) => [x[number], y[number]]);
   return { scale: frame.scale, order: Array.from(order), from: pointsOf(strokes.from), to: pointsOf(strokes.to),
-    looks: Array.from(widths, (width, i) => [lineColour(palette[strokes.colours[i]], { ink: "#22303c", paper: "#ffffff" }), width]) };
+    looks: Array.from(widths, (width, i) => [lineColour(palette[strokes.colours[i]], light), width]) };
 }));
 """
 PAINTED = """
