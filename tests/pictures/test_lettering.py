@@ -11,7 +11,7 @@ import pytest
 from PIL import Image, ImageDraw, ImageFont
 
 from lsys_kit.pictures.formats.sheet import Sheet, label_width
-from lsys_kit.pictures.formats.vector.lettering import advance, glyph
+from lsys_kit.pictures.formats.vector.lettering import PLAIN, advance, glyph, opened_font
 from lsys_kit.pictures.style.palette import INK
 
 SIZE = 400
@@ -62,3 +62,12 @@ def test_a_part_of_a_sheet_has_its_own_unit() -> None:
     other.box(40, 40, 10, 12, INK)
     other.text(22, 70, "ab", 14)
     assert one.png == other.png != Sheet(100, 100).png
+
+
+def test_a_font_that_was_read_in_part_is_opened_anew() -> None:
+    with opened_font(PLAIN) as broken:
+        pass
+    with pytest.raises(KeyboardInterrupt), opened_font(PLAIN):
+        raise KeyboardInterrupt
+    with opened_font(PLAIN) as font:
+        assert font is not broken

@@ -6,6 +6,8 @@ the font in its own whole units, and a point of the grid is inside where a ray t
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -48,14 +50,22 @@ def advance(text: str, size: float, face: Font = PLAIN) -> float:
     True
     """
     units = sum(_width(letter, face) for letter in text)
-    return units * size / int(font_of(face)["head"].unitsPerEm)
+    return units * size / _units(face)
 
 
 @cache
 def _width(letter: str, face: Font) -> int:
     """How far the next letter stands, in units of the font."""
-    units: int = font_of(face)["hmtx"][glyph_name(letter, face)][0]
-    return units
+    name = glyph_name(letter, face)
+    with opened_font(face) as font:
+        return int(font["hmtx"][name][0])
+
+
+@cache
+def _units(face: Font) -> int:
+    """How many units of the font are its size."""
+    with opened_font(face) as font:
+        return int(font["head"].unitsPerEm)
 
 
 @lru_cache(maxsize=2_048)
@@ -76,7 +86,7 @@ def glyph(letter: str, size: float, italic: bool = False, face: Font = PLAIN) ->
 
 def outlines(letter: str, size: float, italic: bool = False, face: Font = PLAIN) -> list[NDArray[Any]]:
     """The outlines of a letter as closed lines of corners, from the beginning of its baseline."""
-    scale = size / font_of(face)["head"].unitsPerEm
+    scale = size / _units(face)
     contours = [np.array(contour) * (scale, -scale) for contour in _contours(glyph_name(letter, face), face)]
     return [points - [[SLANT * y, 0] for y in points[:, 1]] for points in contours] if italic else contours
 
@@ -99,18 +109,28 @@ def font_path(face: Font) -> Path:
 
 
 @cache
-def font_of(face: Font) -> TTFont:
-    """A font, to be read only."""
+def _font_of(face: Font) -> TTFont:
     from fontTools.ttLib import TTFont
 
     return TTFont(font_path(face), lazy=True)
 
 
+@contextmanager
+def opened_font(face: Font) -> Iterator[TTFont]:
+    """A font, to be read only. Its tables are read when they are first needed; where that is broken off, it is opened anew."""
+    try:
+        yield _font_of(face)
+    except BaseException:
+        _font_of.cache_clear()
+        raise
+
+
 @cache
 def glyph_name(letter: str, face: Font) -> str:
     """The name of a letter's glyph; that of an empty box where the font has none, of a "?" for what cannot be seen."""
-    found: str = font_of(face).getBestCmap().get(ord(printable(letter)), ".notdef")
-    return found
+    with opened_font(face) as font:
+        found: str = font.getBestCmap().get(ord(printable(letter)), ".notdef")
+        return found
 
 
 @cache
@@ -118,9 +138,10 @@ def _contours(name: str, face: Font) -> tuple[tuple[tuple[float, float], ...], .
     """The outlines of a glyph as closed lines of corners, in units of the font."""
     from fontTools.pens.recordingPen import DecomposingRecordingPen
 
-    glyphs = font_of(face).getGlyphSet()
-    pen = DecomposingRecordingPen(glyphs)
-    glyphs[name].draw(pen)
+    with opened_font(face) as font:
+        glyphs = font.getGlyphSet()
+        pen = DecomposingRecordingPen(glyphs)
+        glyphs[name].draw(pen)
     contours: list[list[tuple[float, float]]] = []
     for command, points in pen.value:
         if command == "moveTo":
