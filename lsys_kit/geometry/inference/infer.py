@@ -109,7 +109,7 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
     """
     given = [*counted(words, 1)] if isinstance(words, list | tuple) else words
     if isinstance(given, list) and any(map(is_drawing, given)):
-        if erasing or context != (0, 0):
+        if erasing is not False or not (isinstance(context, tuple) and context == (0, 0)):
             raise ModelValueError("Erasing and contexts are for words, and these are pictures", hint="Leave them out.")
         with Task("The search for systems was not finished"):
             return _of_drawings(read_drawings(given), angle)

@@ -29,7 +29,7 @@ def colour_from(value: object, more: tuple[str, ...] = ()) -> str:
     ModelValueError
         It is no colour.
     """
-    from PIL.ImageColor import colormap
+    from PIL.ImageColor import colormap, getrgb
 
     text = value.strip().lower() if isinstance(value, str) else ""
     if _HEXADECIMAL.fullmatch(text):
@@ -38,7 +38,7 @@ def colour_from(value: object, more: tuple[str, ...] = ()) -> str:
         besides = "".join(f'"{each}", ' for each in more)
         hint = suggestion(text, [*more, *colormap]) or f'Give {besides}a colour of CSS such as "seagreen", or one as "#2e8b57".'
         raise ModelValueError(f"{shown(value)} is no colour", hint=hint)
-    return str(colormap[text])
+    return "#" + bytes(getrgb(text)[:3]).hex()
 
 
 def mixed(colour: str, other: str, strength: float) -> str:
