@@ -25,7 +25,6 @@ from lsys_kit import (
     check,
     derive,
     draw,
-    exercises,
     explain,
     explore,
     figure,
@@ -37,6 +36,7 @@ from lsys_kit import (
 )
 from lsys_kit.__main__ import main
 from lsys_kit.classroom import magic, typeset
+from lsys_kit.classroom.exercises.declared.registry import kit_questions
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.classroom.magic import underlined
 from lsys_kit.classroom.panel.word_view import word_html
@@ -245,7 +245,7 @@ def test_the_explorer_shows_names_as_text(text):
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_an_answer_is_shown_as_text(text):
-    for exercise in {each.kind: each.id for each in exercises()}.values():
+    for exercise in {each.kind: each.id for _, _, each in kit_questions().exercises}.values():
         verdict = refused(lambda exercise=exercise: check(exercise, text, solution=True))
         check_html(verdict._repr_html_())
     for said in (text, f"Your {text} is {text}.\n  {text}\nand {text}"):
