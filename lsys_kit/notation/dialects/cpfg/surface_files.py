@@ -86,8 +86,6 @@ def _patches(text: str) -> tuple[tuple[SurfacePoint, ...], ...]:
     if not rows or len(rows) % ROW:
         raise ModelSyntaxError(f"A patch has four lines of four points, and here are {len(rows)} such lines", text,
                                hint="A point is three numbers.")
-    if not all(abs(coordinate) <= LARGEST for row in rows for point in row for coordinate in point):
-        raise ModelSyntaxError("A point of this surface is too far away", text, hint="Of size 1 a surface is about 1 long.")
     return tuple(tuple(point for row in rows[first:first + ROW] for point in row) for first in range(0, len(rows), ROW))
 
 
