@@ -21,8 +21,8 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.pictures.draw import MOST_ROWS
-from lsys_kit.pictures.filament_layout import filament_layout
-from lsys_kit.pictures.folding import MOST_CELLS
+from lsys_kit.pictures.filaments.folding import MOST_CELLS
+from lsys_kit.pictures.filaments.layout import filament_layout
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.svg import FilamentRow
 from tests.derivation.random_systems import KINDS, systems_with

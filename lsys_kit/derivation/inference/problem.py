@@ -14,10 +14,10 @@ from typing import TypeAlias
 
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.matching import Neighbours, Passing, neighbours, neighbours_along
-from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
-from lsys_kit.derivation.inference.counting import Count, count_of
-from lsys_kit.derivation.inference.equations import Equation, put_in
-from lsys_kit.derivation.inference.search import Solution, solutions
+from lsys_kit.derivation.inference.word_equations.bounds import Bounds, first_bounds
+from lsys_kit.derivation.inference.word_equations.counting import Count, count_of
+from lsys_kit.derivation.inference.word_equations.equations import Equation, put_in
+from lsys_kit.derivation.inference.word_equations.search import Solution, solutions
 from lsys_kit.derivation.inference.words import Row
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 

@@ -10,7 +10,7 @@ from itertools import islice
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Letter, Table, letters_of, problem_of, tables
-from lsys_kit.derivation.inference.search import GivenUp
+from lsys_kit.derivation.inference.word_equations.search import GivenUp
 from lsys_kit.derivation.inference.words import Row, text_of
 from lsys_kit.notation.model.modules import Module
 

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from itertools import islice, pairwise, takewhile
 
 from lsys_kit.budget import check_budget
-from lsys_kit.derivation.inference.bounds import Bounds, first_bounds
-from lsys_kit.derivation.inference.equations import Equation, Item, merged, put_in
 from lsys_kit.derivation.inference.problem import FIRST_CHARACTER, Conditions
 from lsys_kit.derivation.inference.refusals import Contradiction
-from lsys_kit.derivation.inference.search import GivenUp, Known, Solution, deduced, solutions
+from lsys_kit.derivation.inference.word_equations.bounds import Bounds, first_bounds
+from lsys_kit.derivation.inference.word_equations.equations import Equation, Item, merged, put_in
+from lsys_kit.derivation.inference.word_equations.search import GivenUp, Known, Solution, deduced, solutions
 from lsys_kit.derivation.inference.words import Row, text_of
 from lsys_kit.notation.model.modules import Module
 

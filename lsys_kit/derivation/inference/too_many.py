@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lsys_kit.derivation.inference.counting import Count
 from lsys_kit.derivation.inference.fits import Fits
 from lsys_kit.derivation.inference.problem import Problem, Table, counted_tables, table_of, tables
 from lsys_kit.derivation.inference.productions import productions_of
-from lsys_kit.derivation.inference.search import GivenUp
+from lsys_kit.derivation.inference.word_equations.counting import Count
+from lsys_kit.derivation.inference.word_equations.search import GivenUp
 from lsys_kit.errors import ModelLimitError
 
 MOST_TRIED_FOR_ONE = 100

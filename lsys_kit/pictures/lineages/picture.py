@@ -20,7 +20,7 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments import filament_svg, tenths, time_text
+from lsys_kit.pictures.filaments.painting import filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH

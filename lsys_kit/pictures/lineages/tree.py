@@ -14,7 +14,7 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CELLS, Module
-from lsys_kit.pictures.filament_layout import DrawnCell
+from lsys_kit.pictures.filaments.layout import DrawnCell
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label
 from lsys_kit.pictures.style.palette import colour_of

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from math import inf
 
 from lsys_kit.budget import check_budget
-from lsys_kit.derivation.inference.bounds import Bounds
-from lsys_kit.derivation.inference.equations import Equation
-from lsys_kit.derivation.inference.search import Effort, Known, Question, deduced, groups_of, question, trials_of
+from lsys_kit.derivation.inference.word_equations.bounds import Bounds
+from lsys_kit.derivation.inference.word_equations.equations import Equation
+from lsys_kit.derivation.inference.word_equations.search import Effort, Known, Question, deduced, groups_of, question, trials_of
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def count_of(equations: Sequence[Equation], bounds: Bounds, usable: Callable[[st
              trials: float = inf) -> Count:
     """How many solutions there are with usable successors; `GivenUp` where so many trials do not suffice.
 
-    >>> from lsys_kit.derivation.inference.bounds import first_bounds
+    >>> from lsys_kit.derivation.inference.word_equations.bounds import first_bounds
     >>> equations = [Equation((0, 1), "abb"), Equation((2, 3), "abba")]
     >>> found = count_of(equations, first_bounds(equations, 4, erasing=False))
     >>> found.solutions, sorted(found.successors[0])

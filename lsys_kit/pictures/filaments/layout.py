@@ -11,7 +11,7 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.folding import folded
+from lsys_kit.pictures.filaments.folding import folded
 from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.svg import FilamentRow
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import Protocol
 
-from lsys_kit.derivation.inference.equations import Equation
+from lsys_kit.derivation.inference.word_equations.equations import Equation
 
 
 class Lengths(Protocol):

@@ -13,9 +13,9 @@ from math import inf
 from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
-from lsys_kit.derivation.inference.bounds import Bounds, counts_of, narrowed
-from lsys_kit.derivation.inference.equations import Equation, linked, put_in
-from lsys_kit.derivation.inference.positions import bits, cuts, greatest, least, parts
+from lsys_kit.derivation.inference.word_equations.bounds import Bounds, counts_of, narrowed
+from lsys_kit.derivation.inference.word_equations.equations import Equation, linked, put_in
+from lsys_kit.derivation.inference.word_equations.positions import bits, cuts, greatest, least, parts
 
 Solution = dict[int, str]
 """For each letter its successor."""
@@ -87,7 +87,7 @@ class Known:
 def solutions(equations: Sequence[Equation], bounds: Bounds, trials: float = inf) -> Iterator[Solution]:
     """All solutions, one after another; `GivenUp` where so many trials do not suffice.
 
-    >>> from lsys_kit.derivation.inference.bounds import first_bounds
+    >>> from lsys_kit.derivation.inference.word_equations.bounds import first_bounds
     >>> equations = [Equation((0, 1), "abb"), Equation((0, 1, 1), "abbbb")]
     >>> [*solutions(equations, first_bounds(equations, 2, erasing=False))]
     [{0: 'a', 1: 'bb'}]

@@ -14,7 +14,7 @@ from itertools import pairwise
 from types import MappingProxyType
 
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
-from lsys_kit.pictures.filament_layout import STEPS, TIMES, DrawnCell, DrawnWall, FilamentLayout
+from lsys_kit.pictures.filaments.layout import STEPS, TIMES, DrawnCell, DrawnWall, FilamentLayout
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill

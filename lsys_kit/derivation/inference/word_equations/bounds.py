@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from lsys_kit.derivation.inference.equations import Equation
+from lsys_kit.derivation.inference.word_equations.equations import Equation
 
 Counts: TypeAlias = np.ndarray[Any, np.dtype[np.int64]]
 """A row for each letter: how often its successor has each kind of letter, and in the last column its length."""
