@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Mapping
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -22,19 +22,26 @@ from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import WIDTH, initial_step
 from lsys_kit.geometry.turtle.curves import CURVE_HANDLERS
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
+from lsys_kit.geometry.turtle.frames import (
+    TurtleFrame,
+    Vector,
+    combined,
+    cos_sin,
+    cross,
+    initial_frame,
+    next_frame,
+    rotated_towards,
+    unit,
+)
+from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
 from lsys_kit.geometry.turtle.instructions import Instruction
-from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, Handler, Turtle, run_turtle
+from lsys_kit.geometry.turtle.interpreter import run_turtle
 from lsys_kit.geometry.turtle.mode import in_plane
 from lsys_kit.geometry.turtle.shapes import Outline, collected_shapes
 from lsys_kit.geometry.turtle.surfaces import Surface
+from lsys_kit.geometry.turtle.turtle import Turtle
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
-Vector: TypeAlias = tuple[float, float, float]
-TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
-"""H, L, U, and the number of rotations since they were last made orthonormal."""
-
-RENORMALISATION_INTERVAL = 1_000
-"""The number of rotations after which a frame is made orthonormal again; until then its error is 1e-13 at most."""
 _NEGLIGIBLE = 1e-12
 """Smaller sines are taken for 0."""
 _STROKE_COLUMNS = 10
@@ -71,7 +78,7 @@ class SpaceTurtle(Turtle):
 
     def initial_orientation(self, degrees: float) -> TurtleFrame:
         head, left, up, rotations = self.start
-        return *_rotated_towards(head, left, *cos_sin(degrees)), up, rotations
+        return *rotated_towards(head, left, *cos_sin(degrees)), up, rotations
 
     def draw_surface(self, surface: Surface, size: float) -> None:
         if self.flat or not surface.normals:
@@ -79,75 +86,17 @@ class SpaceTurtle(Turtle):
             return
         for face, normals in zip(surface.faces, surface.normals, strict=True) if size else ():
             self.outlines.append(Outline(self.local_points(face, size), self.state, self.colour,
-                                         [_combined(self.orientation, normal) for normal in normals]))
+                                         [combined(self.orientation, normal) for normal in normals]))
 
     def local_point(self, ahead: float, left: float, up: float) -> Vector:
-        (x, y, z), (u, v, w) = self.position, _combined(self.orientation, (ahead, left, up))
+        (x, y, z), (u, v, w) = self.position, combined(self.orientation, (ahead, left, up))
         return x + u, y + v, z + w
-
-
-def _combined(frame: TurtleFrame, vector: Vector) -> Vector:
-    """A vector that is given in a frame."""
-    (hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _ = frame
-    ahead, left, up = vector
-    return ahead * hx + left * lx + up * ux, ahead * hy + left * ly + up * uy, ahead * hz + left * lz + up * uz
-
-
-def initial_frame(dialect: str, heading: float = 90.0) -> TurtleFrame:
-    """The frame in which the turtle starts; the heading is an angle in the plane of the picture, 90 is up.
-
-    >>> initial_frame("abop")
-    ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), 0)
-    """
-    cos, sin = cos_sin(heading)
-    side = TURTLE_DIALECTS[dialect].left
-    head, left = (cos, 0.0, sin), (-side * sin, 0.0, side * cos)
-    return head, left, _cross(head, left), 0
-
-
-def cos_sin(degrees: float) -> tuple[float, float]:
-    """Cosine and sine, exact for quarter turns.
-
-    >>> cos_sin(-90)
-    (0.0, -1.0)
-    """
-    quarters, rest = divmod(degrees, 90.0)
-    if rest == 0:
-        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarters) % 4]
-    radians = math.radians(math.fmod(degrees, 360.0))
-    return math.cos(radians), math.sin(radians)
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    (ax, ay, az), (bx, by, bz) = a, b
-    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-
-
-def _unit(a: Vector) -> Vector:
-    length = math.hypot(*a)
-    return a[0] / length, a[1] / length, a[2] / length
-
-
-def _rotated_towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vector]:
-    """Two orthogonal unit vectors after a rotation of the first towards the second."""
-    (ax, ay, az), (bx, by, bz) = a, b
-    return ((cos * ax + sin * bx, cos * ay + sin * by, cos * az + sin * bz),
-            (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az))
-
-
-def _next_frame(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:
-    """The frame after one more rotation, made orthonormal from time to time."""
-    if rotations < RENORMALISATION_INTERVAL:
-        return head, left, up, rotations + 1
-    head = _unit(head)
-    up = _unit(_cross(head, left))
-    return head, _cross(up, head), up, 0
 
 
 def _turn(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.orientation
-    head, left = _rotated_towards(head, left, *angle)
-    turtle.orientation = _next_frame(head, left, up, rotations)
+    head, left = rotated_towards(head, left, *angle)
+    turtle.orientation = next_frame(head, left, up, rotations)
 
 
 def _turn_by_mirrored_angle(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
@@ -157,14 +106,14 @@ def _turn_by_mirrored_angle(turtle: SpaceTurtle, angle: tuple[float, float]) -> 
 
 def _pitch(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.orientation
-    up, head = _rotated_towards(up, head, *angle)
-    turtle.orientation = _next_frame(head, left, up, rotations)
+    up, head = rotated_towards(up, head, *angle)
+    turtle.orientation = next_frame(head, left, up, rotations)
 
 
 def _roll(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
     head, left, up, rotations = turtle.orientation
-    up, left = _rotated_towards(up, left, *angle)
-    turtle.orientation = _next_frame(head, left, up, rotations)
+    up, left = rotated_towards(up, left, *angle)
+    turtle.orientation = next_frame(head, left, up, rotations)
 
 
 def _level(turtle: SpaceTurtle, _: Instruction) -> None:
@@ -173,7 +122,7 @@ def _level(turtle: SpaceTurtle, _: Instruction) -> None:
     across = math.hypot(head[0], head[1])
     if across > _NEGLIGIBLE:
         left = -head[1] / across, head[0] / across, 0.0
-        turtle.orientation = head, left, _cross(head, left), rotations
+        turtle.orientation = head, left, cross(head, left), rotations
 
 
 def _bend_by_gravitropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
@@ -189,10 +138,10 @@ def _bend_by_gravitropism(turtle: SpaceTurtle, instruction: Instruction) -> None
 
 def _bend_by_tropism(turtle: SpaceTurtle, pull: Vector) -> None:
     """Bend towards a tropism T by the angle e |H x T| about H x T; the pull is e T (ABOP, page 58)."""
-    axis = _cross(turtle.orientation[0], pull)
+    axis = cross(turtle.orientation[0], pull)
     radians = math.hypot(*axis)
     if radians > _NEGLIGIBLE:
-        _rotate(turtle, _unit(axis), radians)
+        _rotate(turtle, unit(axis), radians)
 
 
 def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
@@ -202,11 +151,11 @@ def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
 
     def rotated(v: Vector) -> Vector:
         along = (1 - cos) * (ax * v[0] + ay * v[1] + az * v[2])
-        x, y, z = _cross(axis, v)
+        x, y, z = cross(axis, v)
         return cos * v[0] + sin * x + along * ax, cos * v[1] + sin * y + along * ay, cos * v[2] + sin * z + along * az
 
     head, left, up, rotations = turtle.orientation
-    turtle.orientation = _next_frame(rotated(head), rotated(left), rotated(up), rotations)
+    turtle.orientation = next_frame(rotated(head), rotated(left), rotated(up), rotations)
 
 
 def _set_tropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
@@ -227,11 +176,11 @@ def _set_heading(turtle: SpaceTurtle, instruction: Instruction) -> None:
     head = _from_cpfg((x, y, z))
     if math.hypot(*head) <= _NEGLIGIBLE:
         return
-    head, (_, left, up, _) = _unit(head), turtle.orientation
+    head, (_, left, up, _) = unit(head), turtle.orientation
     wanted = _from_cpfg((others[0], others[1], others[2])) if len(instruction.values) > 5 else up
-    across = next(side for side in (_cross(wanted, head), _cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
-    left = _unit(across)
-    turtle.orientation = head, left, _cross(head, left), 0
+    across = next(side for side in (cross(wanted, head), cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
+    left = unit(across)
+    turtle.orientation = head, left, cross(head, left), 0
 
 
 def _from_cpfg(point: Vector) -> Vector:

@@ -1,0 +1,152 @@
+"""The handlers of the actions that do not depend on the dimension of a turtle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from operator import attrgetter
+from typing import Any, TypeAlias
+
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, WIDTH
+from lsys_kit.geometry.turtle.instructions import LARGEST, Instruction
+from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
+from lsys_kit.geometry.turtle.surfaces import surfaces
+from lsys_kit.geometry.turtle.turtle import Turtle
+
+LAST_COLOUR = 2 ** 31 - 1
+"""The greatest number of a colour."""
+
+Handler: TypeAlias = Callable[[Any, Any], None]
+"""Carries out an instruction, given a turtle and the operand of the instruction."""
+
+_SAVED_ATTRIBUTES = ("position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
+                     "mirror", "second_heading", "axis")
+_saved_state = attrgetter(*_SAVED_ATTRIBUTES)
+
+
+def forward_handler(drawn: bool, vertex: bool) -> Handler:
+    """A handler that moves the turtle forward, with or without a stroke and a vertex of a polygon."""
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        turtle.forward(instruction.factor * turtle.length + instruction.addend, drawn)
+        if vertex and turtle.open_polygons:
+            turtle.open_polygons[-1].corners.append(turtle.position)
+        if drawn and turtle.restored:
+            for name, value in turtle.restored:
+                setattr(turtle, name, value)
+            turtle.restored = ()
+    return handler
+
+
+def _set_length(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.length = _bounded("step", instruction.factor * turtle.length + instruction.addend)
+
+
+def _set_gravitropism(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.gravitropism = _bounded("strength", instruction.factor * turtle.gravitropism + instruction.addend)
+
+
+def _set_width(turtle: Turtle, instruction: Instruction) -> None:
+    before = turtle.first_width if turtle.width == OWN else turtle.width
+    turtle.width = max(0.0, _bounded("width", instruction.factor * before + instruction.addend))
+
+
+def _bounded(what: str, value: float) -> float:
+    if not abs(value) <= LARGEST:
+        raise ModelValueError(f"The turtle's {what} grows too large to draw: {value:.3g}")
+    return value
+
+
+def _set_colour(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.colour = max(0, min(LAST_COLOUR, round(instruction.factor * max(0, turtle.colour) + instruction.addend)))
+
+
+def _step_colour(turtle: Turtle, instruction: Instruction) -> None:
+    """Step through the ramp, or through the colours below it, as far as they go."""
+    first, last = (RAMP_START, RAMP_END) if turtle.colour >= RAMP_START else (0, RAMP_START - 1)
+    turtle.colour = max(first, min(last, round(turtle.colour + instruction.addend)))
+
+
+def _reset(name: str) -> Handler:
+    return lambda turtle, _: setattr(turtle, name, turtle.initial[name])
+
+
+def _set_once(name: str, change: Handler) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        turtle.restored = ((name, getattr(turtle, name)), *turtle.restored)  # the earliest value is set last, and stays
+        change(turtle, instruction)
+    return handler
+
+
+def _push(turtle: Turtle, _: Instruction) -> None:
+    _check_depth(turtle, turtle.stack)
+    turtle.stack.append(_saved_state(turtle))
+    turtle.axis = None
+
+
+def _pop(turtle: Turtle, _: Instruction) -> None:
+    if turtle.stack:
+        (turtle.position, turtle.orientation, turtle.length, turtle.width, turtle.colour, turtle.gravitropism,
+         turtle.tropisms, turtle.last, turtle.restored, turtle.mirror, turtle.second_heading,
+         turtle.axis) = turtle.stack.pop()
+
+
+def _begin_polygon(turtle: Turtle, _: Instruction) -> None:
+    _check_depth(turtle, turtle.open_polygons)
+    turtle.open_polygons.append(Outline([], turtle.state, turtle.colour))
+
+
+def _check_depth(turtle: Turtle, opened: Sequence[object]) -> None:
+    if len(opened) >= turtle.bracket_limit:
+        raise ModelLimitError(f"More than {turtle.bracket_limit:,} brackets are open at once", limit=turtle.bracket_limit)
+
+
+def _record_vertex(turtle: Turtle, _: Instruction) -> None:
+    if turtle.open_polygons:
+        turtle.open_polygons[-1].corners.append(turtle.position)
+
+
+def _end_polygon(turtle: Turtle, _: Instruction) -> None:
+    if turtle.open_polygons and len((outline := turtle.open_polygons.pop()).corners) > 2:
+        turtle.outlines.append(outline)
+
+
+def expect_surface(turtle: Turtle, _: Instruction) -> None:
+    """Draw a surface next, the one that the next symbol names."""
+    turtle.expects_surface = True
+
+
+def _draw_expected_surface(turtle: Turtle, instruction: Instruction) -> None:
+    if turtle.expects_surface:
+        turtle.expects_surface = False
+        if surface := turtle.surfaces.get(instruction.symbol):
+            turtle.draw_surface(surface, instruction.factor * turtle.length + instruction.addend)
+        else:
+            turtle.unknown[f"~{instruction.symbol}"] = None
+
+
+def draw_surface(turtle: Turtle, instruction: Instruction) -> None:
+    """Draw one of the surfaces of the kit."""
+    turtle.draw_surface(surfaces()[instruction.surface], instruction.factor * turtle.length + instruction.addend)
+
+
+def _draw_round(kind: int) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        width = instruction.factor * (WIDTH if turtle.width == OWN else turtle.width) + instruction.addend
+        turtle.rounds.append(RoundShape(turtle.position, abs(width) / 2, kind, turtle.state, turtle.colour))
+    return handler
+
+
+COMMON_HANDLERS: Mapping[str, Handler] = {
+    "draw": forward_handler(True, True), "move": forward_handler(False, True),
+    "draw without vertex": forward_handler(True, False), "move without vertex": forward_handler(False, False),
+    "set length": _set_length, "reset length": _reset("length"), "set length once": _set_once("length", _set_length),
+    "set width": _set_width, "reset width": _reset("width"), "set width once": _set_once("width", _set_width),
+    "set gravitropism": _set_gravitropism, "reset gravitropism": _reset("gravitropism"),
+    "set gravitropism once": _set_once("gravitropism", _set_gravitropism),
+    "set colour": _set_colour, "step colour": _step_colour, "reset colour": _reset("colour"), "push": _push, "pop": _pop,
+    "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,
+    "expect surface": expect_surface, "draw expected surface": _draw_expected_surface, "draw surface": draw_surface,
+    "draw circle": _draw_round(CIRCLE), "draw disc": _draw_round(DISC), "draw sphere": _draw_round(SPHERE),
+}
+"""The handlers that the turtles in the plane and in space share, by action."""
