@@ -7,8 +7,8 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.natural_colours import coloured
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.instancing import draw_instanced
-from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 

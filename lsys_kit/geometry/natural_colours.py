@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.actions import Effect
-from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, commands_of, initial_colour
-from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.actions import Effect
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.table import RAMP_END, RAMP_START, commands_of, initial_colour
 from lsys_kit.notation.model.system import LSystem
 
 

@@ -19,7 +19,7 @@ from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
-from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
+from lsys_kit.geometry.turtle.commands.table import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.worlds.boxes import Boxes, Cones, counts_in_cones, nearest_in_cones, steepest_lines
 from lsys_kit.worlds.neighbours import NEARNESS, lengths_of

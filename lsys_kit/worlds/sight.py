@@ -27,7 +27,7 @@ from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import SPHERE, Integers, Segments
-from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.commands.table import initial_step
 from lsys_kit.geometry.turtle.interpreter import compile_word
 from lsys_kit.geometry.turtle.shapes import collected_shapes
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, TurtleFrame, Vector, initial_frame, operand, strokes_of

@@ -18,7 +18,7 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.natural_colours import coloured
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem

@@ -18,8 +18,8 @@ import numpy as np
 
 from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.geometry.scene import OWN, Floats
+from lsys_kit.geometry.turtle.commands.instructions import Instruction
 from lsys_kit.geometry.turtle.handlers import Handler
-from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.patches import patch_grid
 from lsys_kit.geometry.turtle.shapes import Outline
 

@@ -9,8 +9,8 @@ import math
 from collections.abc import Mapping
 
 from lsys_kit.geometry.scene import OWN
+from lsys_kit.geometry.turtle.commands.instructions import Instruction
 from lsys_kit.geometry.turtle.handlers import Handler, forward_handler
-from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.turtle import Turtle
 
 PALETTE_SIZE, WHITE = 256, 15

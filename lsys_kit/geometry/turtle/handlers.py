@@ -8,8 +8,8 @@ from typing import Any, TypeAlias
 
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
-from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START, WIDTH
-from lsys_kit.geometry.turtle.instructions import LARGEST, Instruction
+from lsys_kit.geometry.turtle.commands.instructions import LARGEST, Instruction
+from lsys_kit.geometry.turtle.commands.table import RAMP_END, RAMP_START, WIDTH
 from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
 from lsys_kit.geometry.turtle.surfaces import surfaces
 from lsys_kit.geometry.turtle.turtle import Turtle

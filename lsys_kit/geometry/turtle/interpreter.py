@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.interpretation import interpretations, modules_between_checks
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.handlers import Handler, draw_surface, expect_surface
-from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.turtle import Turtle
 
 MOST_CURVED = 150

@@ -19,7 +19,9 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import WIDTH, initial_step
+from lsys_kit.geometry.turtle.commands.instructions import Instruction
+from lsys_kit.geometry.turtle.commands.mode import in_plane
+from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_step
 from lsys_kit.geometry.turtle.curves import CURVE_HANDLERS
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.frames import (
@@ -34,9 +36,7 @@ from lsys_kit.geometry.turtle.frames import (
     unit,
 )
 from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
-from lsys_kit.geometry.turtle.instructions import Instruction
 from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.mode import in_plane
 from lsys_kit.geometry.turtle.shapes import Outline, collected_shapes
 from lsys_kit.geometry.turtle.surfaces import Surface
 from lsys_kit.geometry.turtle.turtle import Turtle

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from lsys_kit.errors import quotable
-from lsys_kit.geometry.turtle.commands import COMMANDS
+from lsys_kit.geometry.turtle.commands.table import COMMANDS
 from lsys_kit.geometry.turtle.patches import (
     Face,
     Facets,

@@ -8,7 +8,7 @@ from typing import Any
 
 from lsys_kit.budget import current
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands import WIDTH, initial_colour
+from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_colour
 from lsys_kit.geometry.turtle.patches import Face
 from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
 from lsys_kit.geometry.turtle.surfaces import Surface, surfaces_by_symbol

@@ -28,7 +28,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.errors import LSystemError, ModelLimitError
-from lsys_kit.geometry.turtle.mode import drawing_mode
+from lsys_kit.geometry.turtle.commands.mode import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.notation.registry import dialect_named

@@ -12,9 +12,9 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.geometry.filament import shapes_of
 from lsys_kit.geometry.natural_colours import has_natural_colours
-from lsys_kit.geometry.turtle.commands import initial_colour, initial_step
-from lsys_kit.geometry.turtle.instructions import Instruction, instructions, unknown_commands
-from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.table import initial_colour, initial_step
 from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
 from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol

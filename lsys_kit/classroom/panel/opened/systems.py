@@ -17,7 +17,7 @@ from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError
-from lsys_kit.geometry.turtle.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem

@@ -17,7 +17,7 @@ from functools import cache, partial
 from typing import Literal, NamedTuple
 
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.actions import ACTIONS, Effect
+from lsys_kit.geometry.turtle.commands.actions import ACTIONS, Effect
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS

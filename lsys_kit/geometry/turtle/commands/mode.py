@@ -5,8 +5,8 @@ from __future__ import annotations
 from enum import Enum, auto
 
 from lsys_kit.derivation.core.interpretation import is_filament
-from lsys_kit.geometry.turtle.actions import Effect
-from lsys_kit.geometry.turtle.commands import Command, commands_of
+from lsys_kit.geometry.turtle.commands.actions import Effect
+from lsys_kit.geometry.turtle.commands.table import Command, commands_of
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from lsys_kit.budget import INTERVAL, counted
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.turtle.commands import COMMANDS, Command
+from lsys_kit.geometry.turtle.commands.table import COMMANDS, Command
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
