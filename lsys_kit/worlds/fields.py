@@ -18,7 +18,7 @@ import numpy as np
 from lsys_kit.budget import counted
 from lsys_kit.errors import LSystemError, ModelValueError, shown
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.turtle.space import Vector
+from lsys_kit.geometry.turtle.frames import Vector
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.worlds.rounding import rounded

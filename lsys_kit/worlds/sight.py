@@ -28,9 +28,10 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import SPHERE, Integers, Segments
 from lsys_kit.geometry.turtle.commands.table import initial_step
+from lsys_kit.geometry.turtle.frames import TurtleFrame, Vector, initial_frame
 from lsys_kit.geometry.turtle.interpreter import compile_word
 from lsys_kit.geometry.turtle.shapes import collected_shapes
-from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, TurtleFrame, Vector, initial_frame, operand, strokes_of
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand, strokes_of
 from lsys_kit.notation.model.arithmetic import Value, short_text
 from lsys_kit.worlds.fields import Field, Question, Surroundings, answered
 from lsys_kit.worlds.ready_fields import named_field

@@ -25,7 +25,8 @@ from lsys_kit.geometry.turtle.commands.actions import Effect
 from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.commands.table import commands_of, initial_step, symbols_with
-from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
+from lsys_kit.geometry.turtle.frames import initial_frame
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
