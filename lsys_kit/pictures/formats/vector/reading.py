@@ -108,7 +108,7 @@ class _Reader:
         if name == "rect":
             width, height = number("width", self._view[0]), number("height", self._view[1])
             return rectangle(number("x"), number("y"), width, height, number("rx"))
-        raise NotImplementedError(name)
+        raise ValueError(f"The kit writes no element <{name}>")
 
 
 def _placed(element: Element, place: Place) -> Place:
