@@ -9,7 +9,7 @@ from lsys_kit.notation.syntax.failure import ParseFailure, quoted, unclosed_brac
 from lsys_kit.notation.syntax.text.statements import ARROW
 
 _DECLARATION = re.compile(r"surface\b(?P<named>[ \t]+[A-Za-z_]\w*[ \t]*:)?", re.IGNORECASE)
-_FILE = re.compile(r"[\w./\\-]+\.s\b")
+_FILE = re.compile(r"(?<![\w./\\-])[\w./\\-]+\.s\b")
 _POINT = 'A point is "(ahead, left)" or "(ahead, left, up)".'
 
 

@@ -19,7 +19,7 @@ from lsys_kit.notation.model.surfaces import ROW, SurfacePoint, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
 _Vector: TypeAlias = tuple[float, float, float]
-_NUMBER = r"-?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,2})?"
+_NUMBER = r"-?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,2})?"
 _ROW = re.compile(rf"^[ \t]*{_NUMBER}(?:[ \t]+{_NUMBER}){{11}}[ \t\r]*$", re.MULTILINE)
 """Four control points, each with its coordinates."""
 DECIMALS = 5
