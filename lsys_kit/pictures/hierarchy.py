@@ -13,8 +13,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET, VERMILION, tinted
-from lsys_kit.pictures.svg import background, document
+from lsys_kit.pictures.style.palette import BLUE, QUIET, VERMILION, tinted
+from lsys_kit.pictures.style.themes import drawn_on, line, text_colour, theme, theme_from
+from lsys_kit.pictures.svg import background as paper
+from lsys_kit.pictures.svg import document
 
 WIDTH, HEIGHT = 720, 430
 """The size of the picture, in pixels."""
@@ -86,16 +88,27 @@ class HierarchyPicture(SVGPicture):
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
-        shapes = [*map(_ellipse, CHOMSKY), *map(_ellipse, PARALLEL), *map(_class_name, (*CHOMSKY, *PARALLEL)),
-                  *map(_point, LANGUAGES)]
-        return document(background(WIDTH, HEIGHT) + "".join(shapes), WIDTH, HEIGHT, self.text)
+        with drawn_on(self.theme):
+            shapes = [*map(_ellipse, CHOMSKY), *map(_ellipse, PARALLEL), *map(_class_name, (*CHOMSKY, *PARALLEL)),
+                      *map(_point, LANGUAGES)]
+            return document(paper(WIDTH, HEIGHT) + "".join(shapes), WIDTH, HEIGHT, self.text)
 
     def __repr__(self) -> str:
         return self.text
 
 
-def draw_hierarchy() -> HierarchyPicture:
+def draw_hierarchy(background: str = "light") -> HierarchyPicture:
     """Draw the languages of 0L-systems and (k,l)-systems beside those of the Chomsky hierarchy.
+
+    Parameters
+    ----------
+    background
+        What it is drawn on: "light", "dark", "none", or a colour.
+
+    Raises
+    ------
+    ModelValueError
+        It is no background.
 
     Examples
     --------
@@ -106,7 +119,7 @@ def draw_hierarchy() -> HierarchyPicture:
     ----------
     Herman and Rozenberg, Developmental Systems and Languages (1975); the caption is that of figure 5.2 of the textbook.
     """
-    return HierarchyPicture()
+    return HierarchyPicture(theme=theme_from(background))
 
 
 def _ellipse(each: LanguageClass) -> str:
@@ -115,19 +128,20 @@ def _ellipse(each: LanguageClass) -> str:
     broken = ' stroke-dasharray="90 50"' if each in PARALLEL else ""
     fill = f'fill="{tinted(each.colour, 0.3)}" fill-opacity="{0.3 if broken else 0.24}"'
     return (f'<ellipse cx="{10 * x:g}" cy="{10 * y:g}" rx="{10 * across:g}" ry="{10 * up:g}" {fill} '
-            f'stroke="{each.colour}" stroke-width="{20 if broken else 14}"{broken}/>')
+            f'stroke="{line(each.colour)}" stroke-width="{20 if broken else 14}"{broken}/>')
 
 
 def _class_name(each: LanguageClass) -> str:
-    return _text(each.name, *each.label, 15, INK if each.colour == QUIET else each.colour)
+    return _text(each.name, *each.label, 15, theme().ink if each.colour == QUIET else text_colour(each.colour))
 
 
 def _point(each: Language) -> str:
     """The point of a language, with the language below it."""
-    return (f'<circle cx="{10 * each.x:g}" cy="{10 * each.y:g}" r="30" fill="{INK}"/>'
-            f"{_text(each.text, each.x, each.y + 19, 13, INK)}")
+    return (f'<circle cx="{10 * each.x:g}" cy="{10 * each.y:g}" r="30" fill="{theme().ink}"/>'
+            f"{_text(each.text, each.x, each.y + 19, 13, theme().ink)}")
 
 
 def _text(text: str, x: float, y: float, size: int, colour: str) -> str:
     return (f'<text x="{10 * x:g}" y="{10 * y:g}" font-family="sans-serif" font-size="{10 * size}" text-anchor="middle" '
-            f'fill="{colour}" stroke="{PAPER}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{text}</text>')
+            f'fill="{colour}" stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">'
+            f"{text}</text>")

@@ -23,7 +23,7 @@ from lsys_kit.pictures.formats.vector.shapes import Drawing
 from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
-from lsys_kit.pictures.sizes import enlargement
+from lsys_kit.pictures.sizes import SHARP, enlargement
 from lsys_kit.pictures.style.themes import drawn_on, theme
 from lsys_kit.pictures.svg import background, described, document, embedded, resized, turtle_svg
 
@@ -80,7 +80,7 @@ class SmallMultiples(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return self._written(current().segments)
+            return self._written(current().segments, SHARP)
 
     def image(self, enlarged: float = 1.0) -> Image:
         """The picture as an image, perhaps enlarged."""

@@ -34,7 +34,7 @@ from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
-from lsys_kit.pictures.sizes import enlargement
+from lsys_kit.pictures.sizes import SHARP, enlargement
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, resized, turtle_svg
 from lsys_kit.supervision import supervised
@@ -106,7 +106,7 @@ class Picture(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return self._written(current().segments)
+            return self._written(current().segments, SHARP)
 
     def image(self, enlarged: float = 1.0) -> Image:
         """The picture as an image, perhaps enlarged."""

@@ -11,6 +11,8 @@ Size: TypeAlias = tuple[int, int | None]
 """The width and the height of a picture in pixels; without a height, what the drawing needs."""
 LEAST, GREATEST = 16, 20_000
 """The least and the greatest width and height, in pixels."""
+SHARP = 2.0
+"""What is pixels in an SVG file has so many for each of the file, in each direction, as screens of today have."""
 
 
 def size_from(value: object) -> Size | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ET
 from itertools import pairwise, product
 from pathlib import Path
@@ -10,6 +11,9 @@ import pytest
 
 from lsys_kit import ModelFileError, derive, draw_hierarchy, read
 from lsys_kit.pictures.hierarchy import CHOMSKY, HEIGHT, LANGUAGES, PARALLEL, WIDTH, LanguageClass
+from lsys_kit.pictures.style.colour_values import contrast
+from lsys_kit.pictures.style.palette import BLUE
+from lsys_kit.pictures.style.themes import DARK, LIGHT
 
 POINTS = [*product(range(WIDTH), range(HEIGHT))]
 CONTEXT, FREE = PARALLEL
@@ -66,3 +70,10 @@ def test_the_hierarchy_is_kept_as_svg(tmp_path: Path) -> None:
     assert draw_hierarchy()._repr_mimebundle_()["image/svg+xml"] == draw_hierarchy().svg
     with pytest.raises(ModelFileError, match=r"Let the name end in .svg"):
         draw_hierarchy().save(tmp_path / "hierarchy.glb")
+
+
+def test_on_dark_paper_what_is_written_can_be_read() -> None:
+    dark = draw_hierarchy("dark").svg
+    assert DARK.paper in dark
+    assert not {LIGHT.ink, LIGHT.paper, BLUE} & {*re.findall("#[0-9A-Fa-f]{6}", dark)}
+    assert all(contrast(colour, DARK.paper) >= 4.5 for colour in re.findall('<text[^>]* fill="(#[^"]+)"', dark))

@@ -134,6 +134,18 @@ def line(colour: str) -> str:
     return _line(colour, theme())
 
 
+def text_colour(colour: str) -> str:
+    """The colour of text in a colour in the theme in force: one in which it can be read on its paper.
+
+    >>> text_colour("#0658A0")
+    '#0658A0'
+    >>> with drawn_on(DARK):
+    ...     contrast(text_colour("#0658A0"), DARK.paper) >= TEXT
+    True
+    """
+    return _seen(line(colour), theme(), TEXT)
+
+
 def edge_colour(colour: str) -> str:
     """The colour of the edge of what is filled with a colour: that of its lines, or quiet where a person chose that of paper.
 
