@@ -13,7 +13,7 @@ from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
 from lsys_kit.pictures.rendering.painters_order import display_list
-from lsys_kit.pictures.rendering.view import project
+from lsys_kit.pictures.rendering.view import MOST_CYLINDERS, far_to_near, project
 from tests.classroom.front_end import PAINTER, answers, book_of
 from tests.classroom.test_front_end_turtle import MOST_MODULES, scene_by_kit, words
 
@@ -27,9 +27,9 @@ ORDERS = """
 const light = { ink: "#22303c", paper: "#ffffff" };
 return given.map(({ book, sides }) => sides.map(([around, above]) => {
   const shapes = placed(traced(bookOf(book), 0), book.turtle.angle), frame = frameOf(shapes, 600, 400, { around, above });
-  const { order, widths, x, y } = seenIn(frame, shapes), { strokes, palette } = shapes;
+  const { order, painted, widths, x, y } = seenIn(frame, shapes), { strokes, palette } = shapes;
   const pointsOf = (numbers) => Array.from(numbers, (number) => [x[number], y[number]]);
-  return { scale: frame.scale, order: Array.from(order), from: pointsOf(strokes.from), to: pointsOf(strokes.to),
+  return { scale: frame.scale, order: Array.from(order), painted: Array.from(painted), from: pointsOf(strokes.from), to: pointsOf(strokes.to),
     looks: Array.from(widths, (width, i) => [lineColour(palette[strokes.colours[i]], light), width]) };
 }));
 """
@@ -62,6 +62,15 @@ def word_of(text):
     return derive(read(f"angle: 90\naxiom: {text}"), 0)[0]
 
 
+def order_with_casings(flat):
+    """The numbers of shapes from far to near, and of the casings of strokes, which follow all others and are painted first."""
+    if len(flat.segments) > MOST_CYLINDERS:
+        return flat.order.tolist()
+    cased, depths = len(flat.casing_depths), np.concatenate([flat.casing_depths, flat.depths])
+    order = far_to_near(np.maximum(depths, flat.depths.min(initial=np.inf)), flat.extent)
+    return np.where(order < cased, order + len(flat.depths), order - cased).tolist()
+
+
 def expect_painted(page, found):
     """The canvas paints some words, seen from several sides, in the order of the kit's pictures."""
     given = [{"book": book_of([word]), "sides": SIDES if book_of([word])["mode"] == "space" else SIDES[:1]} for word in found]
@@ -72,6 +81,7 @@ def expect_painted(page, found):
             expect_in_place(seen, flat.segments.points)
             if scene.dimension == 3:
                 assert seen["order"] == flat.order.tolist()
+                assert seen["painted"] == order_with_casings(flat)
                 continue
             runs = list(display_list(flat, seen["scale"], state_colours(word)))
             assert seen["order"] == [number + first(run, scene) for run in runs for number in run.numbers.tolist()]

@@ -18,6 +18,7 @@ from PIL import Image
 
 from lsys_kit import derive, draw, figure, read
 from lsys_kit.geometry.scene import DISC, OWN, Discs, Polygons, Scene, Segments
+from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.formats.axes import frame_in, plot_turtle
 from lsys_kit.pictures.formats.raster import turtle_image
 from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
@@ -75,12 +76,23 @@ def test_a_casing_hides_what_is_farther_than_its_stroke_is_long(scene, side):
     shapes, strokes = display_list(seen, 20.0, {}), len(scene.segments)
     where = {one: place for place, one in enumerate(painted(shapes))}
     assert {shapes.palette[colour] for colour in shapes.lines.colours[:strokes]} == {PAPER}
-    depths = seen.depths[len(scene.polygons):]
+    depths, ends = seen.depths[len(scene.polygons):], scene.segments.points.reshape(-1, 2, 3)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     for number in range(strokes):
         for face in range(len(scene.polygons)):
-            behind = depths[number] - seen.depths[face] - seen.lengths[number]
+            behind = depths[number] - seen.depths[face] - lengths[number]
             if abs(behind) > 1e-3:
                 assert (where["LineRun", number] > where["AreaRun", face]) == (behind > 0)
+
+
+@given(SIDES)
+def test_the_casing_of_a_stroke_does_not_part_it_from_the_polygon_whose_edge_it_is(side):
+    [seen] = project([trace_in_space(derive(read("axiom: &(70) { . F(2) +(120) F(2) +(120) F(2) } F"), 0)[0])], side)
+    shapes = display_list(seen, 20.0, {})
+    where = {one: place for place, one in enumerate(painted(shapes))}
+    casings = [where["LineRun", number] < where["AreaRun", 0] for number in range(4)]
+    assert casings[:3] == [True, True, True]
+    assert shapes.palette[shapes.lines.colours[0]] == PAPER
 
 
 @given(SCENES)

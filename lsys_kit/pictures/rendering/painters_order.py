@@ -144,8 +144,7 @@ def _first_slots(scene: ProjectedScene, toned: NDArray[np.bool_], cased: bool) -
     and not what the stroke is joined to.
     """
     polygons, strokes, discs = len(scene.polygons), len(scene.segments), len(scene.discs)
-    casings = (scene.depths[polygons:polygons + strokes] - scene.lengths) if cased else np.empty(0)
-    casings = np.maximum(casings, scene.depths.min(initial=np.inf))
+    casings = np.maximum(scene.casing_depths, scene.depths.min(initial=np.inf)) if cased else np.empty(0)
     order = far_to_near(np.concatenate([casings, scene.depths]), scene.extent)
     counts = np.ones(len(order), np.int64)
     counts[len(casings) + polygons:len(counts) - discs] += 2 * toned

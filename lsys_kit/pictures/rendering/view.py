@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
@@ -46,8 +47,9 @@ class ProjectedScene(Scene):
         Shape (n,): the same as a number from 0, the farthest place in the cylinder around the scene, to 1, the nearest.
     factors
         Shape (s, 2): how much broader each stroke is at both ends: in perspective, and where it continues a broader one.
-    lengths
-        Shape (s,): the lengths of strokes in space.
+    casing_depths
+        Shape (s,): how far the casings of strokes lie towards the viewer: behind their strokes by the lengths of these, and
+        behind everything where a stroke is an edge of a polygon, which it must not be parted from.
     normals
         Shape (p, 3): the unit normal of each polygon: to the right, up and towards the viewer, where it never points away.
     extent
@@ -57,7 +59,7 @@ class ProjectedScene(Scene):
     depths: Floats = field(default_factory=lambda: np.empty(0))
     nearness: Floats = field(default_factory=lambda: np.empty(0))
     factors: Floats = field(default_factory=lambda: np.empty((0, 2)))
-    lengths: Floats = field(default_factory=lambda: np.empty(0))
+    casing_depths: Floats = field(default_factory=lambda: np.empty(0))
     normals: Floats = field(default_factory=lambda: np.empty((0, 3)))
     extent: float = 0.0
 
@@ -202,7 +204,7 @@ def _projected(scene: Scene, cylinder: Cylinder, view: View) -> ProjectedScene:
         discs=replace(discs, centres=centres, radii=discs.radii * factors), unknown=scene.unknown, depths=depths,
         nearness=np.clip((depths - middle) / (2 * reach or 1.0) + 0.5, 0, 1), extent=float(_spans(scene).max()),
         factors=_stroke_factors(segments, end_factors.reshape(-1, 2)),
-        lengths=np.linalg.norm(segments.ends[:, 3:] - segments.ends[:, :3], axis=1), normals=_normals(polygons, side))
+        casing_depths=_casing_depths(scene, depths), normals=_normals(polygons, side))
 
 
 def _seen(points: Floats, side: tuple[Floats, Floats, Floats], cylinder: Cylinder) -> tuple[Floats, Floats]:
@@ -226,6 +228,38 @@ def _shape_depths(scene: Scene, towards: Floats) -> Floats:
     return np.concatenate([_means(_depths(polygons.points, towards), polygons.starts),
                            (_depths(segments.ends[:, :3], towards) + _depths(segments.ends[:, 3:], towards)) / 2,
                            _depths(discs.centres, towards)])
+
+
+def _casing_depths(scene: Scene, depths: Floats) -> Floats:
+    """How near the casings of strokes are, given how near each shape is."""
+    segments, polygons = scene.segments, len(scene.polygons)
+    lengths = np.linalg.norm(segments.ends[:, 3:] - segments.ends[:, :3], axis=1)
+    found: Floats = np.where(are_edges(segments, scene.polygons), -np.inf, depths[polygons:polygons + len(segments)] - lengths)
+    return found
+
+
+def are_edges(segments: Segments, polygons: Polygons) -> NDArray[np.bool_]:
+    """Which strokes are edges of polygons.
+
+    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit.geometry.turtle.space import trace_in_space
+    >>> from lsys_kit.notation.read import read
+    >>> leaf = trace_in_space(derive(read("axiom: F & { . F + (120) F } F"), 0)[0])
+    >>> are_edges(leaf.segments, leaf.polygons).tolist()
+    [False, True, True, False]
+    """
+    if not (len(polygons) and 0 < len(segments) <= MOST_CYLINDERS):
+        return np.zeros(len(segments), bool)
+    points, following = polygons.points, np.arange(1, len(polygons.points) + 1)
+    following[polygons.starts[1:] - 1] = polygons.starts[:-1]
+    edges = np.concatenate([np.hstack([points, points[following]]), np.hstack([points[following], points])])
+    return np.isin(_keys(segments.ends), _keys(edges))
+
+
+def _keys(rows: Floats) -> NDArray[np.void]:
+    """Rows of numbers as values that can be compared."""
+    whole = np.ascontiguousarray(rows + 0.0)  # which makes no difference between 0 and -0
+    return whole.view(np.dtype((np.void, whole.strides[0]))).ravel()
 
 
 def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:

@@ -5,7 +5,8 @@
 // painted in it keeps its place and its size.
 
 import { startWidths } from "./cylinders.js";
-import { paintingOrder, strokeWidths } from "./painting_order.js";
+import { cornersOf, paintingOrder, strokeWidths } from "./painting_order.js";
+import { MOST_POINTS } from "./turtle_actions.js";
 
 const FRAME_MARGIN = 14;
 const LARGEST_SCALE = 120; // pixels a unit
@@ -16,6 +17,7 @@ const USUAL_STROKE = 12; // pixels that strokes are long where they have their u
 const DISTANCE = 4; // of the eye from the middle, in radii of the sphere around what is seen
 const MOST_CYLINDERS = 10_000; // of more strokes one sees none by itself, and they are plain lines
 const RADIANS = Math.PI / 180;
+const edgesOfFaces = new WeakMap();
 
 // The room that shapes take, with the round ends of broad strokes: in the plane a box, in space the upright cylinder around
 // them, which no turn leads out of.
@@ -107,17 +109,29 @@ function seenInPlane({ scale, x0, y0, middle: [cx, cy] }, shapes, widths) {
 function seenInSpace(frame, shapes, single) {
   const seen = projected(frame, shapes), { strokes } = shapes, { depths, factors } = seen;
   const starts = frame.detailed ? startWidths(strokes, single) : single, ends = [new Float64Array(strokes.n), new Float64Array(strokes.n)];
-  const behind = new Float64Array(frame.detailed ? strokes.n : 0), widths = new Int32Array(strokes.n);
+  const behind = new Float64Array(frame.detailed ? strokes.n : 0), widths = new Int32Array(strokes.n), edges = edgesOf(shapes.faces);
   for (let i = 0; i < strokes.n; i++) {
     const a = strokes.from[i], b = strokes.to[i];
     ends[0][i] = starts[i] * factors[a];
     ends[1][i] = single[i] * factors[b];
     widths[i] = Math.max(3, Math.min(4000, Math.round((ends[0][i] + ends[1][i]) / 2)));
-    if (frame.detailed) behind[i] = (depths[a] + depths[b]) / 2 - Math.hypot(shapes.x[b] - shapes.x[a], shapes.y[b] - shapes.y[a], shapes.z[b] - shapes.z[a]);
+    if (frame.detailed) behind[i] = edges.has(pairOf(a, b)) ? -Infinity
+      : (depths[a] + depths[b]) / 2 - Math.hypot(shapes.x[b] - shapes.x[a], shapes.y[b] - shapes.y[a], shapes.z[b] - shapes.z[a]);
   }
   const painted = paintingOrder(shapes, widths, depths, frame.extent, behind), all = shapes.faces.n + strokes.n + shapes.rounds.n;
   return { ...seen, widths, ends, painted, order: painted.filter((number) => number < all) };
 }
+
+// The edges of faces, as pairs of points: a stroke there has no casing that would part it from its face.
+function edgesOf(faces) {
+  if (!edgesOfFaces.has(faces)) edgesOfFaces.set(faces, new Set(Array.from({ length: faces.n }, (_, i) => {
+    const corners = cornersOf(faces, i);
+    return Array.from(corners, (corner, k) => pairOf(corner, corners[(k + 1) % corners.length]));
+  }).flat()));
+  return edgesOfFaces.get(faces);
+}
+
+const pairOf = (one, other) => Math.min(one, other) * MOST_POINTS + Math.max(one, other);
 
 function projected({ scale, x0, y0, cos, sin, level, steep, reach, distance, middle: [cx, cy, cz] }, { n, x, y, z }) {
   const seen = { x: new Float64Array(n), y: new Float64Array(n), depths: new Float64Array(n), factors: new Float64Array(n),

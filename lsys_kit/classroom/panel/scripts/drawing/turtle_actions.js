@@ -12,7 +12,7 @@ const LAST_COLOUR = 2 ** 31 - 1;
 export const RAMP_START = 16;
 const RAMP_END = 23; // the colours from bark to leaves
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
-const MOST_POINTS = 2_000_000;
+export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading", "axis"];
 
