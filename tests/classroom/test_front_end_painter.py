@@ -29,7 +29,8 @@ return given.map(({ book, sides }) => sides.map(([around, above]) => {
   const shapes = placed(traced(bookOf(book), 0), book.turtle.angle), frame = frameOf(shapes, 600, 400, { around, above });
   const { order, painted, widths, x, y } = seenIn(frame, shapes), { strokes, palette } = shapes;
   const pointsOf = (numbers) => Array.from(numbers, (number) => [x[number], y[number]]);
-  return { scale: frame.scale, order: Array.from(order), painted: Array.from(painted), from: pointsOf(strokes.from), to: pointsOf(strokes.to),
+  return { scale: frame.scale, order: Array.from(order), painted: Array.from(painted),
+    from: pointsOf(strokes.from), to: pointsOf(strokes.to),
     looks: Array.from(widths, (width, i) => [lineColour(palette[strokes.colours[i]], light), width]) };
 }));
 """
