@@ -149,7 +149,9 @@ SELDOM = {
              "!(0) F !(-3) F #(30) F #(1.5) F # F", "#(1) F + F", "#(0.9) F + F", "#(370) F + F F",
              "@Ts(0.2) F & F + F @Ts(2,0.25,1,0,0) F F F [ @Ts(0.5) F ] F @Ts(1,2,3) F F @Ts F & F",
              "@Ts(1,0.5,1,1,1,9) F & F F", "@M(1,2) F @M(3) F @M F", "F /(180) + F /(-180) + F /(540) + F",
-             "F /(180) + F /(-180) + F /(540) + F /(90) F", "&(90) F $ F @v F", "F" + " &(7) F +" * 1100],
+             "F /(180) + F /(-180) + F /(540) + F /(90) F", "&(90) F $ F @v F", "F" + " &(7) F +" * 1100,
+             "@D(2) F !(3) F [ @Di(2) + F @O @c(2) ~ L ] F @o @Dd(4) F(2) @D F @D(-1) F + F",
+             "@D(3) &(20) ! @Gs F @Di(2) + F @Ge(4) ~ L"],
     "grogra": ["Dl(3) F F", "Dl(3) [ F ] F F", "Dl(3) Dl(5) Ll(2) F F", "F @(0.5) RH F", "@(0.5) F",
                "RV F RL(90) RV(2) F RG F RL RG F RG F", "V(2) RV F V+(1) RV F Vl*(3) RV F RV F", "P(1) F P F P(-3) F P(17) F",
                "D*(3) F D F D+(20) F", "RL(180) RV(3) F RV(0.5) F"],
@@ -182,10 +184,11 @@ def test_words_of_all_commands(page, dialect, flat, data):
     expect_drawn(page, [[word] for word in found], [60.0, *ANGLES])
 
 
-@pytest.mark.parametrize(("letter", "what"), [("L", "step"), ("D", "width"), ("V", "strength")])
-def test_what_grows_too_large_is_refused_in_the_same_words(page, letter, what):
-    row = (Pattern(letter, (Number(10),)), *[Pattern(f"{letter}*", (Number(1000),))] * 17, Pattern("RV"), Pattern("F"))
-    expect_refused(page, derive(LSystem(row, (), turtle="grogra"), 0)[0],
+@pytest.mark.parametrize(("setting", "times", "what"), [("L", "L*", "step"), ("D", "D*", "width"), ("V", "V*", "strength"),
+                                                        ("@D", "@Di", "scale")])
+def test_what_grows_too_large_is_refused_in_the_same_words(page, setting, times, what):
+    row = (Pattern(setting, (Number(10),)), *[Pattern(times, (Number(1000),))] * 17, Pattern("RV"), Pattern("F"))
+    expect_refused(page, derive(LSystem(row, (), turtle="abop" if what == "scale" else "grogra"), 0)[0],
                    rf"The turtle's {what} grows too large to draw: 1e\+52")
 
 

@@ -29,6 +29,7 @@ class PlainTurtle:
     def __init__(self):
         self.place, self.frame, self.width = np.zeros(3), np.array([[0.0, -1, 0], [0, 0, -1], [1, 0, 0]]), 0.1
         self.axis, self.stack, self.ends, self.widths, self.points, self.corners = None, [], [], [], {}, []
+        self.scale = 1.0
 
     def obey(self, symbol, *values):
         x = values[0] if values else None
@@ -38,21 +39,23 @@ class PlainTurtle:
             self.frame = Rotation.from_rotvec(np.radians(degrees) * self.frame[:, axis]).as_matrix() @ self.frame
         elif symbol == "!":
             self.width = x
+        elif symbol in ("@D", "@Di"):
+            self.scale = x * (self.scale if symbol == "@Di" else 1)
         elif symbol in "Ff":
-            start, self.place = self.place, self.place + (1 if x is None else x) * self.frame[:, 0]
+            start, self.place = self.place, self.place + self.scale * (1 if x is None else x) * self.frame[:, 0]
             if symbol == "F" and self.axis is None:
                 self.ends.append((*start, *self.place))
-                self.widths.append(self.width)
+                self.widths.append(self.scale * self.width)
         elif symbol == "[":
-            self.stack.append((self.place, self.frame, self.width, self.axis))
+            self.stack.append((self.place, self.frame, self.width, self.axis, self.scale))
             self.axis = None
         elif symbol == "]":
-            self.place, self.frame, self.width, self.axis = self.stack.pop()
+            self.place, self.frame, self.width, self.axis, self.scale = self.stack.pop()
         elif symbol == "@Gs":
-            self.axis = self.place, self.frame[:, 0], self.width
+            self.axis = self.place, self.frame[:, 0], self.scale * self.width
         elif symbol in ("@Gc", "@Ge") and self.axis is not None:
             self.curve(8 if x is None else x)
-            self.axis = None if symbol == "@Ge" else (self.place, self.frame[:, 0], self.width)
+            self.axis = None if symbol == "@Ge" else (self.place, self.frame[:, 0], self.scale * self.width)
         elif symbol == "@PC":
             self.points[values] = self.place
         elif symbol == "@PD":
@@ -64,7 +67,7 @@ class PlainTurtle:
         handles = [first, first + reach * heading, last - reach * self.frame[:, 0], last]
         places = [casteljau(handles, number / parts) for number in range(parts + 1)]
         self.ends += [(*start, *end) for start, end in pairwise(places)]
-        self.widths += [width + (self.width - width) * number / parts for number in range(1, parts + 1)]
+        self.widths += [width + (self.scale * self.width - width) * number / parts for number in range(1, parts + 1)]
 
     def patch(self, which, along, across):
         rows = [[self.points[which, row, column] for column in range(4)] for row in range(4)]
@@ -92,7 +95,8 @@ def drawn_text(text):
 turns = st.tuples(st.sampled_from("+-&^\\/"), st.integers(-180, 180))
 steps = st.tuples(st.sampled_from("Ff"), st.integers(1, 5))
 cylinders = st.sampled_from([("@Gs",), ("@Gc",), ("@Ge",)]) | st.tuples(st.sampled_from(["@Gc", "@Ge"]), st.integers(1, 9))
-words = st.lists(turns | steps | cylinders | st.tuples(st.just("!"), st.integers(1, 9)), max_size=20).flatmap(
+scales = st.tuples(st.sampled_from(["@D", "@Di"]), st.sampled_from([0.5, 1, 3]))
+words = st.lists(turns | steps | cylinders | scales | st.tuples(st.just("!"), st.integers(1, 9)), max_size=20).flatmap(
     lambda word: st.integers(0, len(word)).map(lambda at: [("!", 2), ("@Gs",), *word[:at], ("[",), *word[at:], ("]",), ("F", 1),
                                                             ("@Ge", 3)]))
 

@@ -56,7 +56,8 @@ def command(symbols, values=None):
     return st.tuples(st.sampled_from(symbols), *([] if values is None else [values]))
 
 
-WIDTHS = {"abop": command("#!;,'") | command("#!", lengths) | command(";,'", st.integers(0, 9)),
+WIDTHS = {"abop": command("#!;,'") | command("#!", lengths) | command(";,'", st.integers(0, 9))
+          | command(("@D", "@Di", "@Dd"), st.integers(0, 30).map(lambda tenths: tenths / 10)),
           "grogra": command(("D", "P", "L")) | command(("D", "D+", "D*", "L", "L+", "Ll", "Dl", "F+"), lengths)
           | command(("L*", "Ll*", "Dl*", "F*"), st.integers(0, 15).map(lambda tenths: tenths / 10))
           | command("P", st.integers(0, 15)) | command("N") | command(("@",), st.integers(0, 4).map(lambda part: part / 4)),

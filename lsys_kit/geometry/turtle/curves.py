@@ -41,7 +41,7 @@ class AxisPoint(NamedTuple):
 
 
 def _here(turtle: Any) -> AxisPoint:
-    return AxisPoint(turtle.position, turtle.orientation[0], turtle.width)
+    return AxisPoint(turtle.position, turtle.orientation[0], turtle.stroke_width)
 
 
 def _begin_cylinder(turtle: Any, _: Instruction) -> None:
@@ -55,10 +55,10 @@ def _continue_cylinder(turtle: Any, instruction: Instruction) -> None:
     before, turtle.axis = turtle.axis, _here(turtle)
     parts = _bounded_number(instruction.addend)
     places = [*map(tuple, hermite(before, turtle.axis, parts).tolist()), turtle.position]
-    bare = OWN in (before.width, turtle.width)
+    bare = OWN in (before.width, turtle.axis.width)
     for number, (start, end) in enumerate(zip([before.place, *places[:-1]], places, strict=True), 1):
         share = number / parts
-        turtle.stroke(start, end, OWN if bare else (1 - share) * before.width + share * turtle.width)
+        turtle.stroke(start, end, OWN if bare else (1 - share) * before.width + share * turtle.axis.width)
 
 
 def _end_cylinder(turtle: Any, instruction: Instruction) -> None:

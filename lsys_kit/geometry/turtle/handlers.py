@@ -21,14 +21,14 @@ Handler: TypeAlias = Callable[[Any, Any], None]
 """Carries out an instruction, given a turtle and the operand of the instruction."""
 
 _SAVED_ATTRIBUTES = ("position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
-                     "mirror", "second_heading", "axis")
+                     "mirror", "second_heading", "axis", "scale")
 _saved_state = attrgetter(*_SAVED_ATTRIBUTES)
 
 
 def forward_handler(drawn: bool, vertex: bool) -> Handler:
     """A handler that moves the turtle forward, with or without a stroke and a vertex of a polygon."""
     def handler(turtle: Turtle, instruction: Instruction) -> None:
-        turtle.forward(instruction.factor * turtle.length + instruction.addend, drawn)
+        turtle.forward(turtle.scale * (instruction.factor * turtle.length + instruction.addend), drawn)
         if vertex and turtle.open_polygons:
             turtle.open_polygons[-1].corners.append(turtle.position)
         if drawn and turtle.restored:
@@ -49,6 +49,10 @@ def _set_gravitropism(turtle: Turtle, instruction: Instruction) -> None:
 def _set_width(turtle: Turtle, instruction: Instruction) -> None:
     before = turtle.first_width if turtle.width == OWN else turtle.width
     turtle.width = max(0.0, _bounded("width", instruction.factor * before + instruction.addend))
+
+
+def _set_scale(turtle: Turtle, instruction: Instruction) -> None:
+    turtle.scale = max(0.0, _bounded("scale", instruction.factor * turtle.scale + instruction.addend))
 
 
 def _bounded(what: str, value: float) -> float:
@@ -88,7 +92,7 @@ def _pop(turtle: Turtle, _: Instruction) -> None:
     if turtle.stack:
         (turtle.position, turtle.orientation, turtle.length, turtle.width, turtle.colour, turtle.gravitropism,
          turtle.tropisms, turtle.last, turtle.restored, turtle.mirror, turtle.second_heading,
-         turtle.axis) = turtle.stack.pop()
+         turtle.axis, turtle.scale) = turtle.stack.pop()
 
 
 def _begin_polygon(turtle: Turtle, _: Instruction) -> None:
@@ -120,20 +124,25 @@ def _draw_expected_surface(turtle: Turtle, instruction: Instruction) -> None:
     if turtle.expects_surface:
         turtle.expects_surface = False
         if surface := turtle.surfaces.get(instruction.symbol):
-            turtle.draw_surface(surface, instruction.factor * turtle.length + instruction.addend)
+            turtle.draw_surface(surface, _size(turtle, instruction))
         else:
             turtle.unknown[f"~{instruction.symbol}"] = None
 
 
 def draw_surface(turtle: Turtle, instruction: Instruction) -> None:
     """Draw one of the surfaces of the kit."""
-    turtle.draw_surface(surfaces()[instruction.surface], instruction.factor * turtle.length + instruction.addend)
+    turtle.draw_surface(surfaces()[instruction.surface], _size(turtle, instruction))
+
+
+def _size(turtle: Turtle, instruction: Instruction) -> float:
+    """A length that is drawn: the step, or an argument, at the scale of the turtle."""
+    return turtle.scale * (instruction.factor * turtle.length + instruction.addend)
 
 
 def _draw_round(kind: int) -> Handler:
     def handler(turtle: Turtle, instruction: Instruction) -> None:
         width = instruction.factor * (WIDTH if turtle.width == OWN else turtle.width) + instruction.addend
-        turtle.rounds.append(RoundShape(turtle.position, abs(width) / 2, kind, turtle.state, turtle.colour))
+        turtle.rounds.append(RoundShape(turtle.position, turtle.scale * abs(width) / 2, kind, turtle.state, turtle.colour))
     return handler
 
 
@@ -142,7 +151,7 @@ COMMON_HANDLERS: Mapping[str, Handler] = {
     "draw without vertex": forward_handler(True, False), "move without vertex": forward_handler(False, False),
     "set length": _set_length, "reset length": _reset("length"), "set length once": _set_once("length", _set_length),
     "set width": _set_width, "reset width": _reset("width"), "set width once": _set_once("width", _set_width),
-    "set gravitropism": _set_gravitropism, "reset gravitropism": _reset("gravitropism"),
+    "set scale": _set_scale, "set gravitropism": _set_gravitropism, "reset gravitropism": _reset("gravitropism"),
     "set gravitropism once": _set_once("gravitropism", _set_gravitropism),
     "set colour": _set_colour, "step colour": _step_colour, "reset colour": _reset("colour"), "push": _push, "pop": _pop,
     "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,

@@ -32,7 +32,7 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
 AttributeColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
-_CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored", "mirror")
+_CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored", "mirror", "scale")
 _carried_by = attrgetter(*_CARRIED_ATTRIBUTES)
 LEAST_REPETITION = 30
 """Instancing pays where a word has at least so many modules for each prototype."""

@@ -98,7 +98,7 @@ class PlaneTurtle(Turtle):
 
     def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
         """Record a step; return its number."""
-        self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.width, self.colour))
+        self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.stroke_width, self.colour))
         return len(self.steps) - 1
 
 

@@ -67,7 +67,7 @@ class SpaceTurtle(Turtle):
         self.position = end = x + length * hx, y + length * hy, z + length * hz
         if drawn:
             if self.axis is None:
-                self.stroke(start, end, self.width)
+                self.stroke(start, end, self.stroke_width)
             for pull in self.tropisms.values():
                 _bend_by_tropism(self, pull)
 

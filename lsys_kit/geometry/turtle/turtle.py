@@ -25,6 +25,8 @@ class Turtle(ABC):
         frame.
     length, width, colour, gravitropism
         The length of a step, the width and the colour of strokes, and the strength of `RV`.
+    scale
+        What multiplies all that is drawn: the lengths and the widths of strokes, and the sizes of shapes.
     mirror, second_heading
         Whether Fractint's turns are mirrored, -1, or not, 1; and its second heading, in degrees to the left of the first.
     tropisms
@@ -49,12 +51,13 @@ class Turtle(ABC):
 
     __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "flat", "gravitropism", "initial", "last",
                  "length", "mirror", "open_polygons", "orientation", "outlines", "patches", "position", "restored", "rounds",
-                 "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
+                 "scale", "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
 
     def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation
         self.last: Any = None
         self.length, self.width, self.colour, self.gravitropism = step, float(OWN), OWN, 0.0
+        self.scale = 1.0
         self.first_width, self.mirror, self.second_heading = first_width, 1, 0.0
         self.tropisms: Mapping[float, tuple[float, float, float]] = {}
         self.axis: Any = None
@@ -75,6 +78,11 @@ class Turtle(ABC):
         """Take the colour with which the turtle of a system begins, as the one that can be reset, and its surfaces."""
         self.colour = self.initial["colour"] = initial_colour(system)
         self.surfaces = surfaces_by_symbol(system)
+
+    @property
+    def stroke_width(self) -> float:
+        """The width of strokes, at the scale of the turtle."""
+        return self.width * self.scale if self.width > 0 else self.width
 
     @abstractmethod
     def forward(self, length: float, drawn: bool) -> None:

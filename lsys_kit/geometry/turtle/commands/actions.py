@@ -67,6 +67,7 @@ ACTIONS: Mapping[str, Effect] = {
 
     "set length": _INSTANCEABLE, "reset length": _INSTANCEABLE, "set length once": _INSTANCEABLE,
     "set width": _INSTANCEABLE, "reset width": _INSTANCEABLE, "set width once": _INSTANCEABLE,
+    "set scale": _INSTANCEABLE,
     "set colour": _INSTANCEABLE, "step colour": _INSTANCEABLE, "reset colour": _INSTANCEABLE,
     "set palette colour": _INSTANCEABLE,
     "set gravitropism": _INSTANCEABLE, "reset gravitropism": _INSTANCEABLE, "set gravitropism once": _INSTANCEABLE,

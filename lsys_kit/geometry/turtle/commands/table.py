@@ -1,11 +1,11 @@
 """What each symbol tells the turtle, in each dialect of turtle commands, side by side.
 
-ABOP's commands are those of The Algorithmic Beauty of Plants, appendix C, and of cpfg, which follows it; GROGRA's are those of
-W. Kurth's lecture slides; those of plant strings are the applet's; Fractint's are those of its documentation. The dialects
-agree on most symbols and differ on some: in GROGRA `/` is no roll, and a turn to the left appears as a turn to the right,
-because its turtle shows the picture its other side; in plant strings round brackets are branches; Fractint's turtle has two
-headings, one that `+` and `-` turn by the angle, and another that `\\` and `/` turn by degrees. A symbol that is in no column
-tells the turtle nothing.
+ABOP's commands are those of The Algorithmic Beauty of Plants, appendix C, and of cpfg, which follows it, with a few of L-Py,
+which follows both; GROGRA's are those of W. Kurth's lecture slides; those of plant strings are the applet's; Fractint's are
+those of its documentation. The dialects agree on most symbols and differ on some: in GROGRA `/` is no roll, and a turn to the
+left appears as a turn to the right, because its turtle shows the picture its other side; in plant strings round brackets are
+branches; Fractint's turtle has two headings, one that `+` and `-` turn by the angle, and another that `\\` and `/` turn by
+degrees. A symbol that is in no column tells the turtle nothing.
 """
 
 from __future__ import annotations
@@ -143,6 +143,9 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("",     "Dl",   "",    "the next stroke is x wide",                            Command("set width once")),
     Row("",     "Dl+",  "",    "the next stroke is wider by x",                        _more("set width once")),
     Row("",     "Dl*",  "",    "the next stroke is x times as wide",                   _times("set width once")),
+    Row("@D",   "",     "",    "the scale of all that is drawn is x, or 1",            Command("set scale", 0.0, 1.0)),
+    Row("@Di",  "",     "",    "the scale is x times as great",                        _times("set scale")),
+    Row("@Dd",  "",     "",    "the scale is 1/x times as great", Command("set scale", argument="inverse")),
     Row("; '",  "",     "",    "colour x, or the next one",                            _colour_step(1)),
     Row(",",    "",     "",    "colour x, or the one before",                          _colour_step(-1)),
     Row("",     "P",    "",    "colour x, or that at first",                           _settable("colour")),

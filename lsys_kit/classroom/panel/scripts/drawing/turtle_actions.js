@@ -14,7 +14,7 @@ const RAMP_END = 23; // the colours from bark to leaves
 const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
 export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
-  "mirror", "secondHeading", "axis"];
+  "mirror", "secondHeading", "axis", "scale"];
 
 // The colours of the ramp, stretched so that the farthest that is drawn is its end.
 export function stretchRamp(...groups) {
@@ -41,7 +41,7 @@ export function colourNaturally({ colours, orders, widths }) {
 export function newTurtle(trail, { length, width, colour }) {
   const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 };
   return {
-    ...initial, initial, trail, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
+    ...initial, initial, trail, scale: 1, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
     tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, flat: false,
     openPolygons: [],
     strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
@@ -50,6 +50,9 @@ export function newTurtle(trail, { length, width, colour }) {
   };
 }
 
+// The width of strokes, at the scale of the turtle.
+export const strokeWidth = ({ width, scale }) => (width > 0 ? width * scale : width);
+
 // A number rounded to a whole one, halves to the even one, as the kernel does it.
 export function halfToEven(value) {
   const whole = Math.round(value);
@@ -57,6 +60,9 @@ export function halfToEven(value) {
 }
 
 export const amountOf = (call, quantity) => call.factor * quantity + call.addend;
+
+// A length that is drawn: the step, or an argument, at the scale of the turtle.
+const sizeOf = (turtle, call) => turtle.scale * amountOf(call, turtle.length);
 
 function bounded(what, value) {
   if (!(Math.abs(value) <= LARGEST_VALUE))
@@ -75,7 +81,7 @@ function moveAhead(turtle, length, drawn) {
   turtle.position = to;
   if (!drawn) return;
   if (!turtle.axis) {
-    recordStroke(turtle, from, to, turtle.width);
+    recordStroke(turtle, from, to, strokeWidth(turtle));
     turtle.strokes.lengths.push(Math.abs(length));
   }
   if (turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
@@ -106,7 +112,7 @@ function endOneTimeSettings(turtle) {
 
 export function goAhead(drawn, vertex) {
   return (turtle, call) => {
-    moveAhead(turtle, amountOf(call, turtle.length), drawn);
+    moveAhead(turtle, sizeOf(turtle, call), drawn);
     if (vertex) recordVertex(turtle);
     if (drawn && turtle.restored.length) endOneTimeSettings(turtle);
   };
@@ -123,6 +129,10 @@ function setWidth(turtle, call) {
 
 function setGravitropism(turtle, call) {
   turtle.gravitropism = bounded("strength", amountOf(call, turtle.gravitropism));
+}
+
+function setScale(turtle, call) {
+  turtle.scale = Math.max(0, bounded("scale", amountOf(call, turtle.scale)));
 }
 
 function setColour(turtle, call) {
@@ -173,7 +183,7 @@ export function addFace(faces, { corners, colour, place, state }, smooth = false
 }
 
 function drawSurface(turtle, call) {
-  const size = amountOf(call, turtle.length), { colour, place, state } = turtle;
+  const size = sizeOf(turtle, call), { colour, place, state } = turtle;
   if (!size || !call.surface) return;
   const curved = !turtle.flat && call.surface.faces.length > 0;
   for (const face of curved ? call.surface.faces : call.surface.outlines) {
@@ -192,7 +202,7 @@ function drawRound(kind) {
   return (turtle, call) => {
     const width = amountOf(call, turtle.width === OWN_LOOK ? ROUND_WIDTH : turtle.width), { rounds } = turtle;
     roomFor(rounds.centres.push(turtle.position));
-    rounds.radii.push(Math.abs(width) / 2);
+    rounds.radii.push((turtle.scale * Math.abs(width)) / 2);
     rounds.kinds.push(kind);
     rounds.colours.push(turtle.colour);
     rounds.positions.push(turtle.place);
@@ -206,7 +216,7 @@ export function commonActions() {
     "draw without vertex": goAhead(true, false), "move without vertex": goAhead(false, false),
     "set length": setLength, "reset length": resetTo("length"), "set length once": setOnce("length", setLength),
     "set width": setWidth, "reset width": resetTo("width"), "set width once": setOnce("width", setWidth),
-    "set gravitropism": setGravitropism, "reset gravitropism": resetTo("gravitropism"),
+    "set scale": setScale, "set gravitropism": setGravitropism, "reset gravitropism": resetTo("gravitropism"),
     "set gravitropism once": setOnce("gravitropism", setGravitropism),
     "set colour": setColour, "step colour": stepColour, "reset colour": resetTo("colour"),
     "push": openBranch, "pop": closeBranch,

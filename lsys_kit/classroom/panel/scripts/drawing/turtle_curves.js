@@ -3,12 +3,12 @@
 // The axis of a generalised cylinder is a row of cubic Hermite curves, the tangents of which have the directions of the headings at
 // its control points, and are 1.2 times as long as these are apart.
 
-import { OWN_LOOK, addFace, amountOf, recordStroke } from "./turtle_actions.js";
+import { OWN_LOOK, addFace, amountOf, recordStroke, strokeWidth } from "./turtle_actions.js";
 
 const TANGENT = 1.2; // the lengths of tangents, where their points are 1 apart
 const MOST_PARTS = 100, PATCH_FACES = 5, ROWS = 4;
 
-const here = ({ position, orientation, width }) => ({ position, orientation, width });
+const here = (turtle) => ({ position: turtle.position, orientation: turtle.orientation, width: strokeWidth(turtle) });
 
 const boundedNumber = (value) => Math.max(1, Math.min(MOST_PARTS, Math.round(value)));
 
