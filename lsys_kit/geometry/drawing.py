@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
@@ -11,6 +12,10 @@ from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.notation.model.system import LSystem
+
+ANGLE_HINT = "An angle is in degrees, as in angle=25.7."
+"""What to write where an angle is no number."""
 
 
 def scene_of(what: Derivation | Word, angle: float | None = None, colours: str = "") -> Scene:
@@ -43,6 +48,21 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
     25 segments, width 6, height 9
     """
     return coloured(_scene_of(what, angle), what.states.system, colours)
+
+
+def turning_angle(given: object, system: LSystem) -> float:
+    """The turning angle that a person wants for a system, in degrees; by default the system's.
+
+    >>> from lsys_kit.notation.read import read
+    >>> turning_angle(None, read("angle: 60\\naxiom: F")), turning_angle("51/2", read("axiom: F"))
+    (60.0, 25.5)
+
+    Raises
+    ------
+    ModelValueError
+        It is no number, or a number that is not known.
+    """
+    return float(system.angle) if given is None else real_from(given, "angle", ANGLE_HINT)
 
 
 def _scene_of(what: Derivation | Word, angle: float | None) -> Scene:

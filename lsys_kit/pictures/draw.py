@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
-from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
@@ -18,6 +17,7 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
+from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
@@ -187,7 +187,7 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options,
     system = drawn[0].word.states.system
     if drawing_mode(system) is DrawingMode.FILAMENT:
         return _sequence(drawn, states, cells, options)
-    turn = real_from(angle, "angle") if angle is not None else float(system.angle)
+    turn = turning_angle(angle, system)
     scenes = in_units([seen_as(each.word, turn, options) for each in drawn], system)
     pictures = [Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states,
                         scene if scene.dimension == 3 else None)

@@ -18,6 +18,7 @@ from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require
+from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.cellworks import CellworkSystem
@@ -88,7 +89,7 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
     """
     require(turntable, bool, 'True or False for "turntable"')
     usual = TURN_SECONDS if turntable else SECONDS
-    pace = real_from(usual if seconds is None else seconds, "seconds")
+    pace = real_from(usual if seconds is None else seconds, "seconds", "A step is shown for some time, as in seconds=0.5.")
     size_from(size)  # which is wrong before anything is made
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
@@ -201,7 +202,7 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
 def _turtle_film(derivation: Derivation, angle: object, view: View | None, size: object,
                  options: Options) -> tuple[str, Sequence[Image]]:
     """What the turtle draws, step after step."""
-    turn = real_from(angle, "angle") if angle is not None else float(derivation.states.system.angle)
+    turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
         steps.append(seen_as(derivation.to(step), turn, options))

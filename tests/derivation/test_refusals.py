@@ -67,6 +67,13 @@ def test_an_angle_must_be_known() -> None:
         real_from(10**5_000, "angle")
 
 
+@pytest.mark.parametrize("given", ["x", "2*x", "angle"])
+def test_what_is_no_number_is_refused_with_the_hint_of_who_asks(given: str) -> None:
+    with pytest.raises(ModelValueError, match='"angle" must be a number') as refusal:
+        real_from(given, "angle", "An angle is in degrees.")
+    assert refusal.value.hint == "An angle is in degrees."
+
+
 def test_what_is_unknown_makes_no_whole_number() -> None:
     with pytest.raises(ModelValueError, match="unknown constant"):
         derive(read("k = 1\naxiom: A\nA -> repeat(k) <B>"), 1, k="k")

@@ -64,7 +64,7 @@ def test_one_cell_or_one_generation_is_lit() -> None:
 @pytest.mark.parametrize(("choices", "kind", "message"), [
     ({"angle": 30}, ModelNameError, 'A cellwork has no "angle". Its forces are stiffness, rest, pressure, damping'),
     ({"pressure": -1}, ModelValueError, '"pressure" must lie between'),
-    ({"view": ("x", 0)}, ModelNameError, "I do not know the name"),
+    ({"view": ("x", 0)}, ModelValueError, "\"view\" must be a number, not .x.. \\(30, 15\\) is from"),
     ({"cell": "x"}, ModelValueError, "The number of a cell must be a whole number"),
     ({"generation": -1}, ModelValueError, "The number of a generation must be a whole number"),
 ])

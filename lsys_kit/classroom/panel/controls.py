@@ -118,7 +118,7 @@ def _strides() -> Iterator[int]:
 
 def nearest(values: Sequence[Value], name: str, wanted: object) -> Value:
     """The value of a slider that is nearest to a number, or to the text of one."""
-    number = real_from(wanted, name)
+    number = real_from(wanted, name, f"A slider has numbers, as in {name}={number_text(values[0])}.")
     return min(values, key=lambda value: abs(float(value) - number))
 
 

@@ -16,9 +16,10 @@ from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_valu
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.held import SEED, Held, constant_choice, fewest, held_text, planned, seed_choice, settings
 from lsys_kit.classroom.panel.labels import translated_labels
-from lsys_kit.derivation.core.rules import number_from, real_from
+from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import path_from, save_file
+from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import write
@@ -127,7 +128,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     values = {name: slider_values(span) for name, span in ranges.items() if name not in without}
     held = _held(shelf, values, seed if first["chance"] and "seed" not in without else None, asked)
     fixed = {name: value for name, value in start.items() if name not in held.values and (name != SEED or first["chance"])}
-    turn = real_from(angle, "angle") if angle is not None else float(system.angle)
+    turn = turning_angle(angle, system)
     model = {"constants": [slider(name, held.values[name], start[name]) for name in values if name in held.values],
              "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))],
              "together": held.together, "fixed": held_text(fixed, held, values), "without": sorted(without),

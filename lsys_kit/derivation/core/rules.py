@@ -248,17 +248,19 @@ def number_from(given: object, name: str = "value") -> Value:
     raise ModelValueError(f'"{name}" must be a number, not {_beginning(given)}')
 
 
-def real_from(given: object, name: str) -> float:
-    """A number as a person gives it, where it has to be known, as a double.
+def real_from(given: object, name: str, hint: str | None = None) -> float:
+    """A number as a person gives it, where it has to be known, as a double; the hint says what to write instead.
 
-    >>> real_from("14/10", "angle")
+    >>> real_from("14/10", "angle", "Angles are in degrees.")
     1.4
     """
-    value = number_from(given, name)
     try:
-        return float(value)
+        return float(number_from(given, name))
+    except ModelNameError:
+        wanted = "a number"
     except (TypeError, OverflowError):
-        raise ModelValueError(f'"{name}" must be a number that is known and not too large, not {_beginning(given)}') from None
+        wanted = "a number that is known and not too large"
+    raise ModelValueError(f'"{name}" must be {wanted}, not {_beginning(given)}', hint=hint)
 
 
 def unknown_constant(name: str) -> Any:

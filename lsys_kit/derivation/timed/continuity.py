@@ -114,7 +114,8 @@ class Continuity:
         jumps = [division for division in self.divisions if division.defect != 0 and not division.defect.free_symbols]
         if jumps:
             raise ModelValueError(f'Whatever "{name}" is, the length jumps: {jumps[0]}')
-        ends = [None if end is None else real_from(end, "limit") for end in (low, high)]
+        hint = f'Give the range in which it lies, as in solve("{name}", 1, 10).'
+        ends = [None if end is None else real_from(end, "limit", hint) for end in (low, high)]
         with Task(f"The value of {name} was not found"), supervised():
             found = [root for root in roots(self._equation(name), *ends) if self._is_solved(name, root)]
         if len(found) == 1:
@@ -124,7 +125,7 @@ class Continuity:
             raise ModelValueError(f'No value of "{name}"{where} makes the length continuous')
         values = ", ".join(f"{float(root):.6g}" for root in found)
         raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {values}',
-                              hint=f'Give the range in which it lies, as in solve("{name}", 1, 10).')
+                              hint=hint)
 
     def _equation(self, name: str) -> sympy.Expr:
         """What is 0 where the length is continuous, with no other unknown name in it."""

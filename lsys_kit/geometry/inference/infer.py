@@ -15,6 +15,7 @@ from lsys_kit.derivation.inference import infer as words_alone
 from lsys_kit.derivation.inference.fits import Fits
 from lsys_kit.derivation.inference.infer import MOST_FITS
 from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.geometry.drawing import ANGLE_HINT
 from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
 from lsys_kit.geometry.inference.fits import SAME_TO, DrawingFits, drawn
 from lsys_kit.geometry.inference.node_rewriting import node_rules
@@ -158,7 +159,7 @@ def _why_none(drawings: tuple[Strokes, ...]) -> str:
 def _angle(given: object, drawings: tuple[Strokes, ...]) -> float:
     if given is None:
         return angle_between(drawings[:3])
-    degrees = real_from(given, "angle")
+    degrees = real_from(given, "angle", ANGLE_HINT)
     if not LEAST_ANGLE <= degrees <= 180:
         raise ModelValueError(f"The angle is from {LEAST_ANGLE:g} to 180 degrees, not {degrees:g}")
     return degrees

@@ -137,7 +137,7 @@ def dots_from(value: object, path: Path) -> float | None:
         return None
     if path.suffix.lower() != ".png":
         raise ModelValueError("Dots per inch are chosen for .png files", hint="Other formats are as sharp as the paper.")
-    dots = real_from(value, "dpi")
+    dots = real_from(value, "dpi", "A printer wants 300 dots per inch: dpi=300.")
     if not LEAST_DOTS <= dots <= MOST_DOTS:
         raise ModelValueError(f"A picture can have {LEAST_DOTS} to {MOST_DOTS:,} dots per inch, not {dots:g}")
     return dots

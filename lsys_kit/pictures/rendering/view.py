@@ -31,6 +31,7 @@ FLAT = 1e-9
 """What is no deeper than this part of its extent lies in the plane."""
 MOST_CYLINDERS = 10_000
 """Of more strokes one sees none by itself, and they are painted as plain lines."""
+_VIEW_HINT = "(30, 15) is from somewhat right of the front, and from above."
 EDGE_ON = 1e-9
 """How far a unit normal may point away from the viewer by rounding alone, where a polygon is seen from its edge."""
 
@@ -81,9 +82,8 @@ def view_from(value: object) -> View:
         It is no pair of angles.
     """
     if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != 2:
-        raise ModelValueError(f"A view is two angles, around and above, not {shown(value)}",
-                              hint="(30, 15) is from somewhat right of the front, and from above.")
-    around, above = (real_from(angle, "view") for angle in value)
+        raise ModelValueError(f"A view is two angles, around and above, not {shown(value)}", hint=_VIEW_HINT)
+    around, above = (real_from(angle, "view", _VIEW_HINT) for angle in value)
     return around, above
 
 

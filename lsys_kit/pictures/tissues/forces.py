@@ -22,8 +22,8 @@ def forces_of(choices: dict[str, object], usual: Forces = DEFAULT_FORCES, what: 
     for name, choice in choices.items():
         if name not in RANGES:
             raise ModelNameError(f'A {what} has no "{name}"', hint=f"Its forces are {', '.join(RANGES)}.")
-        values[name] = real_from(choice, name)
         least, most = RANGES[name]
+        values[name] = real_from(choice, name, f"It lies between {least} and {most}.")
         if not least <= values[name] <= most:
             raise ModelValueError(f'"{name}" must lie between {least} and {most}, not be {values[name]:g}')
     return replace(usual, **values)

@@ -15,8 +15,8 @@ from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
 from lsys_kit.classroom.panel.page import page_data
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
-from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
@@ -69,7 +69,7 @@ class OpenedSystem:
         return min(180.0, max(0.0, round(float(self.system.angle), 1)))
 
     def turned(self, angle: object) -> float:
-        turn = real_from(angle, "angle") if angle is not None else float(self.system.angle)
+        turn = turning_angle(angle, self.system)
         if not 0 <= turn <= 180:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
         return turn
