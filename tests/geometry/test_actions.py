@@ -37,7 +37,7 @@ def phrases(turtle: str, symbol: str) -> st.SearchStrategy[list[Pattern]]:
     scales = COMMANDS[turtle][symbol][0].argument not in ("", "all", "more", "less")  # but not beyond what can be drawn
     few = st.sampled_from((0, Fraction(1, 2), 1) if scales else (0, 2, 3, 20, 90, 180)).map(Number)
     values = st.lists(few, min_size=3 * (symbol == "@M"),
-                      max_size=3 if symbol == "@M" else 1)
+                      max_size={"@M": 3, "@B": 2}.get(symbol, 1))
     named = [Pattern("leaf")] if symbol == "~" else []
     return values.map(lambda arguments: [Pattern(symbol, tuple(arguments)), *named])
 

@@ -16,7 +16,8 @@ from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.system import LSystem
 
-PLANE = ("F", "f", "+", "-", "F(2)", "+(33)", "|", "!(2)", ";", "A", "B", "@o", "@c(3)", "@D(2)", "@Di(0.5)", "[+A]", "[F-B]")
+PLANE = ("F", "f", "+", "-", "F(2)", "+(33)", "|", "!(2)", ";", "A", "B", "@o", "@c(3)", "@D(2)", "@Di(0.5)", "@B(3,2)",
+         "[+A]", "[F-B]")
 SPACE = (*PLANE, "&", "^(20)", "/", "\\(70)", "[&A]", "@O(2)")
 SYSTEM = "axiom: {}\nA -> {}\nB -> {}\nF -> {}"
 

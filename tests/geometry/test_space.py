@@ -66,8 +66,9 @@ WIDTHS = {"abop": command("#!;,'") | command("#!", lengths) | command(";,'", st.
 STROKES = {"abop": command("FfGg+-") | command("Ff", lengths) | command("+-", degrees) | command("|"),
            "grogra": command(("F", "f", "+", "-", "RU")) | command("Ff", lengths) | command(("RU",), degrees),
            "plant-string": command("IAB+-"), "fractint": command("FGDM+-|!") | command("\\/", degrees)}
-SHAPES = {"abop": command("{.}") | command(("@o", "@c", "@O"), lengths) | command(("@o", "@c")) | st.just(("/", 180))
-          | st.just(("\\", -540)), "grogra": st.just(("RH", 180)), "plant-string": command("LF"), "fractint": st.nothing()}
+SHAPES = {"abop": command("{.}") | command(("@o", "@c", "@O"), lengths) | command(("@o", "@c", "@B"))
+          | st.tuples(st.just("@B"), lengths, lengths) | st.just(("/", 180)) | st.just(("\\", -540)),
+          "grogra": st.just(("RH", 180)), "plant-string": command("LF"), "fractint": st.nothing()}
 TURNS = {"abop": command("&^\\/") | command("&^\\/", degrees), "grogra": command(("RL", "RH")) | command(("RL", "RH"), degrees),
          "plant-string": st.nothing(), "fractint": st.nothing()}
 TRADITIONS = list(STROKES)

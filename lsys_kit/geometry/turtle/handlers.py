@@ -141,9 +141,21 @@ def _size(turtle: Turtle, instruction: Instruction) -> float:
 
 def _draw_round(kind: int) -> Handler:
     def handler(turtle: Turtle, instruction: Instruction) -> None:
-        width = instruction.factor * (WIDTH if turtle.width == OWN else turtle.width) + instruction.addend
+        width = instruction.factor * _shape_width(turtle) + instruction.addend
         turtle.rounds.append(RoundShape(turtle.position, turtle.scale * abs(width) / 2, kind, turtle.state, turtle.colour))
     return handler
+
+
+def _draw_box(turtle: Turtle, instruction: Instruction) -> None:
+    """Draw a box ahead: `@B`, `@B(length)` or `@B(length, width)`."""
+    length, width = _size(turtle, instruction), instruction.values[1] if len(instruction.values) > 1 else _shape_width(turtle)
+    if length and width:
+        turtle.draw_box(length, turtle.scale * abs(width))
+
+
+def _shape_width(turtle: Turtle) -> float:
+    """The width of shapes without an argument: that of strokes."""
+    return WIDTH if turtle.width == OWN else turtle.width
 
 
 COMMON_HANDLERS: Mapping[str, Handler] = {
@@ -157,5 +169,6 @@ COMMON_HANDLERS: Mapping[str, Handler] = {
     "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,
     "expect surface": expect_surface, "draw expected surface": _draw_expected_surface, "draw surface": draw_surface,
     "draw circle": _draw_round(CIRCLE), "draw disc": _draw_round(DISC), "draw sphere": _draw_round(SPHERE),
+    "draw box": _draw_box,
 }
 """The handlers that the turtles in the plane and in space share, by action."""

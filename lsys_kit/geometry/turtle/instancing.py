@@ -124,7 +124,7 @@ class Prototypes:
         system = self.states.system
         turtle = SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
         turtle.take_look(system)
-        turtle.flat = len(self._axes) == 2
+        turtle.in_plane = len(self._axes) == 2
         return turtle
 
     def of_row(self, row: Sequence[int], steps: int) -> Prototype:

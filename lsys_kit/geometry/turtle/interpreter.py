@@ -43,7 +43,7 @@ def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
     with _without_garbage_collection():
         compiled = compile_word(word, handlers, prepare)
         turtle.unknown = dict.fromkeys(compiled.unknown)
-        turtle.flat = turtle.flat or _surfaces_in(word, compiled) > MOST_CURVED
+        turtle.flat = turtle.in_plane or _surfaces_in(word, compiled) > MOST_CURVED
         for state in counted(word.numbers(), modules_between_checks(compiled.calls.values())):
             turtle.state = state
             for handler, operand in compiled.calls[state]:

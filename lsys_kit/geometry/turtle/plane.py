@@ -81,6 +81,7 @@ class PlaneTurtle(Turtle):
 
     def __init__(self, side: int, step: float, first_width: float) -> None:
         super().__init__(-1, (0.0, 0.0, side), step, first_width)
+        self.in_plane = True
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
     def forward(self, length: float, drawn: bool) -> None:

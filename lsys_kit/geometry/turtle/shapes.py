@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from lsys_kit.geometry.scene import Discs, Floats, Polygons
+from lsys_kit.geometry.turtle.patches import Face
 
 
 class Outline(NamedTuple):
@@ -27,6 +29,37 @@ class RoundShape(NamedTuple):
     kind: int
     state: int
     colour: int
+
+
+def rectangle(length: float, width: float) -> Face:
+    """The corners of a rectangle ahead of a turtle, in its frame.
+
+    >>> rectangle(3, 2)
+    ((0.0, -1.0, 0.0), (3, -1.0, 0.0), (3, 1.0, 0.0), (0.0, 1.0, 0.0))
+    """
+    half = width / 2
+    return (0.0, -half, 0.0), (length, -half, 0.0), (length, half, 0.0), (0.0, half, 0.0)
+
+
+def box_sides(length: float, width: float) -> list[Face]:
+    """The six sides of a box ahead of a turtle, or behind it where the length is negative, as wide as it is deep, in its frame.
+
+    Each side has its corners counter-clockwise as seen from outside.
+
+    >>> box_sides(3, 2)[0]
+    ((0.0, -1.0, -1.0), (0.0, -1.0, 1.0), (0.0, 1.0, 1.0), (0.0, 1.0, -1.0))
+    """
+    half = width / 2
+    ends = (min(length, 0.0), max(length, 0.0)), (-half, half), (-half, half)
+    return [_side(ends, axis, end) for axis, end in product(range(3), (0, 1))]
+
+
+def _side(ends: Sequence[tuple[float, float]], axis: int, end: int) -> Face:
+    """A side of a box, given both ends of each of its axes: that at an end of one of them."""
+    around = ((0, 0), (1, 0), (1, 1), (0, 1)) if end else ((0, 0), (0, 1), (1, 1), (1, 0))
+    places = [(end, *others) for others in around]
+    ahead, left, up = ([between[place[(which - axis) % 3]] for place in places] for which, between in enumerate(ends))
+    return tuple(zip(ahead, left, up, strict=True))
 
 
 def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:

@@ -51,7 +51,7 @@ _STROKE_COLUMNS = 10
 class SpaceTurtle(Turtle):
     """A turtle in space, whose position is a point and whose orientation is a frame.
 
-    Where it is `flat`, because it stays in the plane of the picture or draws many surfaces, it draws them by their outlines.
+    Where it stays in the plane of the picture, or is `flat`, as it draws many surfaces, it draws these by their outlines.
     """
 
     __slots__ = ("start", "strokes")
@@ -81,7 +81,7 @@ class SpaceTurtle(Turtle):
         return *rotated_towards(head, left, *cos_sin(degrees)), up, rotations
 
     def draw_surface(self, surface: Surface, size: float) -> None:
-        if self.flat or not surface.normals:
+        if self.in_plane or self.flat or not surface.normals:
             super().draw_surface(surface, size)
             return
         for face, normals in zip(surface.faces, surface.normals, strict=True) if size else ():
@@ -242,7 +242,7 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system),
                          TURTLE_DIALECTS[system.turtle].width)
     turtle.take_look(system)
-    turtle.flat = in_plane(system)
+    turtle.in_plane = in_plane(system)
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from lsys_kit.budget import current
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_colour
 from lsys_kit.geometry.turtle.patches import Face
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
+from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, box_sides, rectangle
 from lsys_kit.geometry.turtle.surfaces import Surface, surfaces_by_symbol
 from lsys_kit.notation.model.system import LSystem
 
@@ -45,13 +45,13 @@ class Turtle(ABC):
         The state of the module that is being interpreted.
     surfaces
         The surfaces that it can draw, by their symbols.
-    flat
-        Whether it draws surfaces by their outlines alone.
+    in_plane, flat
+        Whether it stays in the plane of the picture, where boxes are rectangles; whether it draws surfaces by their outlines.
     """
 
-    __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "flat", "gravitropism", "initial", "last",
-                 "length", "mirror", "open_polygons", "orientation", "outlines", "patches", "position", "restored", "rounds",
-                 "scale", "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
+    __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "flat", "gravitropism", "in_plane",
+                 "initial", "last", "length", "mirror", "open_polygons", "orientation", "outlines", "patches", "position",
+                 "restored", "rounds", "scale", "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
 
     def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation
@@ -72,7 +72,7 @@ class Turtle(ABC):
         self.rounds: list[RoundShape] = []
         self.unknown: dict[str, None] = {}
         self.surfaces: Mapping[str, Surface] = {}
-        self.flat = False
+        self.in_plane = self.flat = False
 
     def take_look(self, system: LSystem) -> None:
         """Take the colour with which the turtle of a system begins, as the one that can be reset, and its surfaces."""
@@ -99,7 +99,15 @@ class Turtle(ABC):
     def draw_surface(self, surface: Surface, size: float) -> None:
         """Draw a surface at the position of the turtle: in the plane its outlines."""
         if size:
-            self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in surface.outlines]
+            self.draw_faces(surface.outlines, size)
+
+    def draw_box(self, length: float, width: float) -> None:
+        """Draw a box ahead: in the plane a rectangle."""
+        self.draw_faces([rectangle(length, width)] if self.in_plane else box_sides(length, width))
+
+    def draw_faces(self, faces: Iterable[Face], size: float = 1.0) -> None:
+        """Draw flat faces, given in the frame of the turtle."""
+        self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in faces]
 
     def local_points(self, face: Face, size: float) -> list[Any]:
         """The corners of a face of a surface of some size."""

@@ -84,6 +84,7 @@ ACTIONS: Mapping[str, Effect] = {
     "draw circle": _VISIBLE | _INSTANCEABLE,
     "draw disc": _VISIBLE | _INSTANCEABLE,
     "draw sphere": _VISIBLE | _INSTANCEABLE,
+    "draw box": _VISIBLE | _INSTANCEABLE,
     "begin cylinder": _LEAVES_PLANE,
     "continue cylinder": _VISIBLE | _LEAVES_PLANE,
     "end cylinder": _VISIBLE | _LEAVES_PLANE,

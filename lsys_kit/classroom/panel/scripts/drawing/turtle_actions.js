@@ -11,7 +11,7 @@ const LARGEST_VALUE = 1e50;
 const LAST_COLOUR = 2 ** 31 - 1;
 export const RAMP_START = 16;
 const RAMP_END = 23; // the colours from bark to leaves
-const ROUND_WIDTH = 0.1; // of circles, discs and spheres where no width has been set
+const SHAPE_WIDTH = 0.1; // of circles, discs, spheres and boxes where no width has been set
 export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading", "axis", "scale"];
@@ -52,6 +52,9 @@ export function newTurtle(trail, { length, width, colour }) {
 
 // The width of strokes, at the scale of the turtle.
 export const strokeWidth = ({ width, scale }) => (width > 0 ? width * scale : width);
+
+// The width of shapes without an argument: that of strokes.
+const shapeWidth = ({ width }) => (width === OWN_LOOK ? SHAPE_WIDTH : width);
 
 // A number rounded to a whole one, halves to the even one, as the kernel does it.
 export function halfToEven(value) {
@@ -183,14 +186,28 @@ export function addFace(faces, { corners, colour, place, state }, smooth = false
 }
 
 function drawSurface(turtle, call) {
-  const size = sizeOf(turtle, call), { colour, place, state } = turtle;
+  const size = sizeOf(turtle, call);
   if (!size || !call.surface) return;
   const curved = !turtle.flat && call.surface.faces.length > 0;
-  for (const face of curved ? call.surface.faces : call.surface.outlines) {
+  addLocalFaces(turtle, curved ? call.surface.faces : call.surface.outlines, size, curved);
+}
+
+// Faces that are given in the frame of the turtle.
+function addLocalFaces(turtle, faces, size, smooth) {
+  const { colour, place, state } = turtle;
+  for (const face of faces) {
     const corners = face.map(([ahead, left, up]) =>
       turtle.trail.local(turtle.orientation, turtle.position, size * ahead, size * left, size * up));
-    addFace(turtle.faces, { corners, colour, place, state }, curved);
+    addFace(turtle.faces, { corners, colour, place, state }, smooth);
   }
+}
+
+// A box ahead, given how its sides follow from its length and half its width.
+export function drawBox(sides) {
+  return (turtle, call) => {
+    const length = sizeOf(turtle, call), width = turtle.scale * Math.abs(call.values[1] ?? shapeWidth(turtle));
+    if (length && width) addLocalFaces(turtle, sides(length, width / 2), 1, false);
+  };
 }
 
 function drawExpectedSurface(turtle, call) {
@@ -200,7 +217,7 @@ function drawExpectedSurface(turtle, call) {
 
 function drawRound(kind) {
   return (turtle, call) => {
-    const width = amountOf(call, turtle.width === OWN_LOOK ? ROUND_WIDTH : turtle.width), { rounds } = turtle;
+    const width = amountOf(call, shapeWidth(turtle)), { rounds } = turtle;
     roomFor(rounds.centres.push(turtle.position));
     rounds.radii.push((turtle.scale * Math.abs(width)) / 2);
     rounds.kinds.push(kind);

@@ -4,7 +4,7 @@
 // An orientation is [turns, degrees, side]: both to the left, and the side on which its left lies, 1, or -1 after a roll by
 // half a turn. Point 0 is the origin. Fractint's turtle, which never leaves the plane, has a second heading, in degrees.
 
-import { OWN_LOOK, amountOf, commonActions, goAhead, roomFor } from "./turtle_actions.js";
+import { OWN_LOOK, amountOf, commonActions, drawBox, goAhead, roomFor } from "./turtle_actions.js";
 
 const RADIANS_PER_DEGREE = Math.PI / 180;
 const FRACTINT_COLOURS = 256, FRACTINT_WHITE = 15;
@@ -77,9 +77,12 @@ function wrapped(value, round) {
   return ((value % round) + round) % round;
 }
 
+const rectangle = (length, half) => [[[0, -half, 0], [length, -half, 0], [length, half, 0], [0, half, 0]]];
+
 export function planeActions() {
   return {
     ...commonActions(), "turn": turnInPlane, "turn back": turnInPlane, "roll": rollInPlane, "return to stroke": returnToStroke,
+    "draw box": drawBox(rectangle),
     "draw by second heading": bySecondHeading(true), "move by second heading": bySecondHeading(false),
     "turn second heading": (turtle, call) => { turtle.secondHeading += turtle.mirror * call.addend; },
     "mirror turns": (turtle) => { turtle.mirror = -turtle.mirror; },

@@ -4,7 +4,7 @@
 // A frame is three unit vectors: the heading H, the left L and the up U, where H x L = U. x grows to the right, z upwards and y
 // away from the viewer. An orientation is the number of a frame, of which 0 is the first; point 0 is the origin.
 
-import { commonActions, roomFor } from "./turtle_actions.js";
+import { commonActions, drawBox, roomFor } from "./turtle_actions.js";
 import { curveActions, onCurve } from "./turtle_curves.js";
 import { returnToStroke } from "./turtle_plane.js";
 
@@ -102,9 +102,20 @@ function setPosition(turtle, { values }) {
 // In cpfg's axes y grows upwards and z towards the viewer.
 const fromCpfg = ([x, y, z]) => [x, -z, y];
 
+// The sides of a box, each with its corners counter-clockwise as seen from outside.
+function boxSides(length, half) {
+  const ends = [[Math.min(length, 0), Math.max(length, 0)], [-half, half], [-half, half]];
+  const around = [[0, 0], [1, 0], [1, 1], [0, 1]];
+  return [0, 1, 2].flatMap((axis) => [around.map(([one, other]) => [other, one]), around].map((corners, end) =>
+    corners.map(([one, other]) => {
+      const side = [end, one, other];
+      return ends.map(([least, greatest], k) => (side[(k - axis + 3) % 3] ? greatest : least));
+    })));
+}
+
 export function spaceActions() {
   return {
-    ...commonActions(), ...curveActions(), "set heading": setHeading, "turn": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
+    ...commonActions(), ...curveActions(), "draw box": drawBox(boxSides), "set heading": setHeading, "turn": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
     "roll": rotationBy(ROLLED), "level": rollLevel, "gravitropism": bendByGravitropism,
     "set tropism": setTropism, "set position": setPosition, "return to stroke": returnToStroke,
   };
