@@ -13,6 +13,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from lsys_kit.geometry.labels import Labels, no_labels
+
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 
@@ -222,8 +224,8 @@ class Scene:
 
     Attributes
     ----------
-    segments, cells, walls, polygons, discs
-        The shapes.
+    segments, cells, walls, polygons, discs, labels
+        The shapes, and what is written.
     unknown
         The symbols that look like commands and are none, in the order of their first occurrence.
     """
@@ -233,6 +235,7 @@ class Scene:
     walls: Walls = field(default_factory=no_walls)
     polygons: Polygons = field(default_factory=no_polygons)
     discs: Discs = field(default_factory=no_discs)
+    labels: Labels = field(default_factory=no_labels)
     unknown: tuple[str, ...] = ()
 
     @property
@@ -243,12 +246,13 @@ class Scene:
     @property
     def size(self) -> int:
         """How many shapes there are to draw, with each corner of a polygon."""
-        return len(self.segments) + len(self.cells) + len(self.walls) + len(self.polygons.points) + len(self.discs)
+        return (len(self.segments) + len(self.cells) + len(self.walls) + len(self.polygons.points) + len(self.discs)
+                + len(self.labels))
 
     @property
     def corners(self) -> tuple[Floats, Floats]:
         """The bounding box: the least and the greatest of each coordinate; zeros for an empty scene."""
-        shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs)
+        shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs, self.labels)
         found = [each.points for each in shapes if len(each)] or [np.zeros((1, self.dimension))]
         axes = range(self.dimension)  # column by column, which is ten times as fast
         return (np.array([min(points[:, axis].min() for points in found) for axis in axes]),
@@ -276,7 +280,7 @@ class Scene:
     def __str__(self) -> str:
         """The scene in words: the line that replaces a picture where none can be shown."""
         kinds = ((self.segments, "segment"), (self.cells, "cell"), (self.walls, "wall"), (self.polygons, "polygon"),
-                 (self.discs, "disc"))
+                 (self.discs, "disc"), (self.labels, "label"))
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
         least, greatest = self.corners
         depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""

@@ -28,16 +28,19 @@ from lsys_kit.pictures.chosen_words import derivation_of
 from lsys_kit.pictures.draw import check_choices, draw, state_colours
 from lsys_kit.pictures.formats.film import SECONDS, Film
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import centred, turtle_image
+from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.kinds import coloured_symbols, kind_of
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import frame_around
+from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around
 from lsys_kit.pictures.rendering.line_widths import in_units
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
 from lsys_kit.pictures.sizes import enlargement, final_size, size_from
 from lsys_kit.pictures.style.themes import drawn_on
+from lsys_kit.pictures.svg import document, embedded, labels_svg
 from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
 
 if TYPE_CHECKING:
@@ -217,8 +220,16 @@ def _framed(scenes: Sequence[Scene], colour_of: Mapping[int, str], size: object,
     frame, found = frame_around(scenes), size_from(size)
     width, more = legend.size(frame.width) if legend else (frame.width, 0)
     enlarged, whole = enlargement(width, frame.height + more, found), final_size(width, frame.height + more, found)
-    images = (turtle_image(scene, colour_of, frame, enlarged) for scene in counted(scenes, 1))
+    images = (_with_labels(turtle_image(scene, colour_of, frame, enlarged), scene, frame) for scene in counted(scenes, 1))
     return [centred(image_with_legend(image, legend, enlarged), whole) for image in images]
+
+
+def _with_labels(image: Image, scene: Scene, frame: ViewFrame) -> Image:
+    """An image of a scene with what the turtle has written."""
+    if not len(scene.labels):
+        return image
+    body = embedded(frame.width * frame.parts, frame.height * frame.parts, image) + labels_svg(scene, frame)
+    return painted(drawing_of(document(body, frame.width, frame.height, "", frame.parts)), image.width / frame.width)
 
 
 def _turned(what: Any, n: int | None, pace: float, view: View | None, size: object, choices: Mapping[str, Any]) -> Film:

@@ -25,7 +25,7 @@ from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
 from lsys_kit.pictures.sizes import SHARP, enlargement
 from lsys_kit.pictures.style.themes import drawn_on, theme
-from lsys_kit.pictures.svg import background, described, document, embedded, resized, turtle_svg
+from lsys_kit.pictures.svg import background, described, document, embedded, labels_svg, resized, turtle_svg
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -160,7 +160,7 @@ def _panel_svg(picture: Picture, panel: Panel, caption: str, pixels: float) -> s
     """A drawing with its caption; perhaps as so many pixels in each direction of one of the picture."""
     parts = panel.frame.parts
     drawn = turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked) if not pixels else \
-        _panel_image(picture, panel, pixels)
+        _panel_image(picture, panel, pixels) + labels_svg(picture.scene, panel.frame)
     return (f'{drawn}<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" '
             f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" '
             f'fill="{theme().quiet}">{escape(caption)}</text>')

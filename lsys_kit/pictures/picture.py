@@ -36,7 +36,7 @@ from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.sizes import SHARP, enlargement
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, resized, turtle_svg
+from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, labels_svg, resized, turtle_svg
 from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class Picture(SVGPicture):
             return on_ground(lambda: self._image(enlarged))
 
     def _image(self, enlarged: float) -> Image:
-        if len(self.scene.cells) or self.legend:
+        if len(self.scene.cells) or self.legend or len(self.scene.labels):
             most = MOST_PAINTED if len(self.scene.cells) else 0
             return painted(drawing_of(self._written(most, enlarged)), enlarged)
         return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
@@ -147,7 +147,7 @@ class Picture(SVGPicture):
         if self.size > most:
             factor = enlarged * enlargement(usual.width, usual.height, self.pixels)
             image = on_ground(lambda: turtle_image(self.scene, self.colour_of, usual, factor))
-            body = embedded(frame.width * frame.parts, frame.height * frame.parts, image)
+            body = embedded(frame.width * frame.parts, frame.height * frame.parts, image) + labels_svg(self.scene, frame)
         else:
             body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
         return self._framed(body, frame.width, frame.height, frame.parts)
@@ -188,7 +188,7 @@ class Picture(SVGPicture):
         """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.
 
         The last two are for 3D programs and contain only the last step. The colours of an .obj file are kept in an .mtl file
-        beside it.
+        beside it. Labels are no shapes in space, and left out there.
 
         Parameters
         ----------

@@ -19,7 +19,7 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Integers, Scene
 from lsys_kit.pictures.rendering.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines
-from lsys_kit.pictures.rendering.frames import ViewFrame
+from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, ViewFrame, label_width
 from lsys_kit.pictures.rendering.looks import stroke_scale
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
@@ -83,7 +83,18 @@ def turtle_svg(scene: Scene, frame: ViewFrame, colour_of: Mapping[int, str], mar
             texts, look = (areas, _AREAS) if kind is AreaRun else (rounds, _ROUNDS)
             body = "".join(texts[number] for run in runs for number in run.numbers.tolist())
             parts.append(f'<g stroke-width="{look * frame.parts:.0f}" stroke-linejoin="round">{body}</g>' if body else "")
-    return "".join(parts)
+    return "".join(parts) + labels_svg(scene, frame)
+
+
+def labels_svg(scene: Scene, frame: ViewFrame) -> str:
+    """The labels of a scene, each to the right of its point, as far as the picture goes."""
+    texts = []
+    for (x, y), text in zip(frame.points(scene.labels.points).tolist(), scene.labels.texts, strict=True):
+        start = min(x + LABEL_GAP * frame.parts, (frame.width + LABEL_GAP - label_width(text)) * frame.parts)
+        texts.append(f'<text x="{start:.0f}" y="{y + 0.36 * LABEL * frame.parts:.0f}">{escape(text)}</text>')
+    return (f'<g class="label" font-size="{LABEL * frame.parts}" font-family="sans-serif" fill="{theme().ink}" '
+            f'stroke="{theme().paper}" stroke-width="{3 * frame.parts}" stroke-linejoin="round" paint-order="stroke">'
+            f'{"".join(texts)}</g>') if texts else ""
 
 
 _AREAS, _ROUNDS = 0.6, 1.0

@@ -17,6 +17,7 @@ from lsys_kit.geometry.natural_colours import has_natural_colours
 from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions
 from lsys_kit.geometry.turtle.commands.mode import drawing_mode
 from lsys_kit.geometry.turtle.commands.table import initial_colour, initial_step
+from lsys_kit.geometry.turtle.shapes import label_text
 from lsys_kit.geometry.turtle.surfaces import surfaces_by_symbol
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.draw import state_colours
@@ -65,4 +66,5 @@ def call_of(instruction: Instruction) -> list[Any]:
     action, factor, addend, values, symbol, surface = instruction
     if action == "draw expected surface":
         surface = symbol
-    return [action, factor, addend if abs(addend) < float("inf") else "Infinity", list(values) or 0, surface or 0]
+    said = [label_text(values)] if action == "draw label" and values else list(values)
+    return [action, factor, addend if abs(addend) < float("inf") else "Infinity", said or 0, surface or 0]

@@ -36,9 +36,10 @@ const taken = (group) => Object.fromEntries(Object.entries(group).map(([name, va
 return given.map(({ book, angles }) => book.words.map((word, step) => {
   const opened = bookOf(book);
   return angles.map((angle) => {
-    const { x, y, z, strokes, faces, rounds, palette, typical } = placed(traced(opened, step), angle);
+    const { x, y, z, strokes, faces, rounds, labels, palette, typical } = placed(traced(opened, step), angle);
     const points = [x, y, z ?? []].map(plain);
-    return { points, strokes: taken(strokes), faces: taken(faces), rounds: taken(rounds), palette, typical };
+    return { points, strokes: taken(strokes), faces: taken(faces), rounds: taken(rounds), labels: taken(labels),
+      palette, typical };
   });
 }));
 """
@@ -86,6 +87,8 @@ def expect_same(shapes, scene, word, last):
     assert ends == close(segments.ends)
     assert points[faces["corners"]].reshape(-1) == close(polygons.points.reshape(-1))
     assert points[rounds["centres"]].reshape(-1) == close(discs.centres.reshape(-1))
+    assert points[shapes["labels"]["points"]].reshape(-1) == close(scene.labels.points.reshape(-1))
+    assert tuple(shapes["labels"]["texts"]) == scene.labels.texts
     assert strokes["widths"] == pytest.approx(np.broadcast_to(segments.widths, len(segments)), rel=1e-9)
     assert rounds["radii"] == pytest.approx(discs.radii, rel=1e-9)
     assert (strokes["orders"], faces["starts"], rounds["kinds"]) == (
@@ -152,7 +155,8 @@ SELDOM = {
              "F /(180) + F /(-180) + F /(540) + F /(90) F", "&(90) F $ F @v F", "F" + " &(7) F +" * 1100,
              "@D(2) F !(3) F [ @Di(2) + F @O @c(2) ~ L ] F @o @Dd(4) F(2) @D F @D(-1) F + F",
              "@D(3) &(20) ! @Gs F @Di(2) + F @Ge(4) ~ L",
-             "F @B !(3) @B(2) + @D(2) @B(-2,1) @B(0) @B(1,0) F", "&(30) F @B(2,1) + !(2) @B ^ @B(-3,1)" + " ~ L" * 151],
+             "F @B !(3) @B(2) + @D(2) @B(-2,1) @B(0) @B(1,0) F", "&(30) F @B(2,1) + !(2) @B ^ @B(-3,1)" + " ~ L" * 151,
+             "@L(0) F + F @L(2.5,-1) [ F @L ] @L(1000000)", "&(30) F @L(7) F"],
     "grogra": ["Dl(3) F F", "Dl(3) [ F ] F F", "Dl(3) Dl(5) Ll(2) F F", "F @(0.5) RH F", "@(0.5) F",
                "RV F RL(90) RV(2) F RG F RL RG F RG F", "V(2) RV F V+(1) RV F Vl*(3) RV F RV F", "P(1) F P F P(-3) F P(17) F",
                "D*(3) F D F D+(20) F", "RL(180) RV(3) F RV(0.5) F"],

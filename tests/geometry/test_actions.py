@@ -117,5 +117,5 @@ def test_an_action_does_what_the_table_says(action: str) -> None:
     assert (before.position != after.position) == (Effect.MOVES in effects)
     assert (before.orientation != after.orientation) == (Effect.TURNS in effects)
     assert (len(after.stack) - len(before.stack)) == (Effect.OPENS in effects) - (Effect.CLOSES in effects)
-    shapes = (len(turtle.strokes) + len(turtle.outlines) + len(turtle.rounds) for turtle in (before, after))
+    shapes = (sum(map(len, (turtle.strokes, turtle.outlines, turtle.rounds, turtle.labels))) for turtle in (before, after))
     assert (len(set(shapes)) == 2 or action.startswith("move")) == (Effect.VISIBLE in effects)

@@ -24,7 +24,7 @@ def test_a_symbol_means_one_thing_in_a_dialect():
 
 @pytest.mark.parametrize("symbol", ["F", "f", "G", "g", "@M", "+", "-", "&", "^", "\\", "/", "|", "$", "@v", ";", ",", "#", "!",
                                     "'", "[", "]", "{", ".", "}", "~", "@o", "@c", "@O", "%", "?P", "?H", "?U", "?L", "?E",
-                                    "@Ts", "@R", "@Gs", "@Gc", "@Ge", "@PS", "@PC", "@PD", "@D", "@Di", "@B"])
+                                    "@Ts", "@R", "@Gs", "@Gc", "@Ge", "@PS", "@PC", "@PD", "@D", "@Di", "@B", "@L"])
 def test_abop_has_the_commands_of_appendix_c_and_of_cpfg(symbol):
     assert symbol in COMMANDS["abop"]
 

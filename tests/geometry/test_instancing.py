@@ -80,7 +80,7 @@ def test_a_step_that_shrinks_goes_with_the_turtle() -> None:
     assert found.height == pytest.approx(200, abs=1)
 
 
-@pytest.mark.parametrize("text", ["axiom: F $ F", "axiom: {F+F+F}", "axiom: A F\nF < A -> F"])
+@pytest.mark.parametrize("text", ["axiom: F $ F", "axiom: {F+F+F}", "axiom: F @L(1) F", "axiom: A F\nF < A -> F"])
 def test_what_asks_for_more_goes_module_by_module(text: str) -> None:
     assert draw_all_instanced(read(text), 1) is None
 

@@ -67,7 +67,8 @@ STROKES = {"abop": command("FfGg+-") | command("Ff", lengths) | command("+-", de
            "grogra": command(("F", "f", "+", "-", "RU")) | command("Ff", lengths) | command(("RU",), degrees),
            "plant-string": command("IAB+-"), "fractint": command("FGDM+-|!") | command("\\/", degrees)}
 SHAPES = {"abop": command("{.}") | command(("@o", "@c", "@O"), lengths) | command(("@o", "@c", "@B"))
-          | st.tuples(st.just("@B"), lengths, lengths) | st.just(("/", 180)) | st.just(("\\", -540)),
+          | st.tuples(st.just("@B"), lengths, lengths) | st.just(("/", 180)) | st.just(("\\", -540))
+          | st.tuples(st.just("@L"), lengths),
           "grogra": st.just(("RH", 180)), "plant-string": command("LF"), "fractint": st.nothing()}
 TURNS = {"abop": command("&^\\/") | command("&^\\/", degrees), "grogra": command(("RL", "RH")) | command(("RL", "RH"), degrees),
          "plant-string": st.nothing(), "fractint": st.nothing()}
@@ -118,6 +119,9 @@ def test_the_turtles_in_the_plane_and_in_space_agree(found, angle, heading):
     assert np.allclose(flat.segments.ends, whole.segments.ends[:, [0, 2, 3, 5]], rtol=0, atol=near)
     assert np.allclose(flat.polygons.points, whole.polygons.points[:, plane], rtol=0, atol=near)
     assert np.allclose(flat.discs.centres, whole.discs.centres[:, plane], rtol=0, atol=near)
+    assert np.allclose(flat.labels.points, whole.labels.points[:, plane], rtol=0, atol=near)
+    assert flat.labels.texts == whole.labels.texts
+    assert (flat.labels.states == whole.labels.states).all()
     for kind, details in (("segments", "orders states widths colours"), ("polygons", "starts states colours"),
                           ("discs", "radii kinds states colours")):
         for detail in details.split():

@@ -10,7 +10,7 @@ from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
 from lsys_kit.geometry.turtle.commands.instructions import LARGEST, Instruction
 from lsys_kit.geometry.turtle.commands.table import RAMP_END, RAMP_START, WIDTH
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape
+from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, label_text
 from lsys_kit.geometry.turtle.surfaces import surfaces
 from lsys_kit.geometry.turtle.turtle import Turtle
 
@@ -158,6 +158,11 @@ def _shape_width(turtle: Turtle) -> float:
     return WIDTH if turtle.width == OWN else turtle.width
 
 
+def _draw_label(turtle: Turtle, instruction: Instruction) -> None:
+    if instruction.values:
+        turtle.labels.append(Writing(turtle.position, label_text(instruction.values), turtle.state))
+
+
 COMMON_HANDLERS: Mapping[str, Handler] = {
     "draw": forward_handler(True, True), "move": forward_handler(False, True),
     "draw without vertex": forward_handler(True, False), "move without vertex": forward_handler(False, False),
@@ -169,6 +174,6 @@ COMMON_HANDLERS: Mapping[str, Handler] = {
     "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,
     "expect surface": expect_surface, "draw expected surface": _draw_expected_surface, "draw surface": draw_surface,
     "draw circle": _draw_round(CIRCLE), "draw disc": _draw_round(DISC), "draw sphere": _draw_round(SPHERE),
-    "draw box": _draw_box,
+    "draw box": _draw_box, "draw label": _draw_label,
 }
 """The handlers that the turtles in the plane and in space share, by action."""

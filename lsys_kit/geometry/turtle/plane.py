@@ -22,7 +22,7 @@ from lsys_kit.geometry.turtle.commands.table import initial_step
 from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
 from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
 from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, collected_shapes
+from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, collected_labels, collected_shapes
 from lsys_kit.geometry.turtle.turtle import Turtle
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
@@ -47,8 +47,8 @@ class Path:
         Shape (n,): the state of its module.
     widths, colours
         Shape (n,), as of `Segments`.
-    outlines, rounds
-        Polygons, circles and discs; their places are numbers of steps, at whose ends they are.
+    outlines, rounds, written
+        Polygons, circles and discs, and labels; their places are numbers of steps, at whose ends they are.
     unknown
         As of `Scene`.
     """
@@ -64,6 +64,7 @@ class Path:
     colours: Integers
     outlines: tuple[Outline, ...] = ()
     rounds: tuple[RoundShape, ...] = ()
+    written: tuple[Writing, ...] = ()
     unknown: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -161,7 +162,8 @@ def trace(word: Word) -> Path:
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
     steps: dict[str, Any] = {name: np.array(column, kind)
                              for (name, kind), column in zip(_COLUMN_TYPES.items(), columns, strict=True)}
-    return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds), unknown=tuple(turtle.unknown))
+    return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds),
+                written=tuple(turtle.labels), unknown=tuple(turtle.unknown))
 
 
 def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
@@ -181,8 +183,12 @@ def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     strokes = Segments(np.concatenate([ends - vectors, ends], axis=1)[drawn], path.orders[drawn], path.states[drawn],
                        path.widths[drawn], path.colours[drawn])
     places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
-    polygons, discs = collected_shapes(path.outlines, path.rounds, lambda numbers: places[np.array(numbers, np.int64)])
-    return Scene(strokes, polygons=polygons, discs=discs, unknown=path.unknown)
+
+    def points(numbers: list[int]) -> Floats:
+        return places[np.array(numbers, np.int64)]
+
+    polygons, discs = collected_shapes(path.outlines, path.rounds, points)
+    return Scene(strokes, polygons=polygons, discs=discs, labels=collected_labels(path.written, points), unknown=path.unknown)
 
 
 def _summed_along_parents(vectors: Floats, parents: Integers) -> Floats:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from lsys_kit.geometry.labels import Labels
 from lsys_kit.geometry.scene import Discs, Floats, Polygons
 from lsys_kit.geometry.turtle.patches import Face
 
@@ -29,6 +30,23 @@ class RoundShape(NamedTuple):
     kind: int
     state: int
     colour: int
+
+
+class Writing(NamedTuple):
+    """A label."""
+
+    place: Any
+    text: str
+    state: int
+
+
+def label_text(values: Sequence[float]) -> str:
+    """What a label with some values says.
+
+    >>> label_text((2.0, 0.25, -0.0))
+    '2, 0.25, 0'
+    """
+    return ", ".join(f"{value + 0.0:g}" for value in values)
 
 
 def rectangle(length: float, width: float) -> Face:
@@ -67,6 +85,12 @@ def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:
     if not any(outline.normals for outline in outlines):
         return np.empty((0, 3))
     return np.array([normal for outline in outlines for normal in outline.normals or [(0.0, 0.0, 0.0)] * len(outline.corners)])
+
+
+def collected_labels(written: Sequence[Writing], points: Callable[[list[Any]], Floats]) -> Labels:
+    """The labels that a turtle has written, given a function from positions to coordinates."""
+    return Labels(points([each.place for each in written]), tuple(each.text for each in written),
+                  np.array([each.state for each in written], np.int64))
 
 
 def collected_shapes(outlines: Sequence[Outline], rounds: Sequence[RoundShape],

@@ -37,7 +37,7 @@ from lsys_kit.geometry.turtle.frames import (
 )
 from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
 from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.shapes import Outline, collected_shapes
+from lsys_kit.geometry.turtle.shapes import Outline, collected_labels, collected_shapes
 from lsys_kit.geometry.turtle.surfaces import Surface
 from lsys_kit.geometry.turtle.turtle import Turtle
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
@@ -245,7 +245,8 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     turtle.in_plane = in_plane(system)
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
-    return Scene(strokes_of(turtle), polygons=polygons, discs=discs, unknown=tuple(turtle.unknown))
+    return Scene(strokes_of(turtle), polygons=polygons, discs=discs, labels=collected_labels(turtle.labels, _points),
+                 unknown=tuple(turtle.unknown))
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:

@@ -10,7 +10,7 @@ from lsys_kit.budget import current
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_colour
 from lsys_kit.geometry.turtle.patches import Face
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, box_sides, rectangle
+from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, box_sides, rectangle
 from lsys_kit.geometry.turtle.surfaces import Surface, surfaces_by_symbol
 from lsys_kit.notation.model.system import LSystem
 
@@ -50,8 +50,9 @@ class Turtle(ABC):
     """
 
     __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "flat", "gravitropism", "in_plane",
-                 "initial", "last", "length", "mirror", "open_polygons", "orientation", "outlines", "patches", "position",
-                 "restored", "rounds", "scale", "second_heading", "stack", "state", "surfaces", "tropisms", "unknown", "width")
+                 "initial", "labels", "last", "length", "mirror", "open_polygons", "orientation", "outlines", "patches",
+                 "position", "restored", "rounds", "scale", "second_heading", "stack", "state", "surfaces", "tropisms",
+                 "unknown", "width")
 
     def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation
@@ -70,6 +71,7 @@ class Turtle(ABC):
         self.open_polygons: list[Outline] = []
         self.outlines: list[Outline] = []
         self.rounds: list[RoundShape] = []
+        self.labels: list[Writing] = []
         self.unknown: dict[str, None] = {}
         self.surfaces: Mapping[str, Surface] = {}
         self.in_plane = self.flat = False

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from lsys_kit.geometry.labels import Labels
 from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineRun
-from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
+from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
 from lsys_kit.pictures.style.palette import PAPER
+from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,7 +58,18 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
     ax.add_collection(PathCollection(paths, facecolors=to_rgba_array(insides), edgecolors=to_rgba_array(edges),
                                      linewidths=widths, capstyle="round", joinstyle="round", transform=ax.transData))
     left, top = frame.left - MARGIN / frame.scale, frame.top + MARGIN / frame.scale
+    _plot_labels(ax, scene.labels)
     ax.update_datalim([(left, top), (left + frame.width / frame.scale, top - frame.height / frame.scale)])
+
+
+def _plot_labels(ax: Axes, labels: Labels) -> None:
+    """What the turtle has written, each text to the right of its point."""
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=3, foreground=theme().paper)]
+    for place, text in zip(labels.points.tolist(), labels.texts, strict=True):
+        ax.annotate(text, place, (LABEL_GAP, 0), textcoords="offset points", va="center", fontsize=LABEL, color=theme().ink,
+                    path_effects=halo)
 
 
 def _painted(shapes: DisplayList) -> Iterator[PaintedPath]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lsys_kit.geometry.labels import Labels
 from lsys_kit.geometry.scene import Floats, Integers, Scene
 from lsys_kit.pictures.rendering.looks import median_length
 from lsys_kit.pictures.rendering.view import ProjectedScene
@@ -15,6 +17,8 @@ WIDTH, HEIGHT = 600, 400
 """The size of the largest picture, in pixels."""
 MARGIN = 12
 """White space around a drawing, in pixels."""
+LABEL, LABEL_GAP = 12, 5
+"""The size of labels, and how far to the right of its point each begins, in pixels."""
 PARTS, LEAST_PARTS = (10, 100, 1_000, 10_000), 50
 """Into how many parts a pixel may be divided, and how many of these the median stroke has at least."""
 
@@ -63,7 +67,24 @@ def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = 
     ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204, parts=10)
     """
     left, bottom, right, top = zip(*map(painted_box, scenes), strict=True)
-    return frame_of((min(left), min(bottom), max(right), max(top)), width, height)
+    frame = frame_of((min(left), min(bottom), max(right), max(top)), width, height)
+    written = [scene.labels for scene in scenes if len(scene.labels)]
+    return replace(frame, width=max([frame.width, *(_width_with(labels, frame) for labels in written)]))
+
+
+def _width_with(labels: Labels, frame: ViewFrame) -> int:
+    """How broad a picture is in which some labels end before the edge."""
+    places: list[float] = (frame.points(labels.points)[:, 0] / frame.parts).tolist()
+    return math.ceil(max(x + label_width(text) for x, text in zip(places, labels.texts, strict=True)))
+
+
+def label_width(text: str) -> float:
+    """How far a label reaches to the right of its point, with space on both sides, in pixels: an upper estimate.
+
+    >>> round(label_width("12.5"), 1)
+    37.5
+    """
+    return 2 * LABEL_GAP + LABEL * math.fsum(0.37 if letter in "., -" else 0.84 if letter == "+" else 0.64 for letter in text)
 
 
 def painted_box(scene: Scene) -> tuple[float, float, float, float]:

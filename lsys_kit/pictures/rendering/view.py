@@ -6,7 +6,7 @@ The eye looks at the middle of an upright cylinder around all that is seen, from
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
+from lsys_kit.geometry.labels import Labels, no_labels
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
 from lsys_kit.geometry.smoothing import smoothed
@@ -167,7 +168,8 @@ def _spans(scene: Scene) -> Floats:
 
 def _points(scenes: Sequence[Scene]) -> list[Floats]:
     """The points of scenes in space: ends of strokes, corners of polygons, centres."""
-    some = [each for scene in scenes for each in (scene.segments.points, scene.polygons.points, scene.discs.centres)]
+    some = [each for scene in scenes for each in (scene.segments.points, scene.polygons.points, scene.discs.centres,
+                                                   scene.labels.points)]
     return [each for each in some if len(each)] or [np.zeros((1, 3))]
 
 
@@ -176,7 +178,13 @@ def _flattened(scene: Scene) -> Scene:
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     return Scene(replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
                  polygons=replace(polygons, points=polygons.points[:, ::2], normals=np.empty((0, 3))),
-                 discs=replace(discs, centres=discs.centres[:, ::2]), unknown=scene.unknown)
+                 discs=replace(discs, centres=discs.centres[:, ::2]),
+                 labels=_placed(scene.labels, lambda points: points[:, ::2]), unknown=scene.unknown)
+
+
+def _placed(labels: Labels, place: Callable[[Floats], Floats]) -> Labels:
+    """Labels at points of the plane of the picture."""
+    return replace(labels, points=place(labels.points)) if len(labels) else no_labels()
 
 
 def cylinder_around(scenes: Sequence[Scene]) -> Cylinder:
@@ -202,6 +210,7 @@ def _projected(scene: Scene, cylinder: Cylinder, view: View) -> ProjectedScene:
     return ProjectedScene(
         replace(segments, ends=ends.reshape(-1, 4)), polygons=replace(polygons, points=corners),
         discs=replace(discs, centres=centres, radii=discs.radii * factors), unknown=scene.unknown, depths=depths,
+        labels=_placed(scene.labels, lambda points: _seen(points, side, cylinder)[0]),
         nearness=np.clip((depths - middle) / (2 * reach or 1.0) + 0.5, 0, 1), extent=float(_spans(scene).max()),
         factors=_stroke_factors(segments, end_factors.reshape(-1, 2)),
         casing_depths=_casing_depths(scene, depths), normals=_normals(polygons, side))

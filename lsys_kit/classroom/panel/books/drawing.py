@@ -16,6 +16,7 @@ from lsys_kit.geometry.turtle.commands.instructions import Instruction, instruct
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.commands.table import initial_colour, initial_step
 from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
+from lsys_kit.geometry.turtle.shapes import label_text
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
 from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol
 from lsys_kit.notation.model.modules import Module, flat
@@ -37,7 +38,7 @@ def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> lis
     """For each of some states what is drawn.
 
     In a filament its cells and walls as in `shapes_of`; for a turtle its calls, each an action, a factor and an addend, the
-    values of its module or 0, and a surface or 0.
+    values of its module or 0, for a label what it says, and a surface or 0.
 
     Raises
     ------
@@ -67,7 +68,8 @@ def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[Any]:
     action, factor, addend, values, symbol, surface = instruction
     if action == "draw expected surface":
         surface = symbol if symbol in known else ""
-    return [action, _plain(factor), _plain(addend), [*map(_plain, values)] or 0, surface or 0]
+    said = [label_text(values)] if action == "draw label" and values else [*map(_plain, values)]
+    return [action, _plain(factor), _plain(addend), said or 0, surface or 0]
 
 
 def _plain(number: float) -> float:

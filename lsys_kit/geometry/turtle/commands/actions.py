@@ -85,6 +85,7 @@ ACTIONS: Mapping[str, Effect] = {
     "draw disc": _VISIBLE | _INSTANCEABLE,
     "draw sphere": _VISIBLE | _INSTANCEABLE,
     "draw box": _VISIBLE | _INSTANCEABLE,
+    "draw label": _VISIBLE,
     "begin cylinder": _LEAVES_PLANE,
     "continue cylinder": _VISIBLE | _LEAVES_PLANE,
     "end cylinder": _VISIBLE | _LEAVES_PLANE,

@@ -176,6 +176,7 @@ COMMAND_TABLE: tuple[Row, ...] = (
     Row("@o",   "",     "",    "a circle, as wide as a stroke or x",                   Command("draw circle")),
     Row("@c",   "",     "",    "a disc, as wide as a stroke or x",                     Command("draw disc")),
     Row("@O",   "",     "",    "a sphere, as wide as a stroke or x",                   Command("draw sphere")),
+    Row("@L",   "",     "",    "a label: x, or several numbers",                       Command("draw label")),
     Row("@B",   "",     "",    "a box ahead, as long as the step or x, as wide and deep as a stroke or y", Command("draw box")),
 
     Row("", "", "", "a stroke by its second heading, as long as the step", _plain("draw by second heading"), fractint="D"),

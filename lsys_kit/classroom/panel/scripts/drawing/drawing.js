@@ -163,7 +163,7 @@ export function drawingView(parent, told) {
     return last && boundsOf(last);
   }
 
-  const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n);
+  const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n || shapes.labels?.texts.length);
 
   function sentence(text, width, height) {
     pen.fillStyle = look.theme.quiet;

@@ -9,6 +9,7 @@ import { BALL, HOLLOW } from "./turtle_actions.js";
 
 const FILLED = 0.7; // the strength of the colour inside a surface in the plane
 const FACE_EDGE = 0.6, RING = 1, MARKED_EDGE = 3, SMALLEST_RADIUS = 0.8; // pixels
+const LABEL_FONT = "12px sans-serif", LABEL_GAP = 5, LABEL_HALO = 3; // pixels
 const TONED = 16; // tenths of a pixel from which on one sees light and shade on a stroke
 const LEAST_CASING = 4, CASING = 0.8, BROADEST_CASING = 24; // tenths of a pixel that a casing is broader, the part of its stroke, the most
 
@@ -26,12 +27,32 @@ export function paint(pen, shapes, frame, { theme, marked = new Set(), lit = new
   const seen = seenIn(frame, shapes);
   pen.lineCap = pen.lineJoin = "round";
   paintShapes(pen, shapes, frame, seen, theme, seen.painted, marked);
-  if (!lit.size) return;
+  if (lit.size) paintTraced(pen, shapes, frame, seen, theme, lit);
+  paintLabels(pen, shapes.labels, frame, seen, theme);
+}
+
+function paintTraced(pen, shapes, frame, seen, theme, lit) {
   const traced = seen.order.filter((number) => lit.has(shapeOf(shapes, number).position));
   for (const kind of Object.keys(SURROUNDED))
     surround(pen, shapes, frame, seen, theme, SURROUNDED[kind], traced.filter((number) =>
       lit.get(shapeOf(shapes, number).position) === kind));
   paintShapes(pen, shapes, frame, seen, theme, traced, new Set());
+}
+
+// What the turtle has written, each text to the right of its point, as far as the canvas goes.
+function paintLabels(pen, labels, frame, { x, y }, theme) {
+  pen.font = LABEL_FONT;
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  labels?.texts.forEach((text, i) => {
+    const point = labels.points[i], start = Math.min(x[point] + LABEL_GAP, frame.width - LABEL_GAP - pen.measureText(text).width);
+    pen.lineWidth = LABEL_HALO;
+    pen.strokeStyle = theme.paper;
+    pen.strokeText(text, start, y[point]);
+    pen.fillStyle = theme.ink;
+    pen.fillText(text, start, y[point]);
+  });
+  pen.textBaseline = "alphabetic";
 }
 
 // Which shape has a number: its group, its number there, and what it belongs to.

@@ -54,7 +54,7 @@ export function widthAndHeight(shapes) {
 }
 
 // Visit every point that is drawn, with how far the shape reaches beyond it; `broad` is 0 for strokes that are lines.
-function eachPoint({ strokes, faces, rounds }, visit, broad = 1) {
+function eachPoint({ strokes, faces, rounds, labels }, visit, broad = 1) {
   for (let i = 0; i < strokes.n; i++) {
     const reach = broad * Math.max(0, strokes.widths[i] / 2);
     visit(strokes.from[i], reach);
@@ -62,6 +62,7 @@ function eachPoint({ strokes, faces, rounds }, visit, broad = 1) {
   }
   for (const corner of faces.corners) visit(corner, 0);
   for (let i = 0; i < rounds.n; i++) visit(rounds.centres[i], rounds.radii[i]);
+  for (const point of labels?.points ?? []) visit(point, 0);
 }
 
 // The frame of a view, into which a box fits where it is not brought nearer: by default that of the shapes. Where the eye is
@@ -77,7 +78,7 @@ export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1
   const detailed = inSpace && shapes.strokes.n <= MOST_CYLINDERS;
   const [finest, broadest] = detailed ? [STURDY, BOLDEST] : [inSpace ? THINNEST_IN_SPACE : THINNEST, 1];
   return {
-    inSpace, detailed, scale, distance, middle, extent, pixel, x0: width / 2 + shift[0], y0: height / 2 + shift[1], seen: null,
+    inSpace, detailed, scale, distance, middle, extent, pixel, width, x0: width / 2 + shift[0], y0: height / 2 + shift[1], seen: null,
     cos: Math.cos(around * RADIANS), sin: Math.sin(around * RADIANS), level, steep, reach,
     thin: Math.min(broadest, Math.max(finest, (shapes.typical * scale) / USUAL_STROKE)),
   };

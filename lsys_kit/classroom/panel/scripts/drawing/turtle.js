@@ -82,7 +82,7 @@ function interpretWord(turtle, word, calls) {
   }
 }
 
-function shapesOf({ strokes, faces, rounds }, colourOf) {
+function shapesOf({ strokes, faces, rounds, labels }, colourOf) {
   const whole = (numbers) => new Int32Array(numbers);
   const common = ({ colours, positions, states }) => ({
     colours: whole(colours.map((colour, i) => colourOf(states[i], colour))), positions: whole(positions),
@@ -95,6 +95,7 @@ function shapesOf({ strokes, faces, rounds }, colourOf) {
       smooth: faces.smooth, ...common(faces) },
     rounds: { n: rounds.states.length, centres: whole(rounds.centres), radii: new Float64Array(rounds.radii),
       kinds: whole(rounds.kinds), ...common(rounds) },
+    labels: { points: whole(labels.points), texts: labels.texts },
   };
 }
 
@@ -105,19 +106,19 @@ export function placed(path, angle) {
 }
 
 function placedAnew(path, angle) {
-  const { dimension, trail, amounts, palette, heading, typical, faces, rounds } = path, { n, x, y, z } = trail;
+  const { dimension, trail, amounts, palette, heading, typical, faces, rounds, labels } = path, { n, x, y, z } = trail;
   if (dimension === 2) placeInPlane(trail, angle, heading);
   else placeInSpace(trail, amounts, angle, heading);
   const pixel = pixelOf(path, extentOf(path, trail));
   return { dimension, n, x, y, z, strokes: { ...path.strokes, widths: widthsInUnits(path.strokes.widths, pixel) },
-    faces, rounds, palette, typical, pixel };
+    faces, rounds, labels, palette, typical, pixel };
 }
 
 // The least and the greatest of each coordinate of all that is drawn; zeros where that is nothing.
-function extentOf({ strokes, faces, rounds }, { x, y, z }) {
+function extentOf({ strokes, faces, rounds, labels }, { x, y, z }) {
   const found = (z ? [x, y, z] : [x, y]).map((places) => {
     let least = Infinity, most = -Infinity;
-    for (const numbers of [strokes.from, strokes.to, faces.corners]) {
+    for (const numbers of [strokes.from, strokes.to, faces.corners, labels.points]) {
       for (let i = 0; i < numbers.length; i++) {
         const place = places[numbers[i]];
         if (place < least) least = place;

@@ -47,6 +47,7 @@ export function newTurtle(trail, { length, width, colour }) {
     strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
     faces: { starts: [0], corners: [], smooth: [], colours: [], positions: [], states: [] },
     rounds: { centres: [], radii: [], kinds: [], colours: [], positions: [], states: [] },
+    labels: { points: [], texts: [] },
   };
 }
 
@@ -227,8 +228,15 @@ function drawRound(kind) {
   };
 }
 
+function drawLabel({ position, labels }, { values: [text] }) {
+  if (!text) return;
+  roomFor(labels.points.push(position));
+  labels.texts.push(text);
+}
+
 export function commonActions() {
   return {
+    "draw label": drawLabel,
     "draw": goAhead(true, true), "move": goAhead(false, true),
     "draw without vertex": goAhead(true, false), "move without vertex": goAhead(false, false),
     "set length": setLength, "reset length": resetTo("length"), "set length once": setOnce("length", setLength),
