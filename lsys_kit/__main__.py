@@ -89,7 +89,8 @@ def _argument_parser() -> argparse.ArgumentParser:
     _add_film(draw)
     stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
-    stages.add_argument("--unfold", action="store_true", help="show each of many stages, and do not group them by symbol")
+    stages.add_argument("--unfold", nargs="?", type=_symbols, const=True, default=False, metavar="A,B",
+                        help="show each of many stages, and do not group them by symbol; or each of those of some symbols only")
     _add_looks(stages)
     stages.add_argument("-o", "--output", required=True, metavar="FILE",
                         help="a picture (.svg, .png, .pdf), a film of the tokens (.gif, .apng, .mp4), or a net for Petri-net "
@@ -241,6 +242,11 @@ def _numbers(text: str) -> list[int]:
         return [int(each[:20]) for each in text.split(",")]
     except ValueError:
         raise argparse.ArgumentTypeError(f'whole numbers with commas between them are needed, not "{text[:40]}"') from None
+
+
+def _symbols(text: str) -> list[str]:
+    """Symbols with commas between them."""
+    return text.split(",")
 
 
 def _colours(text: str) -> str | dict[str, str]:

@@ -406,6 +406,14 @@ def test_stages_tells_how_long_cells_live(shell, tmp_path):
     refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives cannot be told", "lets time pass")
 
 
+def test_stages_unfolds_all_symbols_or_some(shell, tmp_path):
+    path = str(tmp_path / "net.svg")
+    assert "5 stages A, I, F" in shell("stages", "K19", "-o", path).out
+    assert "12 stages A(0), A(1)" in shell("stages", "K19", "--unfold", "A", "-o", path).out
+    assert "32 stages A(0), A(1)" in shell("stages", "K19", "-o", path, "--unfold").out
+    refused(shell("stages", "K19", "--unfold", "A,leaf", "-o", path), 'There is no symbol "leaf" here', "Symbols are: &, /, A")
+
+
 def test_a_picture_goes_nowhere_else(shell, tmp_path):
     refused(shell("draw", "K5", "-n", "2", "-o", "out.bmp"), ".svg, .png, .pdf, .glb or .obj", ".gif")
     refused(shell("stages", "P4", "-o", "out.bmp"), ".svg", ".png", ".pnml")

@@ -7,10 +7,12 @@ generalized stochastic Petri nets (Ajmone Marsan, Conte and Balbo 1984).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from itertools import product
+from typing import Any, NamedTuple
 
 from lsys_kit.derivation.core.chance import shares
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
@@ -24,33 +26,69 @@ from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.write import as_written
 
 
+class Product(NamedTuple):
+    """What a transition puts into one place, as in `Arc`; the place is named by its kind of modules, or by its module."""
+
+    place: ModuleKind | Module
+    copies: int
+    positions: tuple[int, ...]
+    factor: str = ""
+
+
+class Way(NamedTuple):
+    """A transition that leaves a place, and what it puts where."""
+
+    transition: Transition
+    products: tuple[Product, ...]
+
+
 def by_symbol(states: States) -> Stages:
     """The net whose places are kinds of modules: a symbol with a number of parameters."""
-    system = states.system
-    tables = [{kind: _applicable(rules) for kind, rules in table.items()} for table in (states.rules, states.decomposition)]
-    kinds = _reachable_kinds(states, tables)
+    tables = applicable_rules(states)
+    kinds = reachable_kinds(states, tables)
+    ways = {kind: [*ways_of_kind(states, tables, kind)] for kind in kinds}
     where = {kind: number for number, kind in enumerate(kinds)}
+    return net_of(states, ways, True, partial(_place, where))
+
+
+def net_of(states: States, ways: Mapping[Any, Sequence[Way]], grouped: bool, where: Callable[[Module], int | None]) -> Stages:
+    """The net of some places, given the ways out of each."""
+    numbers = {place: number for number, place in enumerate(ways)}
     transitions: list[Transition] = []
     arcs: list[Arc] = []
-    for at_once, kind in product((False, True), kinds):
+    for at_once, place in product((False, True), ways):
+        for way in (way for way in ways[place] if way.transition.at_once is at_once):
+            arcs += [Arc(len(transitions), numbers[made.place], made.copies, made.positions, made.factor)
+                     for made in way.products]
+            transitions.append(replace(way.transition, place=numbers[place]))
+    start = Counter(where(states.modules[state]) for state in states.axiom)
+    places = tuple(Place(place.symbol, (place,)) if isinstance(place, Module) else Place(place[0], ()) for place in ways)
+    return Stages(states.system, places, tuple(transitions), tuple(arcs), tuple(start[number] for number in range(len(places))),
+                  grouped, tuple(_unshown(states)), where)
+
+
+def ways_of_kind(states: States, tables: Sequence[Mapping[ModuleKind, Sequence[Rule]]], kind: ModuleKind,
+                 place_of: Callable[[Pattern], ModuleKind | Module] = kind_of) -> Iterator[Way]:
+    """The ways out of the place of all modules of a kind, by rewriting and by decomposition."""
+    for at_once in (False, True):
         rules = tables[at_once].get(kind, ())
         for rule, chance in zip(rules, _chances(rules, states), strict=True):
-            if len(rule.predecessors) > 1:
-                continue  # told besides
-            arcs += [Arc(len(transitions), where[target], copies, spots, factor)
-                     for target, copies, spots, factor in _products(rule.production.successor, states)]
-            transitions.append(Transition(where[kind], rule.number, _requirements(rule, chance, states.system),
-                                          None if chance == 1 else chance, None, at_once))
-    start = Counter(kind_of(states.modules[state]) for state in states.axiom)
-    return Stages(system, tuple(Place(symbol, ()) for symbol, _ in kinds), tuple(transitions), tuple(arcs),
-                  tuple(start[kind] for kind in kinds), True, tuple(_unshown(states)), partial(_place, where))
+            if len(rule.predecessors) == 1:  # others are told besides
+                terms = _requirements(rule, chance, states.system)
+                yield Way(Transition(0, rule.number, terms, None if chance == 1 else chance, None, at_once),
+                          tuple(_products(rule.production.successor, states, place_of)))
 
 
 def _place(where: dict[ModuleKind, int], module: Module) -> int | None:
     return where.get(kind_of(module))
 
 
-def _reachable_kinds(states: States, tables: Sequence[Mapping[ModuleKind, Sequence[Rule]]]) -> list[ModuleKind]:
+def applicable_rules(states: States) -> list[dict[ModuleKind, Sequence[Rule]]]:
+    """The productions for each kind of modules, and the decomposition rules, without those that are never applied."""
+    return [{kind: _applicable(rules) for kind, rules in table.items()} for table in (states.rules, states.decomposition)]
+
+
+def reachable_kinds(states: States, tables: Sequence[Mapping[ModuleKind, Sequence[Rule]]]) -> list[ModuleKind]:
     """The kinds of modules that may be met from the axiom on."""
     found = dict.fromkeys(map(kind_of, states.system.axiom))
     found.update(dict.fromkeys(kind_of(module) for meta in states.system.meta for module in flat(meta.successor)))
@@ -75,14 +113,14 @@ def _chances(rules: Sequence[Rule], states: States) -> Sequence[Value | None]:
     """How likely each rule of one kind is, where that is constant: all have the same conditions, and constant weights."""
     asked = {(rule.production.predecessors, rule.production.left, rule.production.right, rule.production.condition)
              for rule in rules}
-    weights = [_constant_value(rule.production.probability, states) for rule in rules]
+    weights = [constant_value(rule.production.probability, states) for rule in rules]
     if len(asked) == 1:
         with suppress(ValueError, TypeError):  # no weights: one is missing, negative or unknown
             return shares(weights)  # type: ignore[arg-type]
     return [None] * len(rules)
 
 
-def _constant_value(expression: Expression | None, states: States) -> Value | None:
+def constant_value(expression: Expression | None, states: States) -> Value | None:
     """The value of an expression without parameters, else None."""
     order = {constant.name: index for index, constant in enumerate(states.system.constants)}
     if expression is None or not names_in(expression) <= order.keys():
@@ -91,34 +129,35 @@ def _constant_value(expression: Expression | None, states: States) -> Value | No
     return value
 
 
-def _products(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, int, tuple[int, ...], str]]:
-    """For each kind that a successor holds how many, where in it they stand, and with what their number is multiplied."""
+def _products(items: Iterable[Item], states: States, place_of: Callable[[Pattern], ModuleKind | Module]) -> Iterator[Product]:
+    """For each place of modules in a successor how many, where in it they stand, and with what their number is multiplied."""
     parts = list(_counted_modules(items, states))
-    spots: dict[ModuleKind, list[int]] = {}
-    for position, (kind, _, _) in enumerate(parts, 1):
-        spots.setdefault(kind, []).append(position)
+    places = [place_of(pattern) for pattern, _, _ in parts]
+    spots: dict[ModuleKind | Module, list[int]] = {}
+    for position, place in enumerate(places, 1):
+        spots.setdefault(place, []).append(position)
     repeated = any(times != 1 or factor for _, times, factor in parts)
-    totals: Counter[tuple[ModuleKind, str]] = Counter()
-    for kind, times, factor in parts:
-        totals[kind, factor] += times
-    for (kind, factor), copies in totals.items():
+    totals: Counter[tuple[ModuleKind | Module, str]] = Counter()
+    for place, (_, times, factor) in zip(places, parts, strict=True):
+        totals[place, factor] += times
+    for (place, factor), copies in totals.items():
         if copies:
-            yield kind, copies, () if repeated else tuple(spots[kind]), factor
+            yield Product(place, copies, () if repeated else tuple(spots[place]), factor)
 
 
-def _counted_modules(items: Iterable[Item], states: States) -> Iterator[tuple[ModuleKind, int, str]]:
+def _counted_modules(items: Iterable[Item], states: States) -> Iterator[tuple[Pattern, int, str]]:
     """The modules of a successor, each with how often it is written: a number and, where that is not known, a factor."""
     for item in items:
         if isinstance(item, Pattern):
-            yield kind_of(item), 1, ""
+            yield item, 1, ""
             continue
-        count = _constant_value(item.count, states)
+        count = constant_value(item.count, states)
         known = count is not None and count == int(count)
-        for kind, times, factor in _counted_modules(item.body, states):
+        for pattern, times, factor in _counted_modules(item.body, states):
             if known:
-                yield kind, times * int(count or 0), factor
+                yield pattern, times * int(count or 0), factor
             else:
-                yield kind, times, " ".join(filter(None, (_factor_text(item), factor)))
+                yield pattern, times, " ".join(filter(None, (_factor_text(item), factor)))
 
 
 def _factor_text(item: Repeat) -> str:

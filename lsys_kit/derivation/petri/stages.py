@@ -4,7 +4,8 @@ L-systems, figure 2; Peterson 1981).
 A place stands for one state. Cells that differ only in their polarity share a place, as in that figure, where tokens ignore
 order and polarity: states that look the same but for the way they point, and whose successors do, are one place. Where a
 parameter that decides nothing makes the states infinitely many, it is left out (see `slicing`). Where they are infinitely many
-all the same, or depend on their neighbours, a place stands for all modules of one symbol (see `by_symbol`).
+all the same, or depend on their neighbours, a place stands for all modules of one symbol (see `by_symbol`); some symbols may be
+unfolded all the same (see `unfolded_symbols`).
 
 In a timed system a place is a stage of a module's life (see `life_stages`), and its transition says how long that is.
 """
@@ -12,7 +13,7 @@ In a timed system a place is a stage of a module's life (see `life_stages`), and
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
@@ -28,6 +29,7 @@ from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
 from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
+from lsys_kit.derivation.petri.unfolded_symbols import unfolded_symbols
 from lsys_kit.derivation.timed.ages import AgeModel, age_model
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError, require
@@ -54,8 +56,8 @@ class _Table:
     most: int = 10 * MOST_PLACES
 
 
-def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False, unfold: bool = False,
-           **constants: object) -> Stages:
+def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False,
+           unfold: bool | str | Collection[str] = False, **constants: object) -> Stages:
     """The stage diagram of a system.
 
     Parameters
@@ -68,12 +70,15 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         Whether transitions take the time for which a module lives, which may be many steps or part of one. A timed system's
         always do.
     unfold
-        Whether each state has a place of its own, up to 400. By default more than 40 are grouped by symbol.
+        Whether each state has a place of its own, up to 400. By default more than 40 are grouped by symbol. Or a symbol, or
+        several: their states have places of their own, and all modules of any other symbol share one.
     **constants
         New values for declared constants.
 
     Raises
     ------
+    ModelNameError
+        A symbol that is to be unfolded is never met.
     ModelValueError
         A value cannot be computed, the stages cannot be unfolded, a timed system is given new constants, or the productions of
         a system whose durations are asked for do not tell how long modules live.
@@ -91,6 +96,10 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
     >>> stages(read("axiom: F\\nF -> F [F] F : 0.65\\nF -> L : 0.35"), polarity=True)
     F -> 3 F + [ + ] with probability 0.65
     F -> L with probability 0.35
+    >>> stages(read("axiom: A(0)\\nA(t) -> A(t+1) B(1)\\nB(t) : t < 3 -> B(t+1)"), unfold="B")
+    A -> A + B(1)
+    B(1) -> B(2)
+    B(2) -> B(3)
     >>> stages(timed(read("axiom: a(0)\\na(2) -> a(0) b(0)\\nb(1) -> a(0)")))
     a(0) -> a(0) + b(0) after 2
     b(0) -> a(0) after 1
@@ -99,11 +108,14 @@ def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = Fa
         return _stages(system, polarity, durations, unfold, constants)
 
 
-def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: bool, constants: dict[str, object]) -> Stages:
+def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: object, constants: dict[str, object]) -> Stages:
     require(polarity, bool, 'True or False for "polarity"')
     require(durations, bool, 'True or False for "durations"')
-    require(unfold, bool, 'True or False for "unfold"')
-    most = MOST_UNFOLDED if unfold else MOST_PLACES
+    symbols = _symbols_from(unfold)
+    if symbols is not None and (durations or isinstance(system, Timed)):
+        raise ModelValueError("Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
+                              hint="Give unfold=True, or leave out the durations.")
+    most = MOST_UNFOLDED if unfold is True else MOST_PLACES
     if isinstance(system, Timed):
         if constants:
             raise ModelValueError("The constants of a timed system are chosen when it is made",
@@ -113,10 +125,23 @@ def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: bo
     if durations:
         return _timed_net(age_model(states), polarity, most)
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
+    if symbols is not None:
+        return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
     if unfold:
         return _unfolded(net for net, _ in nets)
     return next((net for net, legible in nets if len(net.places) <= most and len(net.transitions) <= legible
                  and len(net.arcs) <= MOST_ARCS), None) or by_symbol(states)
+
+
+def _symbols_from(unfold: object) -> tuple[str, ...] | None:
+    """The symbols that are to be unfolded; None if that is all or none."""
+    require(unfold, (bool, str, Collection), 'True, False, a symbol or several for "unfold"')
+    if isinstance(unfold, bool):
+        return None
+    symbols = (unfold,) if isinstance(unfold, str) else tuple(unfold)  # type: ignore[arg-type]
+    for symbol in symbols:
+        require(symbol, str, 'A symbol for "unfold"')
+    return symbols
 
 
 def _unfolded(nets: Iterable[Stages]) -> Stages:
