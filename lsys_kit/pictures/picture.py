@@ -182,7 +182,7 @@ class Picture(SVGPicture):
     def mesh(self) -> Mesh:
         """The last step shown as triangles in space."""
         with Task("The mesh was not made"):
-            return mesh_of(self.scene if self.solid is None else self.solid)
+            return mesh_of(self.scene if self.solid is None else self.solid, self.theme.boldness)
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.

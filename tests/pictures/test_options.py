@@ -193,6 +193,21 @@ def test_strokes_are_broader_by_a_factor():
     assert {2 * width for width in stroke_widths()} == stroke_widths(widths=2) != stroke_widths()
 
 
+def depths(**choices):
+    """How thick three strokes are in a mesh, one above the other: of the stem, of a branch, and with a width of its own."""
+    picture = draw(read("axiom: F(9) f [ F(9) ] f(20) !(0.4) F(9)"), 0, **choices)
+    across, along = picture.mesh.vertices[:, 1], picture.mesh.vertices[:, 2]
+    return [float(np.ptp(across[(along >= foot) & (along < foot + 10)])) for foot in (0, 10, 30)]
+
+
+def test_the_tubes_of_a_mesh_have_the_widths_that_are_chosen():
+    trunk, branch, given = depths()
+    assert depths(widths=2) == pytest.approx([2 * trunk, 2 * branch, 2 * given], rel=1e-5)
+    assert depths(widths=1) == pytest.approx(depths())
+    assert depths(widths="order") == pytest.approx([trunk, branch, trunk], rel=1e-5)
+    assert depths(widths="constant") == pytest.approx([branch] * 3, rel=1e-5)
+
+
 def test_strokes_have_the_widths_of_their_orders_or_a_constant_one():
     assert stroke_widths(widths="order") == {24, 17}
     assert len(stroke_widths(widths="constant")) == 1 < len(stroke_widths())
