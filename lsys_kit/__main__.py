@@ -89,8 +89,7 @@ def _argument_parser() -> argparse.ArgumentParser:
     _add_film(draw)
     stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
-    stages.add_argument("--unfold", nargs="?", type=_symbols, const=True, default=False, metavar="A,B",
-                        help="show each of many stages, and do not group them by symbol; or each of those of some symbols only")
+    _add_unfold(stages)
     _add_looks(stages)
     stages.add_argument("-o", "--output", required=True, metavar="FILE",
                         help="a picture (.svg, .png, .pdf), a film of the tokens (.gif, .apng, .mp4), or a net for Petri-net "
@@ -109,6 +108,7 @@ def _argument_parser() -> argparse.ArgumentParser:
     _add_model(page)
     page.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is seen first")
     page.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn at first")
+    _add_unfold(page)
     page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
     site = command("site", course.write_site,
                    "Write the course as pages whose panels move, which need neither Python nor a network.",
@@ -159,6 +159,12 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
     """Options of films, and of pictures of pixels."""
     parser.add_argument("--seconds", help="how long a film shows each step (default: 0.6; on a turntable 0.1)")
     parser.add_argument("--dpi", help="the dots per inch of a .png picture (default: 96)")
+
+
+def _add_unfold(parser: argparse.ArgumentParser) -> None:
+    """The option that says which stages of a diagram are shown one by one."""
+    parser.add_argument("--unfold", nargs="?", type=_symbols, const=True, default=False, metavar="A,B",
+                        help="show each of many stages, and do not group them by symbol; or each of those of some symbols only")
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_steps: bool = False) -> None:

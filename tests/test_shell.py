@@ -411,7 +411,9 @@ def test_stages_unfolds_all_symbols_or_some(shell, tmp_path):
     assert "5 stages A, I, F" in shell("stages", "K19", "-o", path).out
     assert "12 stages A(0), A(1)" in shell("stages", "K19", "--unfold", "A", "-o", path).out
     assert "32 stages A(0), A(1)" in shell("stages", "K19", "-o", path, "--unfold").out
-    refused(shell("stages", "K19", "--unfold", "A,leaf", "-o", path), 'There is no symbol "leaf" here', "Symbols are: &, /, A")
+    refused(shell("stages", "K19", "--unfold", "A,leaf", "-o", path), 'no symbol "leaf" here', "Symbols are: A, F, I, K, L.")
+    assert "Stages A(7): 0, A(0): 1" in shell("page", "K19", "--unfold", "A", "-n", "1", "-o", str(tmp_path / "k19.html")).out
+    refused(shell("page", "K28", "--unfold", "-o", str(tmp_path / "k28.html")), "Only the stages of an L-system")
 
 
 def test_a_picture_goes_nowhere_else(shell, tmp_path):

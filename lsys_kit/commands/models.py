@@ -179,12 +179,15 @@ def print_link(options: argparse.Namespace) -> None:
 
 def write_page(options: argparse.Namespace) -> None:
     """Write the panel of a system into an HTML file that needs no kernel, and print what it shows first."""
+    from lsys_kit.classroom.panel.explore import check_unfolded
     from lsys_kit.classroom.panel.opened.kinds import opened
     from lsys_kit.classroom.panel.opened.opened import Viewing
     from lsys_kit.classroom.panel.page import page, save_page
 
     system, (id, title) = system_or_cells(options), _titles(options.system)
-    what, seed = opened(system, id, dict(options.settings)), options.seed or getattr(system, "seed", None) or 0
+    check_unfolded(system, options.unfold, dict(options.settings))
+    what = opened(system, id, dict(options.settings), unfold=options.unfold)
+    seed = options.seed or getattr(system, "seed", None) or 0
     first = what.steps if options.steps is None else options.steps
     chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side)
     data = what.page_data(chosen)

@@ -2,7 +2,9 @@
 
 import base64
 import io
+import json
 import math
+import zlib
 
 import pytest
 from ipywidgets import FloatSlider, IntSlider, link
@@ -12,6 +14,7 @@ from lsys_kit import LSystemError, ModelNameError, ModelValueError, compare, der
 from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
+AGEING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B(t)]\nB(t) : t > 0 -> B(t+1)"
 WEIGHTED = "axiom: A\nA -> A B : 1/2\nA -> B A : 1/2"
 
 
@@ -35,6 +38,33 @@ def test_the_three_views_show_the_same_step():
     assert panel.text.startswith("Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)")
     assert panel.sight.tokens == panel.sight.net.tokens(derive(system("J4"), 9)[-1])
     assert str(panel.sight.picture).startswith("steps 0 to 9")
+
+
+def test_symbols_are_unfolded_in_the_diagram_as_long_as_they_can_be(monkeypatch):
+    panel = explore(AGEING, 2, unfold="A")
+    names = ["A(0)", "A(1)", "A(2)", "A(3)", "[", "B", "]"]
+    assert panel.model["book"]["net"]["names"] == names
+    assert panel.sight.tokens == (0, 0, 1, 0, 2, 2, 2)
+    assert [each["net"]["names"] for each in books_of(panel)] == [names]
+    for rules, found in ((AGEING.replace("[B(t)]", ""), ["A(0)", "A(1)", "A(2)", "A(3)"]), ("axiom: F\nF -> F F", ["F"]),
+                         (AGEING, names)):
+        assert answer(panel, monkeypatch, kind="rules", text=rules) == {"number": 7, "opened": True}
+        assert panel.model["book"]["net"]["names"] == found
+        assert len(panel.sight.tokens) == len(found)
+
+
+def books_of(panel):
+    """The books of the page of a panel."""
+    kept = json.loads(zlib.decompress(base64.b64decode(panel.page_data()["books"])))
+    return [{name: kept["parts"][column][number] for column, (name, number) in enumerate(zip(kept["names"], row, strict=True))}
+            for row in kept["rows"]]
+
+
+def test_what_cannot_be_unfolded_is_said_before_the_panel_opens():
+    with pytest.raises(ModelNameError, match='no symbol "C" here'):
+        explore(AGEING, unfold=["A", "C"])
+    with pytest.raises(ModelValueError, match="Only the stages of an L-system"):
+        explore("K28", unfold=True)
 
 
 def test_a_life_span_is_an_attribute_that_changes_what_is_shown():

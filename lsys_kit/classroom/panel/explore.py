@@ -9,9 +9,11 @@ from typing import Any
 from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
+from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import read_any
+from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.fragments import is_link
@@ -23,7 +25,7 @@ _ID = re.compile(r"[\w-]+(\.[\w-]+)?")
 
 
 def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
-            sliders: str | Collection[str] | None = None, **constants: object) -> Explorer:
+            sliders: str | Collection[str] | None = None, unfold: Unfolding = False, **constants: object) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
 
     Parameters
@@ -39,6 +41,8 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     sliders
         What has a slider besides the step: names of constants or forces, `angle`, `seed`. All else stays as it is, and the
         panel says which constants do. By default everything has one.
+    unfold
+        A symbol, or several, whose stages the diagram shows one by one, or True for all, as for `stages`.
     **constants
         First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
         `damping`.
@@ -48,7 +52,7 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     ModelValueError
         A first value lies outside its slider's range.
     ModelNameError
-        There is no slider of that name.
+        There is no slider of that name, or no symbol that is to be unfolded.
     ModelSyntaxError
         The text makes no sense.
 
@@ -78,9 +82,26 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     system = read_any(what) if isinstance(what, str) else what
     if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
-    found = opened(system, title, constants)
+    check_unfolded(system, unfold, constants)
+    found = opened(system, title, constants, unfold=unfold)
     without = frozenset() if sliders is None else _without(sliders, (*found.values, "angle", "seed"))
-    return Explorer(opened(system, title, constants, without) if without else found, step, angle, seed, without)
+    chosen = opened(system, title, constants, without, unfold) if without else found
+    return Explorer(chosen, step, angle, seed, without, unfold)
+
+
+def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfolding, constants: dict[str, Any]) -> None:
+    """The stage diagram of a system can be unfolded as somebody asks for.
+
+    Raises
+    ------
+    LSystemError
+        It cannot, or there is no such symbol.
+    """
+    if unfold is False:
+        return
+    if not isinstance(system, LSystem):
+        raise ModelValueError("Only the stages of an L-system can be unfolded", hint="Those of maps are their walls.")
+    stages(system, unfold=unfold, **constants)
 
 
 def _without(sliders: str | Collection[str], offered: Collection[str]) -> frozenset[str]:

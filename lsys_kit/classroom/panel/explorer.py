@@ -17,6 +17,7 @@ import traitlets
 
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
+from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.held import fixed_text
@@ -59,12 +60,13 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     seed = traitlets.Int().tag(sync=True)
     settings = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, opened: Opened, step: int | None, angle: object, seed: int, without: Collection[str] = ()) -> None:
+    def __init__(self, opened: Opened, step: int | None, angle: object, seed: int, without: Collection[str] = (),
+                 unfold: Unfolding = False) -> None:
         first = opened.steps if step is None else whole_number(step, "The step")
         turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
-        self._ready, self._opened, self._given, self._without = False, opened, opened, frozenset(without)
+        self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened), around=opened.side[0],
                          above=opened.side[1])
         with self._limited(), Task("The step was not shown"):
@@ -202,7 +204,7 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         """Show the system of a text that was typed; its sliders start anew, the step and the angle stay where they can."""
         system = self._opened.read(content["text"])
         title = self._given.title if system == self._given.system else ""
-        new, old = opened(system, title, without=self._without), self._opened
+        new, old = opened(system, title, without=self._without, unfold=self._unfold), self._opened
         found = {**self._model_of(new, new.steps), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found

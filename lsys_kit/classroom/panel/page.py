@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from lsys_kit.budget import current
 from lsys_kit.classroom.panel.books.book import book, first_step
+from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
@@ -91,7 +92,8 @@ def not_needed(*modes: str) -> frozenset[str]:
 
 def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed: int = 0, *, title: str = "",
               step: int | None = None, angle: object = None, around: int = 0, above: int = 0,
-              asked: Sequence[Mapping[str, object]] = (), without: Collection[str] = ()) -> dict[str, Any]:
+              asked: Sequence[Mapping[str, object]] = (), without: Collection[str] = (),
+              unfold: Unfolding = False) -> dict[str, Any]:
     """What a page says of a system: its sliders, and the books of their settings.
 
     Parameters
@@ -112,6 +114,8 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
         called `seed`. What is no value of a slider is passed over.
     without
         What has no slider: names of constants, `angle`, `seed`.
+    unfold
+        The symbols that are unfolded in the stage diagram, as for `stages`.
 
     Raises
     ------
@@ -123,7 +127,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     start: dict[str, Value] = {**{name: value for name, value in given.items() if name not in ranges},
                                **{name: span.value for name, span in ranges.items()}, SEED: seed}
     wanted = first_step(system) if step is None else step
-    shelf = _Shelf(system, start, title, wanted)
+    shelf = _Shelf(start, partial(book, system, title=title, least=wanted, unfold=unfold))
     first = shelf.first()
     values = {name: slider_values(span) for name, span in ranges.items() if name not in without}
     held = _held(shelf, values, seed if first["chance"] and "seed" not in without else None, asked)
@@ -185,9 +189,8 @@ def _asked_settings(values: Mapping[str, Sequence[Value]], seed: int | None,
 class _Shelf:
     """The books of a system, each made once, and how many of them a page has room for."""
 
-    def __init__(self, system: LSystem, start: Mapping[str, Value], title: str, least: int) -> None:
-        self.start, self._made, self._seconds = start, dict[tuple[Value, ...], dict[str, Any]](), 0.0
-        self._book = partial(book, system, title=title, least=least)
+    def __init__(self, start: Mapping[str, Value], made: Callable[[Mapping[str, Value], int], dict[str, Any]]) -> None:
+        self.start, self._made, self._seconds, self._book = start, dict[tuple[Value, ...], dict[str, Any]](), 0.0, made
 
     def first(self) -> dict[str, Any]:
         """The book of the first settings.

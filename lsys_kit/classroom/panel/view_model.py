@@ -11,9 +11,10 @@ from functools import partial
 from typing import Any
 
 from lsys_kit.cache import Cache
+from lsys_kit.classroom.panel.books.net import Unfolding, net_of
 from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.petri.stages import Stages, stages
+from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.natural_colours import coloured
@@ -89,6 +90,8 @@ class ViewModel:
         Any L-system.
     seed
         The seed of the random numbers.
+    unfold
+        The symbols that are unfolded in the stage diagram, as for `stages`.
 
     Examples
     --------
@@ -98,8 +101,8 @@ class ViewModel:
 2 cells, width 3, height 1.
     """
 
-    def __init__(self, system: LSystem, seed: int | None = None) -> None:
-        self.system, self.seed, self.mode = system, seed, drawing_mode(system)
+    def __init__(self, system: LSystem, seed: int | None = None, unfold: Unfolding = False) -> None:
+        self.system, self.seed, self.mode, self._unfold = system, seed, drawing_mode(system), unfold
         self._known = Cache[tuple[object, ...], tuple[Derivation, Stages]](lambda _: DERIVATION_BYTES, SHARE)
         self._rows = Cache[tuple[tuple[Value, ...], int], FilamentRow](lambda row: row.scene.size * SHAPE_BYTES, SHARE)
         self._paths = Cache[tuple[tuple[Value, ...], int], Path](lambda path: len(path.turns) * SHAPE_BYTES, SHARE)
@@ -109,7 +112,8 @@ class ViewModel:
         """The derivation and the net for given constants."""
         key = tuple(constants.items())
         given: dict[str, Any] = dict(constants)
-        return self._known.found(key, lambda: (derive(self.system, 0, seed=self.seed, **given), stages(self.system, **given)))
+        return self._known.found(key, lambda: (derive(self.system, 0, seed=self.seed, **given),
+                                             net_of(self.system, given, self._unfold)))
 
     def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1,
               around: float = 0.0, above: float = 0.0) -> StepView:

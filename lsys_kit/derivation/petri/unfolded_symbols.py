@@ -94,7 +94,8 @@ def unfolded_symbols(states: States, constants: dict[str, object], symbols: Coll
 
 def _check_name(symbol: str, known: Sequence[str]) -> None:
     if symbol not in known:
-        hint = suggestion(symbol, known) or f"Symbols are: {', '.join(sorted({*known}))}."
+        names = sorted({name for name in known if name[0].isalnum()} or {*known})
+        hint = suggestion(symbol, known) or f"Symbols are: {', '.join(names)}."
         raise ModelNameError(f'There is no symbol "{quotable(symbol)}" here that could be unfolded', hint=hint)
 
 
@@ -124,7 +125,7 @@ def _net(found: _Unfolding, most: int) -> Stages:
         for kind in found.kinds if kind[0] not in found.symbols}
     exact = not any(way.transition.condition or way.transition.at_once or any(made.factor for made in way.products)
                     for every in ways.values() for way in every)
-    ways |= _ways_of_stages(found, ways, most)
+    ways.update(_ways_of_stages(found, ways, most).items())
     order = [symbol for symbol, _ in found.kinds]
     ways = {place: ways[place] for place in sorted(ways, key=lambda place: order.index(_symbol(place)))}
     net = net_of(found.states, ways, True, partial(_number, found, {place: number for number, place in enumerate(ways)}))
@@ -180,8 +181,9 @@ def _place_of_pattern(found: _Unfolding, mother: ModuleKind, pattern: Pattern) -
     if pattern.symbol not in found.symbols:
         return kind_of(pattern)
     kept = pattern if found.kept is None else without_arguments(pattern, found.kept)
-    values = tuple(_value(found.states, argument) for argument in kept.arguments)
-    if None in values:
+    known = [_value(found.states, argument) for argument in kept.arguments]
+    values = tuple(value for value in known if value is not None)
+    if len(values) < len(known):
         raise _refusal(pattern.symbol, f"The values with which {mother[0]} makes it are not known: unfold {mother[0]}, too.")
     return Module(pattern.symbol, values)
 

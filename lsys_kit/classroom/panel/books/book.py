@@ -23,10 +23,10 @@ import numpy as np
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.panel.books.drawing import drawing_entries, drawn_rows
 from lsys_kit.classroom.panel.books.growth_rate import growth_entry
-from lsys_kit.classroom.panel.books.net import net_entry
+from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.petri.stages import Stages, stages
+from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.geometry.turtle.commands.mode import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
@@ -59,7 +59,7 @@ def first_step(system: LSystem) -> int:
 
 
 def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: int | None = None, *, title: str = "",
-         least: int = 0) -> dict[str, Any]:
+         least: int = 0, unfold: Unfolding = False) -> dict[str, Any]:
     """The book of a system, ready to be written as JSON.
 
     Parameters
@@ -74,6 +74,8 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         What the system is called.
     least
         A step that the book shall hold, if it can be reached.
+    unfold
+        The symbols that are unfolded in the stage diagram, as for `stages`.
 
     Returns
     -------
@@ -97,7 +99,7 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
     with Task("The book was not finished"):
         derivation, end = _derived(system, given, seed, least)
         pages = _pages(derivation, end)
-        net, diagram = net_entry(lambda: stages(system, **given))
+        net, diagram = net_entry(lambda: net_of(system, given, unfold))
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {

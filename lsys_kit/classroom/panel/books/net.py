@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
+from typing import Any, TypeAlias
 
-from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS
 from lsys_kit.pictures.nets.parts import LINE, ArcPart, BarPart, NotePart, Parts, PlacePart, parts_of, steering_of
 from lsys_kit.pictures.style.labels import place_text, visible
 
+Unfolding: TypeAlias = bool | str | Collection[str]
+"""Which symbols of a stage diagram are unfolded, as `stages` takes it."""
 NARROW, LOW = 320, 40
 """The size of a diagram that has nothing but a sentence, in pixels."""
+
+
+def net_of(system: LSystem, constants: Mapping[str, object], unfold: Unfolding = False) -> Stages:
+    """The stage diagram of a system; grouped, where other constants or edited rules keep it from being unfolded.
+
+    >>> from lsys_kit.notation.read import read
+    >>> net_of(read("axiom: A(1)\\nA(t) : t < 3 -> A(t+1)"), {}, "B")
+    A(1) -> A(2)
+    A(2) -> A(3)
+    """
+    given: dict[str, Any] = dict(constants)
+    if unfold is not False:
+        with suppress(LSystemError):
+            return stages(system, unfold=unfold, **given)
+    return stages(system, **given)
 
 
 def net_entry(made: Callable[[], Stages],

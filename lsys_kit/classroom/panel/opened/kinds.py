@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
+from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.opened.maps import OpenedMap
 from lsys_kit.classroom.panel.opened.opened import Opened
 from lsys_kit.classroom.panel.opened.systems import OpenedSystem
@@ -14,7 +15,8 @@ from lsys_kit.notation.model.system import LSystem
 
 
 def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
-           changes: Mapping[str, object] | None = None, without: Collection[str] = ()) -> Opened:
+           changes: Mapping[str, object] | None = None, without: Collection[str] = (),
+           unfold: Unfolding = False) -> Opened:
     """A system of any kind, opened.
 
     Parameters
@@ -27,6 +29,8 @@ def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
         First values of its constants, or of its forces.
     without
         Those of them that have no slider, and stay as they are; what is no constant or force of this system is passed over.
+    unfold
+        The symbols that are unfolded in the stage diagram of an L-system, as for `stages`, as far as that is possible.
 
     Raises
     ------
@@ -37,4 +41,4 @@ def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
         return OpenedTissue(system, title, changes, without)
     if isinstance(system, MapSystem):
         return OpenedMap(system, title, changes, without)
-    return OpenedSystem(system, title, changes, without)
+    return OpenedSystem(system, title, changes, without, unfold)

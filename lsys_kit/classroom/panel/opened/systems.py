@@ -9,6 +9,7 @@ from typing import Any
 
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
 from lsys_kit.classroom.panel.books.book import book, first_step
+from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
 from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
@@ -39,15 +40,15 @@ class OpenedSystem:
     hint, kind = "", "L-system"
 
     def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None,
-                 without: Collection[str] = ()) -> None:
-        self.system, self.title, self._without = system, title, without
+                 without: Collection[str] = (), unfold: Unfolding = False) -> None:
+        self.system, self.title, self._without, self._unfold = system, title, without, unfold
         ranges = slider_ranges(system, changes or {})
         moving = {name: span for name, span in ranges.items() if name not in without}
         self.first: Mapping[str, Value] = {name: span.value for name, span in moving.items()}
         self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in moving.items()}
         self.fixed: Mapping[str, Value] = {name: span.value for name, span in ranges.items() if name in without}
         self._fixed = {**{name: value for name, value in (changes or {}).items() if name not in ranges}, **self.fixed}
-        self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed))
+        self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed, unfold))
 
     @property
     def steps(self) -> int:
@@ -75,7 +76,8 @@ class OpenedSystem:
         return turn
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
-        return book(self.system, {**self._fixed, **values}, seed, title=self.title, least=least)
+        return book(self.system, {**self._fixed, **values}, seed, title=self.title, least=least,
+                    unfold=self._unfold)
 
     def sight(self, chosen: Viewing) -> StepView:
         constants, view = {**self._fixed, **chosen.values}, self._views(chosen.seed)
@@ -89,7 +91,8 @@ class OpenedSystem:
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         return page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
-                         angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked, without=self._without)
+                         angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked, without=self._without,
+                         unfold=self._unfold)
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
