@@ -101,6 +101,9 @@ def test_chance_that_hangs_on_a_value_is_that_of_each_stage() -> None:
 def test_neighbours_may_decide_what_becomes_of_the_others() -> None:
     net = stages(read("axiom: A S(0)\nA > S -> A\nA -> S(0)\nS(t) : t < 2 -> S(t+1)"), unfold=("S",))
     assert repr(net) == "A -> A if A > S\nA -> S(0)\nS(0) -> S(1)\nS(1) -> S(2)"
+    net = stages(read("axiom: A B S(0)\nA B -> A\nS(t) : t < 1 -> S(t+1)"), unfold="S")
+    assert repr(net) == "S(0) -> S(1)\nbesides: A B -> A"
+    assert net.grouped
 
 
 def test_decomposition_of_the_others_takes_no_time() -> None:
