@@ -16,6 +16,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
 ENDLESS = """
@@ -92,6 +93,14 @@ def test_where_no_other_symbol_s_values_matter_the_tokens_can_be_moved() -> None
     assert stages(read(ENDLESS), unfold="A").grouped
 
 
+def test_a_parameter_that_decides_nothing_is_left_out() -> None:
+    net = stages(read("axiom: A(0,1)\nA(t,x) : t < 2 -> A(t+1,2*x) L(x) L(2*x)\nA(t,x) -> A(0,x)\nL(x) -> L(x+1)"),
+                 unfold="A")
+    assert repr(net) == "A(0) -> A(1) + 2 L\nA(1) -> A(2) + 2 L\nA(2) -> A(0)\nL -> L"
+    assert [arc.positions for arc in net.arcs] == [(1,), (2, 3), (1,), (2, 3), (1,), (1,)]
+    assert net.tokens([Module("A", (2, 4)), Module("L", (7,)), Module("B")]) == (0, 0, 1, 1)
+
+
 def test_chance_that_hangs_on_a_value_is_that_of_each_stage() -> None:
     net = stages(read("axiom: A(1)\nA(t) : t < 3 -> A(t+1) C(0) : t\nA(t) : t < 3 -> C(1) : 2\nC(x) -> C(x+1)"), unfold="A")
     assert repr(net) == ("A(1) -> A(2) + C with probability 1/3\nA(1) -> C with probability 2/3\n"
@@ -117,6 +126,7 @@ def test_decomposition_of_the_others_takes_no_time() -> None:
 @pytest.mark.parametrize(("text", "symbol", "hint"), [
     ("axiom: A B\nA > B -> B", "A", "neighbours"), ("axiom: A\nA -> A(uniform(0,1))", "A", "random numbers"),
     ("axiom: A B\nA B -> B", "B", "neighbours"), ("axiom: A(1)\nA(t) : t > 0 -> A(t+1)", "A", "more than 400"),
+    ("axiom: A(1)\nA(t) : t < 401 -> A(t+1)\nA(t) -> A(1)", "A", "more than 400"),
     ("axiom: A(0)\nA(t) -> B(t)\nB(t) : t < 4 -> B(t+1)", "B", "unfold A, too"),
     ("axiom: A\nA -> A B(uniform(0,1))\nB(t) : t < 1/2 -> B(t)", "B", "unfold A, too"),
     ("axiom: A\nA > A -> repeat(3, i) <B(i)>\nB(t) : t > 0 -> B(t-1)", "B", "unfold A, too"),
