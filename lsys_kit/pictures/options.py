@@ -126,7 +126,7 @@ def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
 
 def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
     if isinstance(value, str) and value in WIDTHS:
-        return replace(found, widths=value)
+        return replace(found, widths=value, theme=replace(found.theme, even=value == "constant"))
     try:
         factor = real_from(value, "widths")
     except LSystemError as mistake:

@@ -14,7 +14,7 @@ from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.files import marked_xml, path_from, save_file
-from lsys_kit.geometry.meshes.mesh import Mesh, mesh_of
+from lsys_kit.geometry.meshes.mesh import OWN_WIDTHS, Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
@@ -34,6 +34,7 @@ from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
+from lsys_kit.pictures.rendering.looks import widths_by_order
 from lsys_kit.pictures.sizes import SHARP, enlargement
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, labels_svg, resized, turtle_svg
@@ -181,8 +182,8 @@ class Picture(SVGPicture):
     @cached_property
     def mesh(self) -> Mesh:
         """The last step shown as triangles in space."""
-        with Task("The mesh was not made"):
-            return mesh_of(self.scene if self.solid is None else self.solid, self.theme.boldness)
+        with Task("The mesh was not made"), drawn_on(self.theme):
+            return mesh_of(self.scene if self.solid is None else self.solid, widths_by_order(OWN_WIDTHS))
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.

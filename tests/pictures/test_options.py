@@ -206,6 +206,8 @@ def test_the_tubes_of_a_mesh_have_the_widths_that_are_chosen():
     assert depths(widths=1) == pytest.approx(depths())
     assert depths(widths="order") == pytest.approx([trunk, branch, trunk], rel=1e-5)
     assert depths(widths="constant") == pytest.approx([branch] * 3, rel=1e-5)
+    whole, constant = (draw(system("K5"), 2, widths=widths).mesh for widths in (None, "constant"))
+    assert len(constant.vertices) == len(whole.vertices), "stems of one width are whole tubes, too"
 
 
 def test_strokes_have_the_widths_of_their_orders_or_a_constant_one():

@@ -22,7 +22,7 @@ from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Sce
 LARGEST_COORDINATE = 1e37
 """Greater coordinates cannot be computed in single precision."""
 OWN_WIDTHS = (1.0, 0.7, 0.55, 0.4)
-"""Relative widths of strokes by branch order, where the turtle has set no width; the last holds for all deeper branches."""
+"""The usual relative widths of strokes by branch order."""
 RELATIVE_WIDTH, LEAST_WIDTH, GREATEST_WIDTH, THINNEST = 0.14, 1 / 600, 1 / 60, 1 / 2000
 """The width of such a stroke relative to the median length of strokes; its bounds, and the least width of any stroke, relative
 to the extent of the scene."""
@@ -62,15 +62,15 @@ class Mesh:
         return some.min(axis=0), some.max(axis=0)
 
 
-def mesh_of(scene: Scene, boldness: float = 1.0) -> Mesh:
+def mesh_of(scene: Scene, own_widths: Sequence[float] = OWN_WIDTHS) -> Mesh:
     """The triangles of a scene.
 
     Parameters
     ----------
     scene
         A scene in space or in the plane.
-    boldness
-        A factor by which strokes are broader for which the turtle has set no width.
+    own_widths
+        Relative widths of strokes by branch order, where the turtle has set no width; the last holds for all deeper branches.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def mesh_of(scene: Scene, boldness: float = 1.0) -> Mesh:
     centres, radii = _in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
     return _merged_meshes([
-        *_tubes(scene.segments, _extent(scene), boldness),
+        *_tubes(scene.segments, _extent(scene), own_widths),
         _faces(scene.polygons),
         _copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
         _copies(ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
@@ -157,12 +157,12 @@ def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
 # Strokes
 
 
-def _tubes(segments: Segments, reach: float, boldness: float) -> list[Mesh]:
+def _tubes(segments: Segments, reach: float, own_widths: Sequence[float]) -> list[Mesh]:
     """Strokes as closed tubes with round shading, thick ones and thin ones."""
     points = _in_space(segments.points).reshape(-1, 2, 3)
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     there = lengths > 0
-    widths = _widths(segments, lengths, reach, boldness)
+    widths = _widths(segments, lengths, reach, own_widths)
     radii = np.stack([start_widths(segments, widths, reach), widths], axis=1)[there] / 2
     looks = np.column_stack([segments.states, np.broadcast_to(segments.colours, len(segments))])[there]
     strokes = connected(points[there], radii, segments.orders[there], looks, reach * NEAR)
@@ -175,11 +175,11 @@ def _tube_mesh(found: Rings) -> Mesh:
     return Mesh(found.vertices.reshape(-1, 3), found.normals.reshape(-1, 3), triangles(found), states, colours)
 
 
-def _widths(segments: Segments, lengths: Floats, reach: float, boldness: float) -> Floats:
-    """The width of each stroke: as set by the turtle, else by its branch order and broader by a factor."""
+def _widths(segments: Segments, lengths: Floats, reach: float, own_widths: Sequence[float]) -> Floats:
+    """The width of each stroke: as set by the turtle, else by its branch order."""
     usual = float(np.median(lengths)) if len(lengths) else 0.0
-    own = min(max(RELATIVE_WIDTH * usual, LEAST_WIDTH * reach), GREATEST_WIDTH * reach) * np.array(OWN_WIDTHS)
-    by_order = boldness * own[np.minimum(segments.orders, len(OWN_WIDTHS) - 1)]
+    own = min(max(RELATIVE_WIDTH * usual, LEAST_WIDTH * reach), GREATEST_WIDTH * reach) * np.array(own_widths)
+    by_order = own[np.minimum(segments.orders, len(own_widths) - 1)]
     return np.maximum(np.where(segments.widths == OWN, by_order, segments.widths), THINNEST * reach)
 
 

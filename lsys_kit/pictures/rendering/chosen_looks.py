@@ -9,9 +9,6 @@ import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Discs, Integers, Polygons, Scene, Segments
 
-CONSTANT_ORDER = 1
-"""The branch order whose width all strokes have where that is constant."""
-
 
 def with_colours_of_symbols(scene: Scene, states: Collection[int] | None = None) -> Scene:
     """A scene in which shapes have the colours of their symbols: all of them, or those that modules of some states drew.
@@ -35,8 +32,8 @@ def _colours(shapes: Segments | Polygons | Discs, states: Collection[int] | None
 
 
 def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
-    """A scene with strokes as broad as their "order" says, or with a "constant" width; else those that the turtle has set are
-    broader by a factor.
+    """A scene with strokes for which the turtle has set no width, if these are chosen by "order" or "constant"; else those that
+    it has set are broader by a factor.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.geometry.drawing import scene_of
@@ -49,5 +46,4 @@ def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
     if not widths:
         given = np.where(segments.widths == OWN, OWN, segments.widths * factor)
         return replace(scene, segments=replace(segments, widths=given))
-    orders = np.full(len(segments), CONSTANT_ORDER) if widths == "constant" else segments.orders
-    return replace(scene, segments=replace(segments, widths=np.array([float(OWN)]), orders=orders))
+    return replace(scene, segments=replace(segments, widths=np.array([float(OWN)])))

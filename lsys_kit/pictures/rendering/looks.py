@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from lsys_kit.pictures.style.themes import theme
 
 STROKES = (2.4, 1.7, 1.3, 1.0)
 """Stroke widths by branch order, in pixels; deeper branches have the last."""
+CONSTANT_ORDER = 1
+"""The branch order whose width all strokes have where that is constant."""
 THINNEST, BROADEST = 3, 4_000
 """The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
 SAMPLE = 20_000
@@ -21,10 +23,20 @@ USUAL_LENGTH, FINEST, STURDY, BOLDEST = 12, 0.3, 0.8, 2.0
 they are short; and in space, where one sees each by itself, the least and the greatest factor."""
 
 
+def widths_by_order(usual: Sequence[float]) -> list[float]:
+    """Widths by branch order in the theme in force, given the usual ones: broader by a factor, or all the same.
+
+    >>> widths_by_order(STROKES) == [*STROKES]
+    True
+    """
+    chosen = [usual[CONSTANT_ORDER]] * len(usual) if theme().even else usual
+    return [theme().boldness * width for width in chosen]
+
+
 def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
     """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
     branch order, and are made finer by a factor."""
-    by_order = np.array([round(10 * width * thin * theme().boldness) for width in STROKES])
+    by_order = np.array([round(10 * width * thin) for width in widths_by_order(STROKES)])
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
     if (segments.widths != OWN).any():
         given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)

@@ -56,6 +56,8 @@ class Theme:
         Symbols and the colours that a person has chosen for them, which stay as they are.
     boldness
         The factor by which strokes are broader than usual.
+    even
+        Whether strokes of all branch orders are equally broad.
     """
 
     paper: str
@@ -66,6 +68,7 @@ class Theme:
     ground: str
     symbols: tuple[tuple[str, str], ...] = ()
     boldness: float = 1.0
+    even: bool = False
 
     @property
     def dark(self) -> bool:
