@@ -13,7 +13,7 @@ from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
 from lsys_kit.pictures.rendering.painters_order import display_list
-from lsys_kit.pictures.rendering.view import MOST_CYLINDERS, far_to_near, project
+from lsys_kit.pictures.rendering.view import far_to_near, project
 from tests.classroom.front_end import PAINTER, answers, book_of
 from tests.classroom.test_front_end_turtle import MOST_MODULES, scene_by_kit, words
 
@@ -65,8 +65,6 @@ def word_of(text):
 
 def order_with_casings(flat):
     """The numbers of shapes from far to near, and of the casings of strokes, which follow all others and are painted first."""
-    if len(flat.segments) > MOST_CYLINDERS:
-        return flat.order.tolist()
     cased, depths = len(flat.casing_depths), np.concatenate([flat.casing_depths, flat.depths])
     order = far_to_near(np.maximum(depths, flat.depths.min(initial=np.inf)), flat.extent)
     return np.where(order < cased, order + len(flat.depths), order - cased).tolist()

@@ -93,7 +93,7 @@ def _in_space(scene: ProjectedScene, scale: float, colour_of: Mapping[int, str])
     cylinders = cylinders_of(scene, plain, 10 * scale, toned)
     lines = np.ones(len(segments), bool)
     lines[toned] = ~cylinders.tapered
-    casings, faces, strokes, discs = _first_slots(scene, toned, detailed)
+    casings, faces, strokes, discs = _first_slots(scene, toned)
     own = shade_numbers(colours, scene.nearness, OWN)
     bodies = own[len(faces):len(faces) + len(strokes)]
     areas = [_faces(scene, colours), _polygons(capsules(cylinders.some(cylinders.tapered)), bodies[~lines]),
@@ -137,14 +137,14 @@ def _colours(scene: ProjectedScene, colour_of: Mapping[int, str]) -> tuple[list[
     return [*map(line, found[0][0])], np.concatenate([numbers for _, numbers in found])
 
 
-def _first_slots(scene: ProjectedScene, toned: NDArray[np.bool_], cased: bool) -> Sequence[Integers]:
+def _first_slots(scene: ProjectedScene, toned: NDArray[np.bool_]) -> Sequence[Integers]:
     """Where casings, polygons, strokes and discs stand in the display list; behind a stroke with stripes there are two more.
 
     A casing is painted as if it were farther than its stroke by the length of that: it hides what crosses the stroke behind it,
     and not what the stroke is joined to.
     """
     polygons, strokes, discs = len(scene.polygons), len(scene.segments), len(scene.discs)
-    casings = np.maximum(scene.casing_depths, scene.depths.min(initial=np.inf)) if cased else np.empty(0)
+    casings = np.maximum(scene.casing_depths, scene.depths.min(initial=np.inf))
     order = far_to_near(np.concatenate([casings, scene.depths]), scene.extent)
     counts = np.ones(len(order), np.int64)
     counts[len(casings) + polygons:len(counts) - discs] += 2 * toned

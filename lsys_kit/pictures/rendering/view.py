@@ -11,7 +11,6 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
@@ -19,6 +18,7 @@ from lsys_kit.geometry.labels import Labels, no_labels
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
 from lsys_kit.geometry.smoothing import smoothed
+from lsys_kit.pictures.rendering.polygon_edges import are_edges
 
 View: TypeAlias = tuple[float, float]
 """The side of the viewer, in degrees: around, 0 at the front and 90 at the right; and above, 0 level and 90 from the top."""
@@ -51,7 +51,8 @@ class ProjectedScene(Scene):
         Shape (s, 2): how much broader each stroke is at both ends: in perspective, and where it continues a broader one.
     casing_depths
         Shape (s,): how far the casings of strokes lie towards the viewer: behind their strokes by the lengths of these, and
-        behind everything where a stroke is an edge of a polygon, which it must not be parted from.
+        behind everything where a stroke is an edge of a polygon, from which it must not be parted. Shape (0,) where strokes
+        have none.
     normals
         Shape (p, 3): the unit normal of each polygon: to the right, up and towards the viewer, where it never points away.
     extent
@@ -240,35 +241,13 @@ def _shape_depths(scene: Scene, towards: Floats) -> Floats:
 
 
 def _casing_depths(scene: Scene, depths: Floats) -> Floats:
-    """How near the casings of strokes are, given how near each shape is."""
+    """How near the casings of strokes are, given how near each shape is; nothing where strokes have none."""
     segments, polygons = scene.segments, len(scene.polygons)
+    if len(segments) > MOST_CYLINDERS:
+        return np.empty(0)
     lengths = np.linalg.norm(segments.ends[:, 3:] - segments.ends[:, :3], axis=1)
     found: Floats = np.where(are_edges(segments, scene.polygons), -np.inf, depths[polygons:polygons + len(segments)] - lengths)
     return found
-
-
-def are_edges(segments: Segments, polygons: Polygons) -> NDArray[np.bool_]:
-    """Which strokes are edges of polygons.
-
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
-    >>> leaf = trace_in_space(derive(read("axiom: F & { . F + (120) F } F"), 0)[0])
-    >>> are_edges(leaf.segments, leaf.polygons).tolist()
-    [False, True, True, False]
-    """
-    if not (len(polygons) and 0 < len(segments) <= MOST_CYLINDERS):
-        return np.zeros(len(segments), bool)
-    points, following = polygons.points, np.arange(1, len(polygons.points) + 1)
-    following[polygons.starts[1:] - 1] = polygons.starts[:-1]
-    edges = np.concatenate([np.hstack([points, points[following]]), np.hstack([points[following], points])])
-    return np.isin(_keys(segments.ends), _keys(edges))
-
-
-def _keys(rows: Floats) -> NDArray[np.void]:
-    """Rows of numbers as values that can be compared."""
-    whole = np.ascontiguousarray(rows + 0.0)  # which makes no difference between 0 and -0
-    return whole.view(np.dtype((np.void, whole.strides[0]))).ravel()
 
 
 def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:
