@@ -59,6 +59,9 @@ def test_of_modules_with_values_it_is_said_that_laws_are_looked_for_without_cont
     (["a", ["a", 7]], "The word of step 1 must be a text or a row of modules, and has 7"),
     (["a", "a%"], 'The word of step 1 has the module "%", which is no letter that rules alone replace'),
     (["a", ["?P"]], 'The word of step 1 has the module "?P", which is no letter that rules alone replace'),
+    (["A(1)", "A(nan)"], 'The word of step 1 has "(nan)", which are no values'),
+    (["A(1/0) B", "A(1)"], 'The word of step 0 has "(1/0)", which are no values'),
+    (["A(1)", "A(2"], 'The word of step 1 has "(2", which are no values'),
     (["a" * 60_000] * 2, "The words up to step 1 have more than 100,000 modules"),
 ])
 def test_what_is_no_sequence_of_words_is_refused(given: Any, message: str) -> None:
@@ -99,6 +102,7 @@ def test_words_are_texts_of_letters_or_rows_of_names_or_as_derive_prints_them() 
     expected = infer(derive(system("J1"), 4)).systems
     printed = [str(word) for word in derive(system("J1"), 4)]
     assert infer(printed).systems == infer([word.split() for word in printed]).systems == expected
+    assert infer(["A(1, 2)", "A(1e-05, 2)"]).systems == infer(["A(1,2)", "A(0.00001,2)"]).systems
     assert infer([str(word) for word in derive(system("P4"), 9)]).systems == infer(derive(system("P4"), 9)).systems
 
 

@@ -17,9 +17,10 @@ Row: TypeAlias = tuple[Module, ...]
 """A word."""
 MOST_MODULES = 100_000
 """So many modules may all words have together."""
-NUMBER = r"-?\d+(?:\.\d+)?(?:/\d+)?"
-ARGUMENTS = rf"\(({NUMBER}(?:,{NUMBER})*)\)"
-MODULE = re.compile(rf"\s*(\w+?(?=\W|$)|\S)(?:{ARGUMENTS})?")
+NUMBER = r"-?\d+(?:\.\d+)?(?:/0*[1-9]\d*|[eE][-+]?\d{1,3})?"
+ARGUMENTS = rf"\(\s*+({NUMBER}(?:\s*+,\s*+{NUMBER})*+)\s*+\)"
+MODULE = re.compile(rf"(\w++|\S)(?:{ARGUMENTS})?")
+VALUE = re.compile(rf"[^\s()]{ARGUMENTS}")
 
 
 def read_words(given: object) -> tuple[Row, ...]:
@@ -45,10 +46,12 @@ def read_words(given: object) -> tuple[Row, ...]:
     if len(words) < 2:
         raise ModelValueError(f"Rules are found from two words at least; there {'is one' if words else 'are none'}",
                               hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).')
-    printed = any(isinstance(word, str) and re.search(rf"\S\s+\S|\S{ARGUMENTS}", word) for word in words)
+    texts = [word for word in words if isinstance(word, str)]
+    valued = any(map(VALUE.search, texts))
+    printed = valued or any(len(text.split()) > 1 for text in texts)
     found, left = [], MOST_MODULES
     for step, word in enumerate(words):
-        found.append(_row(word, step, printed))
+        found.append(_row(word, step, printed, valued))
         left -= len(found[-1])
         if left < 0:
             raise ModelLimitError(f"The words up to step {step} have more than {MOST_MODULES:,} modules", limit=MOST_MODULES,
@@ -56,8 +59,10 @@ def read_words(given: object) -> tuple[Row, ...]:
     return tuple(found)
 
 
-def _row(word: object, step: int, printed: bool) -> Row:
+def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
     if isinstance(word, str):
+        if valued:
+            _require_values(word, step)
         row = tuple(_printed_modules(word) if printed else (Module(letter) for letter in word.strip()))
     elif isinstance(word, Sequence) and not isinstance(word, bytes | bytearray):
         row = tuple(_module(each, step) for each in counted(word))
@@ -68,6 +73,14 @@ def _row(word: object, step: int, printed: bool) -> Row:
             raise ModelValueError(f'The word of step {step} has the module "{quotable(module.symbol)}", which is no letter '
                                   "that rules alone replace", hint="Such a module cuts a branch, or asks what the turtle sees.")
     return row
+
+
+def _require_values(text: str, step: int) -> None:
+    """Refuse parentheses without numbers in words whose symbols have values: there they are no symbols themselves."""
+    found = re.search(r"\([^()]*\)?|\)", VALUE.sub(" ", text))
+    if found:
+        raise ModelValueError(f'The word of step {step} has "{quotable(found[0])}", which are no values',
+                              hint="Values are numbers with commas between them, as in A(1,2.5).")
 
 
 def _printed_modules(text: str) -> Iterable[Module]:
