@@ -45,7 +45,7 @@ TOGETHER = 8
 """So many drawings one child makes: to start it takes as long as to draw one."""
 LONGEST_RULES, LONGEST_MISTAKE = 3_000, 600
 """So many characters are shown of a model, and of what is wrong with it."""
-_LINK = re.compile(rf"""[^\s,;"'<>|]*{MARK}[^\s,;"'<>|]*""")
+_LINK = re.compile(rf"""(?<![^\s,;"'<>|])[^\s,;"'<>|]*?{MARK}[^\s,;"'<>|]*""")
 _AROUND_NAMES = " \t,;:|\"'<>-–="
 STYLE = (Path(__file__).parent / "wall.css").read_text(encoding="utf-8")
 

@@ -10,7 +10,7 @@ from lsys_kit.classroom.lessons.lesson import Table
 from lsys_kit.classroom.lessons.widget import prose_text
 from lsys_kit.notation.model.arithmetic import Value, normalised
 
-_SET = re.compile(r"(\w+) = ([\d./]+\d|\d)")
+_SET = re.compile(r"\b(\w++) = ([\d./]+\d|\d)")
 
 
 def asked_settings(tables: Sequence[Table], sliders: Collection[str]) -> Iterator[dict[str, Value]]:

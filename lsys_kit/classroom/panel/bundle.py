@@ -16,7 +16,7 @@ from string import Template
 
 from lsys_kit.pictures.style.themes import DARK, DARK_LINES, LIGHT, Theme
 
-_IMPORT = re.compile(r'^import \{[^}]*\} from "[./\w]*?(\w+)\.js";\n', re.MULTILINE)
+_IMPORT = re.compile(r'^import \{[^{}]*\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 
 

@@ -94,7 +94,7 @@ def heading_id(html: str) -> str:
     >>> heading_id("2 An <em>alga</em> &amp; more")
     '2-An-alga-&amp;-more'
     """
-    return re.sub(r"<[^>]*>", "", html).strip().replace(" ", "-")
+    return re.sub(r"<[^<>]*>", "", html).strip().replace(" ", "-")
 
 
 def mathml(latex: str, display: str = "inline") -> str:

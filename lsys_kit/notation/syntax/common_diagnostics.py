@@ -69,7 +69,7 @@ def second_arrow(failure: ParseFailure) -> ModelSyntaxError | None:
 def second_comparison(failure: ParseFailure) -> ModelSyntaxError | None:
     """Two comparisons in a row, as in "1 < t < 5"."""
     relation = failure.spelling.relations
-    chain = re.search(rf"([\w.]+)\s*({relation})\s*([\w.]+)$", failure.before[-200:])
+    chain = re.search(rf"(?<![\w.])([\w.]++)\s*+({relation})\s*+([\w.]+)$", failure.before[-200:])
     if not chain or not re.match(relation, failure.found):
         return None
     right = re.match(r"\s*([\w.]+)", failure.after[len(failure.found):])

@@ -37,8 +37,8 @@ def listing(exercise: Exercise) -> str:
 
 
 _LETTER = re.compile(
-    r"^(?:it\s+is\s+|the\s+)?(?:(?:right|correct|my)\s+)?(?:option|answer|choice|solution|letter)?\s*(?:is\b|[:=])?"
-    r"\s*\W*([a-z])\W*$",
+    r"^(?:it\s+is\s++|the\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter)?\s*+(?:is\b)?"
+    r"\W*+([a-z])\W*$",
     re.IGNORECASE,
 )
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
@@ -53,7 +53,7 @@ def _plain(text: str) -> str:
     """A text by its words and signs alone: without blanks beside signs, quotation marks, capital letters."""
     text = re.sub(r"[`*\"']", "", keyboard_text(text))
     text = with_digits(re.sub(r"(?<=[a-z]{2})-(?=[a-z]{2})", " ", " ".join(text.split())))
-    return re.sub(r"\s*([^\w\s])\s*", r"\1", text).strip(".,;:!? ").casefold()
+    return re.sub(r" ?([^\w\s]) ?", r"\1", text).strip(".,;:!? ").casefold()
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:

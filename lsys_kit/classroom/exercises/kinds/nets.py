@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.text import quoted, text_answer
+from lsys_kit.classroom.exercises.typed.text import ARROW, quoted, text_answer
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
@@ -19,12 +19,11 @@ from lsys_kit.translation import gettext, ngettext
 
 MOST_TRANSITIONS = 60
 """The most transitions of a net that is compared."""
-_LINE = re.compile(
-    r"^\s*(?P<place>[^\s+]+)\s*(?:(?:-|=)+>|→)\s*(?P<made>.*?)\s*(?P<terms>(?:with probability|after|at once|if)\b.*)?$"
-)
-_PART = re.compile(r"\s*(?P<copies>\d*)\s*\*?\s*(?P<place>[^\s+*,\d][^\s+,]*)\s*")
+_TERMS = re.compile(r"\b(?:with probability|after|at once|if)\b.*")
+_PART = re.compile(r"(?:^|(?<!\s)\s++)(?P<copies>\d*+)\s*+(?:\*\s*+)?(?P<place>[^\s+*,\d][^\s+,]*+)")
 _JOINED = re.compile(r"\band\b|&", re.IGNORECASE)
-_ARROW = re.compile(r"(?:-|=)+>|→")
+_ARROW = re.compile(ARROW)
+_APART = re.compile(r"[\s+,]")
 _BETWEEN = re.compile(r"[\n;]|,(?=[^,;\n]*(?:->|=>|→))")
 _START = re.compile(r"^\s*(?:start|tokens|axiom)\s*:\s*(?P<places>.*)$", re.IGNORECASE)
 
@@ -63,6 +62,8 @@ def read_net(text: str) -> Net:
 
     >>> read_net("C -> L + 2 S\\nstart: C")
     Net(firings=(Firing(place='C', made=(('L', 1), ('S', 2)), terms=''),), start=(('C', 1),))
+    >>> read_net("A-->B") == read_net("A -> B")
+    True
     """
     firings: list[Firing] = []
     start: Counter[str] | None = None
@@ -72,19 +73,25 @@ def read_net(text: str) -> Net:
             gettext("The net has more than {most} transitions", most=MOST_TRANSITIONS), limit=MOST_TRANSITIONS
         )
     for line in lines:
-        marked, found = _START.match(line), _LINE.match(line)
+        marked, arrow = _START.match(line), _ARROW.search(line)
+        place = line[: arrow.start()].strip() if arrow else ""
         if marked:
             start = _counted(marked["places"].replace(",", "+"), text)
-        elif found:
-            firings.append(
-                Firing(found["place"], _sorted(_counted(found["made"], text)), " ".join((found["terms"] or "").split()))
-            )
+        elif arrow and place and not _APART.search(place):
+            firings.append(_firing(place, line[arrow.end() :], text))
         else:
             at = text.find(line)
             raise ModelSyntaxError(
                 gettext("This is no transition"), text, at, at + len(line), gettext("Write it as: A -> B + 2 C.")
             )
     return Net(tuple(firings), None if start is None else _sorted(start))
+
+
+def _firing(place: str, behind: str, text: str) -> Firing:
+    """The transition that empties a place, given what stands behind its arrow."""
+    terms = _TERMS.search(behind)
+    made = behind[: terms.start()] if terms else behind
+    return Firing(place, _sorted(_counted(made, text)), " ".join(terms[0].split()) if terms else "")
 
 
 def _single(line: str) -> Iterator[str]:
@@ -94,7 +101,7 @@ def _single(line: str) -> Iterator[str]:
     ['A -> B', 'B -> C + D']
     """
     parts = [part.strip() for part in _ARROW.split(line)]
-    if len(parts) > 2 and all(part and not re.search(r"[\s+,]", part) for part in parts[:-1]):
+    if len(parts) > 2 and all(part and not _APART.search(part) for part in parts[:-1]):
         yield from (f"{one} -> {other}" for one, other in pairwise(parts))
     elif line.strip():
         yield line.strip().rstrip(".")
@@ -104,6 +111,7 @@ def _counted(made: str, text: str) -> Counter[str]:
     """How many tokens are put into each place."""
     found: Counter[str] = Counter()
     for part in re.split(r"[+,]", _JOINED.sub("+", made)) if made.strip() not in ("", "ε", "*", "nothing") else ():
+        part = part.strip()
         read = list(_PART.finditer(part))
         if "".join(each[0] for each in read) != part or not read or _ARROW.search(part):
             at = max(text.find(part), 0)

@@ -36,7 +36,7 @@ from lsys_kit.notation.read import read
 from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
-_AXIOM_LINE = re.compile(r"^\s*(axiom|omega|ω)\s*:", re.IGNORECASE | re.MULTILINE)
+_AXIOM_LINE = re.compile(r"^[ \t]*(axiom|omega|ω)[ \t]*:", re.IGNORECASE | re.MULTILINE)
 """An answer with an axiom of its own is the whole system."""
 _ARROW = re.compile(r"->|→")
 MOST_QUOTED = 200

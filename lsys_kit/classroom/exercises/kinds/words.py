@@ -9,7 +9,7 @@ from contextlib import suppress
 from lsys_kit.classroom.exercises.asked import Derived, asked_steps, asked_system, right_history
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed.text import keyboard_text, text_answer, unlabelled, unquoted
+from lsys_kit.classroom.exercises.typed.text import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import LSystemError, ModelNameError
@@ -21,7 +21,6 @@ from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.translation import gettext, ngettext
 
 Modules = tuple[Module, ...]
-_OUTER_COMMA = re.compile(r",(?![^(]*\))")
 _MISTAKABLE = {"+": "-", "-": "+", "[": "(", "]": ")", "(": "[", ")": "]", "F": "f", "f": "F"}
 """Symbols that are taken for one another: where one occurs the other is an answer, if a wrong one."""
 _BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
@@ -32,6 +31,7 @@ _OUTER = re.compile(r"^\s*[\[{(]([^\[\]{}()]*)[\]})]\s*$", re.DOTALL)
 """Words within one pair of brackets."""
 _COMMA_WITHIN = re.compile(r"\(\s*(\d+),(\d+)\s*\)")
 """A number with a decimal comma, where the question has no module with two."""
+_NAME = re.compile(r"[A-Za-z]\w*+")
 
 
 def system_of_words(exercise: Exercise) -> LSystem:
@@ -56,7 +56,7 @@ def read_modules(system: LSystem, answer: object) -> Modules:
     text = _unlabelled(system, text_answer(answer, gettext("A word"), '"al br"'))
     bare = _BRACES.sub(lambda found: found[1], text)
     bare = bare if system.notation == "plant-string" else _TUPLE.sub(r"\1", bare)
-    plain = bare if system.notation == "plant-string" else _OUTER_COMMA.sub(" ", bare)
+    plain = bare if system.notation == "plant-string" else without_commas(bare)
     try:
         return _of_the_system(system, plain, read_word(plain, system.notation, system))
     except LSystemError:
@@ -93,9 +93,7 @@ def _unlabelled(system: LSystem, text: str) -> str:
     text = text if "." in signs else re.sub(r"\.\s*$", "", text)
     if system.notation != "plant-string" and all(len(m.arguments) < 2 for m in system.modules):
         text = _COMMA_WITHIN.sub(r"(\1.\2)", text)
-    return re.sub(
-        r"[A-Za-z]\w*_\w+", lambda found: found[0].replace("_", "") if found[0].replace("_", "") in known else found[0], text
-    )
+    return _NAME.sub(lambda found: plain if (plain := found[0].replace("_", "")) in known else found[0], text)
 
 
 def _of_the_system(system: LSystem, text: str, word: Modules) -> Modules:
@@ -170,7 +168,7 @@ def _separate(system: LSystem, answer: object) -> Iterator[object]:
     if isinstance(answer, Derivation | list | tuple):
         yield from answer
         return
-    text = _OUTER.sub(r"\1", unquoted(re.sub(r"(?:-|=)+>|→", ",", text_answer(answer, gettext("Words"), '"a, ab, aba"'))))
+    text = _OUTER.sub(r"\1", unquoted(re.sub(ARROW, ",", text_answer(answer, gettext("Words"), '"a, ab, aba"'))))
     by_blanks = all(len(symbol) == 1 and symbol.isalpha() for symbol in symbols(system))
     separator = next((mark for mark in ("\n", ";", ",", " ") if mark in text and (mark != " " or by_blanks)), "\n")
     for part in text.split(separator):

@@ -83,7 +83,7 @@ def size_of(word: str) -> int:
     >>> size_of("A(1)B(2)"), size_of("a b"), size_of("F[+F]")
     (2, 2, 5)
     """
-    return sum(map(len, re.sub(r"\([^)]*\)", "", word).split()))
+    return sum(map(len, re.sub(r"\([^()]*\)", "", word).split()))
 
 
 def derivation_text(words: Sequence[str]) -> str:

@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from lsys_kit.classroom.exercises.typed.formulas import formula_text
 from lsys_kit.classroom.exercises.typed.number_words import with_digits
-from lsys_kit.classroom.exercises.typed.text import keyboard_text, quoted, unlabelled, unquoted
+from lsys_kit.classroom.exercises.typed.text import ARROW, keyboard_text, quoted, unlabelled, unquoted
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
@@ -23,10 +23,12 @@ _COMMAS = re.compile(r"[+-]?\d{1,3}(,\d{3})+")
 _DECIMAL_COMMA = re.compile(r"[+-]?(\d+,\d{1,2}|\d+,\d{4,}|0,\d+)")
 _SCIENTIFIC = re.compile(r"(?<!\w)(\d+(?:\.\d+)?)[eE]([+-]?\d{1,3})(?!\w)")
 _SENTENCE = re.compile(
-    r"^(?P<before>(?:(?!pi\b)[^\W\d_]+[\s:.]+)*)(?P<number>.*?(?:[\d)}]|(?<![A-Za-z])pi\b))\s*"
-    r"(?P<after>(?!pi\b)[^\W\d_][^\W\d]*(?:\s[\w ]*)?|°|%)?$",
+    r"^(?P<before>(?:(?!pi\b)[^\W\d_]++(?:[\s:]|\.(?!(?<=[\s:]\.)\d))++)*+)"
+    r"(?P<number>(?:.*(?:[^\w\s°%]|[°%](?!$)))?+(?:(?<=[)}])|[\w\s]*?(?:\d|(?<![A-Za-z])pi\b)))\s*"
+    r"(?P<after>(?!pi\b)[^\W\d_][^\W\d]*(?:\s[\w\s]*)?|°|%)?$",
     re.DOTALL,
 )
+"""Words, a number, words: whatever has other signs belongs to the number."""
 _REPLACED = (
     (re.compile(r"\bper\s+cent\b", re.IGNORECASE), "percent"),
     (re.compile(r"\b(?:no|nr)\.\s*(?=\d)", re.IGNORECASE), ""),
@@ -62,6 +64,8 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
 
     >>> typed_number("N(12) = 21 cells").value, typed_number("1,000").value, typed_number(Decimal("0.5")).value
     (21, 1000, Fraction(1, 2))
+    >>> typed_number("about .5").value, typed_number("No.5 .").value
+    (Fraction(1, 2), 5)
     >>> typed_number("at step twenty-one"), typed_number("2π/5 rad").after
     (TypedNumber(value=21, before=('at', 'step'), after=(), of_pi=False), ('rad',))
     """
@@ -118,7 +122,7 @@ def _known(number: Value) -> Value:
 # Rows
 
 _MATRIX = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\b(?:np\.)?(?:Matrix|matrix|array)\b")
-_BETWEEN = re.compile(r"\\\\|(?:-|=)+>|→|\band\b|(?<=\s)/(?=\s)")
+_BETWEEN = re.compile(rf"\\\\|{ARROW}|\band\b|(?<=\s)/(?=\s)")
 
 
 def parts(answer: object, what: str) -> list[object]:

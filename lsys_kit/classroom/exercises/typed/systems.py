@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from lsys_kit.classroom.exercises.typed.formulas import with_operators
-from lsys_kit.classroom.exercises.typed.text import unquoted
+from lsys_kit.classroom.exercises.typed.text import unquoted, without_commas
 from lsys_kit.errors import LSystemError
 
 Read = TypeVar("Read")
@@ -15,12 +15,13 @@ _ERASED = re.compile(r"(->|→)[ \t]*(?:\"\"|''|\\(?:var)?epsilon\b|\bepsilon\b|
 _IN_A_WORD = re.compile(r"(->|→)[ \t]*(?:empty|nothing)[ \t]*$", re.MULTILINE | re.IGNORECASE)
 _NOTHING = re.compile(r"(->|→)[ \t]*$", re.MULTILINE)
 _FULL_STOP = re.compile(r"(?<=[\w\])])\.[ \t]*$", re.MULTILINE)
-_NEXT_LINE = re.compile(r"[ \t]*;[ \t]*(?!\n)|[ \t]*,[ \t]*(?=[^,;\n]*?(?:->|→))")
-_SETTING = re.compile(r"^(\s*(?:axiom|angle|heading|length))\s*=", re.MULTILINE | re.IGNORECASE)
-_COMMA = re.compile(r",(?![^(\n]*\))[ \t]*")
-_WITHIN = re.compile(r"\([^()\n]*\)|:[^\n]*?(?=->|→)")
+_NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
+_SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
+_ARROW = re.compile(r"->|→|$")
+_ARGUMENTS = re.compile(r"\([^()\n]*\)")
+_TYPED_ARROW = re.compile(r"(?:(?<!-)-++|(?<!=)=++)>")
 _PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)(?=[A-Za-z])")
-_FIRST_WORD = re.compile(r"^\s*[^\n:=>→]+\n(?=[^\n]*(?:->|→))")
+_FIRST_WORD = re.compile(r"^\s*+[^\n:=>→]++\n(?=[^\n]*(?:->|→))")
 
 
 def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Read:
@@ -60,8 +61,25 @@ def _spelt_out(text: str) -> str:
     >>> _spelt_out("a\\na -> a, b\\nb ->")
     'axiom: a\\na -> a b\\nb -> ε'
     """
-    text = re.sub(r"(?:-+|=+)>", "->", text).replace("°", "").strip()
+    text = _TYPED_ARROW.sub("->", text).replace("°", "").strip()
     text = _SETTING.sub(r"\1:", _NEXT_LINE.sub("\n", text))
-    text = _COMMA.sub(" ", _NOTHING.sub(r"\1 ε", text))
-    text = _WITHIN.sub(lambda found: _PRODUCT.sub(r"\1*", with_operators(found[0])), text)
+    text = without_commas(_NOTHING.sub(r"\1 ε", text))
+    text = "\n".join(map(_with_signs, text.split("\n")))
     return f"axiom: {text}" if _FIRST_WORD.match(text) else text
+
+
+def _with_signs(line: str) -> str:
+    """A line with signs for the words and the products in its arguments and its condition."""
+    arrow = _ARROW.search(line)
+    assert arrow
+    before, colon, condition = line[: arrow.start()].partition(":") if arrow[0] else (line, "", "")
+    made = _in_arguments(line[arrow.start() :]) if arrow[0] else ""
+    return _in_arguments(before) + _signs(colon + condition) + made
+
+
+def _in_arguments(text: str) -> str:
+    return _ARGUMENTS.sub(lambda found: _signs(found[0]), text)
+
+
+def _signs(formula: str) -> str:
+    return _PRODUCT.sub(r"\1*", with_operators(formula))

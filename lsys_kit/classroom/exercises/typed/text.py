@@ -8,8 +8,12 @@ import unicodedata
 from lsys_kit.errors import ModelValueError, quotable, shown
 from lsys_kit.translation import gettext
 
-_ASSIGNED = re.compile(r"^\s*[A-Za-z_]\w*\s*(\([^()=]*\))?\s*=(?!=)\s*")
+_ASSIGNED = re.compile(r"^\s*+[A-Za-z_]\w*+\s*+(?:\([^()=]*\)\s*+)?=(?!=)\s*")
 """The beginning of `N(12) = 21` or `t = d - s`."""
+ARROW = r"(?<![-=])[-=]++>|→"
+"""An arrow, however long."""
+_OUTSIDE = re.compile(r"[^()]++\)?")
+"""What stands between two parentheses, with the second if it closes one."""
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _RAISED_NUMBER = re.compile(rf"([⁺⁻]?)([{_RAISED}]+)")
 _DIGITS = str.maketrans(_RAISED, "0123456789")
@@ -98,6 +102,15 @@ def unlabelled(text: str) -> str:
     ('7, 10', '2, 3', '1 2, 1 0')
     """
     return _LABEL.sub("", text)
+
+
+def without_commas(text: str) -> str:
+    """A text with blanks for the commas between its modules, which are outside parentheses.
+
+    >>> without_commas("A(1, 2), b,b")
+    'A(1, 2) b b'
+    """
+    return _OUTSIDE.sub(lambda found: found[0] if found[0].endswith(")") else re.sub(r",[ \t]*", " ", found[0]), text)
 
 
 def unquoted(text: str) -> str:

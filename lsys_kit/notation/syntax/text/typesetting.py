@@ -23,7 +23,7 @@ _DISPLAY = re.compile(r"^[ \t]*+(?:(\\[\[(])(?:.*(\\[\])]))?|(\\[\])]))[ \t]*+$|
 _ENVIRONMENT = re.compile(
     r"\\begin[ \t]*+\{(array|align(?:ed|at)?\*?|eqnarray\*?|gather(?:ed)?\*?|split|tabular)\}(?:[ \t]*+\{[^{}\n]*+\})?"
     r"(?P<rows>.*?)(?P<end>\\end[ \t]*+\{\1\}|\Z)", re.DOTALL)
-_ROW_END = re.compile(r"\\\\(?:\[[^\]\n]*+\])?")
+_ROW_END = re.compile(r"\\\\(?:\[[^\[\]\n]*+\])?")
 _NUMBER = r"[ \t]*+\(\d+[a-z]?\)(?=[ \t]*+(?:$|\$\$|\\\]|\\\\|\\end))"
 _NUMBERED = re.compile(rf"\\q?quad{_NUMBER}|\\tag\*?[ \t]*+\{{[^{{}}\n]*+\}}", re.MULTILINE)
 """The number of an equation."""

@@ -33,8 +33,8 @@ from lsys_kit.pictures.formats.vector.shapes import (
 
 Attributes = Mapping[str, str]
 _SVG = "{http://www.w3.org/2000/svg}"
-_MOVED = re.compile(r"translate\((\S+) (\S+)\)")
-_ENLARGED = re.compile(r"scale\((\S+)\)")
+_MOVED = re.compile(r"translate\(([^\s()]+) ([^\s()]+)\)")
+_ENLARGED = re.compile(r"scale\(([^\s()]+)\)")
 _GRADIENT = re.compile(r"url\(#(.*)\)")
 _INHERITED = ("fill", "stroke", "stroke-width", "stroke-linecap", "stroke-dasharray", "fill-opacity", "stroke-opacity",
               "fill-rule", "font-size", "font-family", "font-weight", "font-style", "text-anchor", "paint-order")
