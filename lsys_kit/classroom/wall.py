@@ -1,6 +1,7 @@
 """Everybody's plants on one page: what a class has handed in, as links or as model files, drawn side by side.
 
 Each is read and drawn in a child process with limits of time and memory, as many processes at a time as there are processors.
+Most take a twentieth of a second. Those that take long are drawn last and share their time, so that many cost no more than some.
 What cannot be drawn is a tile too, which says why; no text of a model or a name becomes markup, and pictures stand in the page
 as images, in which nothing runs.
 """
@@ -12,6 +13,8 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
+from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -37,10 +40,10 @@ MOST_TILES = 1_000
 """So many plants a page shows."""
 MOST_CHARACTERS = 50_000_000
 """So many characters of models are taken together."""
-BUDGET = {"seconds": 2, "modules": 300_000, "bytes": 2**27, "segments": 2_000}
+BUDGET = {"modules": 300_000, "bytes": 2**27, "segments": 2_000}
 """The limits of a drawing; with more shapes than that it is a picture of pixels."""
-SECONDS = 4
-"""So many seconds of processor time reading and drawing may take together."""
+QUICK, LONGEST, SHARED = 0.25, 2.0, 8.0
+"""So many seconds of processor time each may take, one that takes longer, and all those together."""
 TOGETHER = 8
 """So many drawings one child makes: to start it takes as long as to draw one."""
 LONGEST_RULES, LONGEST_MISTAKE = 3_000, 600
@@ -94,8 +97,25 @@ def wall(folder: str | Path) -> list[Tile]:
                              f"{MOST_CHARACTERS:,} characters", hint="Make several pages.")
     _prepare()
     texts = list(dict.fromkeys(each.text for each in given if not each.problem))  # what several hand in is drawn once
-    drawn = dict(zip(texts, in_child_processes(drawn_as, texts, SECONDS, "drawn", TOGETHER), strict=True))
+    drawn = _drawn(texts)
     return [Tile(each.name, mistake=each.problem) if each.problem else _tile(each.name, drawn[each.text]) for each in given]
+
+
+def _drawn(texts: Sequence[str]) -> dict[str, Any]:
+    """What comes of each text: those that are soon drawn, and then those that take long, each with an equal share of time."""
+    found = dict(zip(texts, _in_children(texts, QUICK, TOGETHER), strict=True))
+    slow = [text for text in texts if found[text] == {}]
+    share = min(LONGEST, SHARED / max(len(slow), 1))
+    if slow and share > QUICK:
+        found.update(zip(slow, _in_children(slow, share, 1), strict=True))
+    mistake = f"It takes more than {max(share, QUICK):.2g} seconds to draw"
+    if share < LONGEST:
+        mistake += f"; the {len(slow)} models here that take long have {SHARED:g} seconds together"
+    return {text: each or {"mistake": f"{mistake}."} for text, each in found.items()}
+
+
+def _in_children(texts: Sequence[str], seconds: float, together: int) -> list[Any]:
+    return in_child_processes(partial(drawn_as, seconds=seconds), texts, ceil(seconds) + 1, "drawn", together)
 
 
 def _prepare() -> None:
@@ -144,15 +164,16 @@ def _links_in(lines: Sequence[str], name: str) -> Iterator[Given]:
 # In a child process
 
 
-def drawn_as(text: str) -> dict[str, str]:
-    """A model drawn, as the fields of a tile."""
+def drawn_as(text: str, seconds: float = LONGEST) -> dict[str, str]:
+    """A model drawn, as the fields of a tile; nothing if that takes longer."""
     try:
-        with limits(**BUDGET):
+        with limits(**BUDGET, seconds=seconds):
             model = linked(text.strip()) if is_link(text) else Linked(read_any(text), {})
             picture = draw(_with_constants(model), _steps(model), **_choices(model))
             return {"picture": picture.svg, "description": _described(model, str(picture)), "rules": _rules(model)}
     except LSystemError as mistake:
-        return {"mistake": _said(mistake)}
+        too_long = isinstance(mistake, ModelLimitError) and mistake.limit == seconds
+        return {} if too_long else {"mistake": _said(mistake)}
 
 
 def _steps(model: Linked) -> int | None:

@@ -132,6 +132,35 @@ def test_what_several_hand_in_is_drawn_once(tmp_path, monkeypatch):
     assert [(tile.name, tile.picture) for tile in tiles] == [("Ann", LINK), ("Ben", other), ("Cem", LINK)]
 
 
+def test_models_that_take_long_share_their_time(tmp_path, monkeypatch):
+    given_seconds = []
+
+    def children(work, texts, *_):
+        seconds = work.keywords["seconds"]
+        given_seconds.append((len(texts), seconds))
+        return [{"picture": text} if text == LINK or seconds > int(text) else {} for text in texts]
+
+    monkeypatch.setattr(wall_module, "in_child_processes", children)
+    given(tmp_path, Ann=LINK, **{f"Slow{number}": str(number % 2) + " " * number for number in range(10)})
+    tiles = wall(tmp_path)
+    assert given_seconds == [(11, wall_module.QUICK), (5, 1.6)]
+    assert all(tile.picture for tile in tiles)
+    for number in range(40):
+        (tmp_path / f"Endless{number}.txt").write_text(f"9{number}", encoding="utf-8")
+    by_name = {tile.name: tile for tile in wall(tmp_path)}
+    assert len(by_name) == 51
+    assert given_seconds[2:] == [(51, wall_module.QUICK)]
+    assert by_name["Ann"].picture == LINK
+    assert by_name["Endless7"].mistake == \
+        "It takes more than 0.25 seconds to draw; the 45 models here that take long have 8 seconds together."
+
+
+def test_a_model_that_takes_too_long_is_told_from_one_that_is_too_large():
+    growing = link(read("axiom: A(1)\nA(x) -> A(sqrt(x*1.1)+sin(x)) A(x/3+1)"), {"step": 17})
+    assert drawn_as(growing, seconds=0.05) == {}
+    assert "modules" in drawn_as("axiom: F\nF -> F F F F F F F F F F\nsteps: 40", seconds=0.05)["mistake"]
+
+
 def test_a_page_is_renewed_and_nothing_else_is_lost(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "ann.txt").write_text(PLANT, encoding="utf-8")
