@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from lsys_kit import derive, exercises, read, read_map
+from lsys_kit.classroom.exercises.declared import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import WrongAnswer, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
@@ -22,8 +26,19 @@ from lsys_kit.notation.model.modules import joined
 from lsys_kit.notation.read import read_expression
 
 OF_EACH_KIND = Path(__file__).parent / "questions"
-exercises(OF_EACH_KIND)
-EXERCISES = exercises()
+
+
+@contextmanager
+def of_each_kind_added() -> Iterator[None]:
+    """The folder with exercises of each kind is added, as that of a teacher, and forgotten afterwards."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(registry, "_added", {})
+        exercises(OF_EACH_KIND)
+        yield
+
+
+with of_each_kind_added():
+    EXERCISES = exercises()
 WRONG: list[tuple[Exercise, WrongAnswer]] = [(exercise, wrong) for exercise in EXERCISES for wrong in wrong_answers(exercise)]
 
 

@@ -13,10 +13,16 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import NEAR, RECOGNISED
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.lint import problems_in
-from tests.classroom.answers import EXERCISES, OF_EACH_KIND, WRONG, as_typed, right_answers
+from tests.classroom.answers import EXERCISES, OF_EACH_KIND, WRONG, as_typed, of_each_kind_added, right_answers
 
 IDS = [exercise.id for exercise in EXERCISES]
 each_exercise = pytest.mark.parametrize("exercise", EXERCISES, ids=IDS)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def of_each_kind():
+    with of_each_kind_added():
+        yield
 
 
 def test_there_is_an_exercise_of_each_kind():

@@ -12,11 +12,17 @@ from lsys_kit.classroom.exercises.judging import judged
 from lsys_kit.classroom.exercises.kinds.proofs import proved_equal
 from lsys_kit.classroom.exercises.misconceptions.rewriting import leftmost_only, sequential, words_by
 from lsys_kit.notation.read import read_expression
-from tests.classroom.answers import OF_EACH_KIND
+from tests.classroom.answers import OF_EACH_KIND, of_each_kind_added
 
 FIBONACCI = "axiom: a\na -> ab\nb -> a"
 FILAMENT = "axiom: M(2)\nM(s) : s < 5 -> M(s+1)\nN(s) : s < 5 -> N(s+1)\nN(s) : s == 5 -> M(2) N(1)"
 _TOP = 'title = "T"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n'
+
+
+@pytest.fixture(autouse=True, scope="module")
+def of_each_kind():
+    with of_each_kind_added():
+        yield
 
 
 @pytest.fixture

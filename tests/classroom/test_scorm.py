@@ -27,7 +27,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.scorm.answers import page_data, rounded_key
 from lsys_kit.classroom.scorm.package import ADL, CONTENT, MANIFEST, lessons_of, manifest, package, page_names, write_package
 from lsys_kit.classroom.scorm.page import exercise_page
-from tests.classroom.answers import EXERCISES, WRONG, as_typed, right_answers
+from tests.classroom.answers import EXERCISES, WRONG, as_typed, of_each_kind_added, right_answers
 from tests.classroom.front_end import joined
 
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
@@ -44,6 +44,12 @@ ATTRIBUTES = {"manifest": {"identifier", "version"}, "organizations": {"default"
 def checked_in_pages() -> dict[str, Any]:
     """What pages need for the exercises that they check, by their ids."""
     return {exercise.id: data for exercise in EXERCISES if (data := page_data(exercise))}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def of_each_kind():
+    with of_each_kind_added():
+        yield
 
 
 @pytest.fixture(scope="module")
