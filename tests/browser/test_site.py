@@ -100,8 +100,8 @@ def held_by(model: dict[str, Any], fixed: dict[str, str], asked: dict[str, str])
 
 
 @pytest.mark.parametrize("name", LESSONS)
-def test_every_slider_moves_and_reaches_what_the_tables_of_the_lesson_ask_for(site: Path, name: str) -> None:
-    tables, offered, moved = declared(Path(name).stem).tables, set(), set()
+def test_every_slider_moves_and_reaches_what_the_lesson_asks_for(site: Path, name: str) -> None:
+    lesson, offered, moved = declared(Path(name).stem), set(), set()
     for panel in panels_of(site / name):
         model, fixed, said = panel["model"], panel["fixed"], panel["model"]["fixed"]
         whole = read(panel["system"]["text"], panel["system"]["notation"])
@@ -113,9 +113,9 @@ def test_every_slider_moves_and_reaches_what_the_tables_of_the_lesson_ask_for(si
         possible = {*sliders, *(["seed"] if chance else [])}
         offered |= sliders
         moved |= moving
-        for row in asked_settings(tables, possible - {*model["without"]}):
+        for row in asked_settings(lesson, possible - {*model["without"]}):
             assert held_by(model, fixed, {each: number_text(value) for each, value in row.items()}), (row, said)
-    named = ([word for word in re.findall(r"\w+", table.columns[0]) if word in offered] for table in tables)
+    named = ([word for word in re.findall(r"\w+", table.columns[0]) if word in offered] for table in lesson.tables)
     assert {words[0] for words in named if words} <= moved, "no panel of the lesson moves what its tables ask for"
 
 

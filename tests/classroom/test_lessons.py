@@ -88,7 +88,9 @@ def test_every_lesson_can_be_read(name):
     (("tables", 0, "rows", 1, 1), {"rihgt": "1"}, 'column 2 has an unknown entry "rihgt"'),
     (("tables", 0, "rows", 1, 1), {"right": []}, '"right" is empty'),
     (("tables", 0, "rows", 1, 1), {"right": "1", "within": "near"}, '"within" must be a number'),
-    (("tables", 0, "rows", 1, 1), {"right": "1", "within": -1}, '"within" must be a number'),
+    (("tables", 0, "rows", 1, 1), {"right": "1", "within": -1}, '"within" must be a number from 0 on'),
+    (("settings",), [["dt"]], "settings 1 must be a table of entries"),
+    (("settings",), [{"dt": "near"}], 'settings 1, "dt" must be a number'),
     (("tables", 0, "rows", 1, 1), True, "column 2 must be a text"),
 ])
 def test_a_mistake_in_a_declaration_is_named_with_its_place(path, to, says):

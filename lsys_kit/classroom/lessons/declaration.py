@@ -38,7 +38,13 @@ def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
     tables = tuple(_table(f"{where}, table {place}", each) for place, each in enumerate(found.pop("tables"), 1))
     if len({each.id for each in tables}) < len(tables):
         raise ModelFileError(f"{where}: two tables have the same id")
-    return Lesson(name=name, vote=vote, tables=tables, **found)
+    rows = found.pop("settings")
+    settings = tuple(_settings(f"{where}, settings {place}", each) for place, each in enumerate(rows, 1))
+    return Lesson(name=name, vote=vote, tables=tables, settings=settings, **found)
+
+
+def _settings(where: str, row: object) -> dict[str, str]:
+    return {name: _numeral(f'{where}, "{name}"', value) for name, value in _entries(where, row).items()}
 
 
 def _vote(where: str, entries: Mapping[str, Any]) -> Vote:
@@ -117,8 +123,15 @@ def _answers(where: str, value: object) -> tuple[str, ...]:
 
 
 def _distance(where: str, value: object) -> str:
+    text = _numeral(where, value)
+    if Fraction(number_of(text) or 0) < 0:
+        raise ModelFileError(f"{where} must be a number from 0 on, not {shown(value)}")
+    return text
+
+
+def _numeral(where: str, value: object) -> str:
     text = _text(where, value)
-    if number_of(text) is None or Fraction(number_of(text) or 0) < 0:
+    if number_of(text) is None:
         raise ModelFileError(f"{where} must be a number, not {shown(value)}")
     return text
 
@@ -140,7 +153,7 @@ Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
 _LESSON: Shape = {
     "number": (_number, ...), "title": (_text, ...), "question": (_text, ...), "minutes": (_number, ...),
     "track": (_texts, ...), "objectives": (_texts, ...), "summary": (_text, ...), "systems": (_texts, ...),
-    "points": (_texts, ...), "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...),
+    "points": (_texts, ...), "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...), "settings": (_list, []),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
 _OPTION: Shape = {"text": (_text, ...), "reply": (_text, ...), "right": (_truth, False)}

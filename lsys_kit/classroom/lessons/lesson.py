@@ -79,6 +79,8 @@ class Lesson:
         What students are likely to believe.
     vote, tables
         What the notebook asks.
+    settings
+        What its text asks of the sliders of a panel beside its tables: values that are set together, by the names of the sliders.
     """
 
     name: str
@@ -94,3 +96,4 @@ class Lesson:
     misconceptions: tuple[str, ...]
     vote: Vote
     tables: tuple[Table, ...]
+    settings: tuple[Mapping[str, str], ...] = field(default=(), hash=False)

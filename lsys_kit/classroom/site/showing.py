@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
 from lsys_kit.classroom.lessons.declared import declared, names
 from lsys_kit.classroom.lessons.displayed import html
-from lsys_kit.classroom.lessons.lesson import Table
+from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.predict import Prediction
 from lsys_kit.classroom.lessons.rule_finder import RuleFinder
 from lsys_kit.classroom.lessons.settings import asked_settings
@@ -25,31 +25,32 @@ KINDS: Mapping[type, str] = {Explorer: "panel", Comparison: "comparison", VoteBo
 
 
 def show_for_pages(lesson: str = "") -> None:
-    """Let this kernel show the widgets of the kit as data for a page; the panels of a lesson hold what its tables ask for."""
+    """Let this kernel show the widgets of the kit as data for a page; the panels of a lesson hold what it asks for."""
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter
-    tables = declared(lesson).tables if lesson in names() else ()
+    asking = declared(lesson) if lesson in names() else None
     for kind in KINDS:
-        formatter.mimebundle_formatter.for_type(kind, partial(part, tables=tables))
+        formatter.mimebundle_formatter.for_type(kind, partial(part, lesson=asking))
 
 
-def part(widget: Any, include: object = None, exclude: object = None, tables: Sequence[Table] = ()) -> dict[str, Any]:
+def part(widget: Any, include: object = None, exclude: object = None, lesson: Lesson | None = None) -> dict[str, Any]:
     """What a page has to know of a widget, by media types.
 
     >>> from lsys_kit import worksheet
     >>> part(worksheet("01", "counts"))[PART]["kind"]
     'worksheet'
     """
-    found = {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, tables)}
+    found = {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
     if isinstance(widget, Prediction):
         found["answer"] = dict(widget.answer)
     return {PART: found, "text/html": html({"text/plain": repr(widget)}), "text/plain": repr(widget)}
 
 
-def _data(widget: Any, tables: Sequence[Table]) -> Any:
-    """The data of a widget; a panel's hold the settings that the tables ask for."""
+def _data(widget: Any, lesson: Lesson | None) -> Any:
+    """The data of a widget; a panel's hold the settings that the lesson asks for."""
     if not isinstance(widget, Explorer | Comparison):
         return widget.page_data
     panels = [widget] if isinstance(widget, Explorer) else [widget.left, widget.right]
-    return widget.page_data([*asked_settings(tables, {"seed", *(name for each in panels for name in each.settings)})])
+    sliders = {"seed", *(name for each in panels for name in each.settings)}
+    return widget.page_data([*asked_settings(lesson, sliders)] if lesson else [])
