@@ -26,10 +26,10 @@ export function library(host) {
     return answer.book ? { book: keep(settings, answer.book) } : { mistake: answer.mistake };
   }
 
-  // Fetch the books of some settings while nothing else happens; what is fetched later ends it.
-  async function fetchAhead(many) {
+  // Fetch the books of the settings that are one movement of a slider away while nothing else happens; what is fetched later ends it.
+  async function fetchAhead(asked, sliders) {
     const number = ++fetching, begun = performance.now();
-    for (const settings of many) {
+    for (const settings of neighbours(asked, sliders)) {
       if (number !== fetching || fetched > MOST_BYTES || performance.now() - begun > LONGEST) return;
       if (!books.has(keyOf(settings))) await book(settings);
     }
@@ -42,4 +42,10 @@ export function library(host) {
   }
 
   return { book, keep, fetchAhead, clear, known: (settings) => books.get(keyOf(settings)) };
+}
+
+// The settings that one movement of a slider leads to.
+function neighbours(asked, sliders) {
+  return sliders.flatMap((each) => [1, -1].map((way) => each.control.index + way).filter((index) => index >= 0 && index < each.texts.length)
+    .map((index) => ({ ...asked, constants: { ...asked.constants, [each.name]: each.texts[index] } })));
 }

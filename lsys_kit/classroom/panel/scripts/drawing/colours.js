@@ -60,3 +60,17 @@ export function themeOf(element) {
     lit: read("lit"), lines: Object.fromEntries(read("lines").match(/#\w{6} #\w{6}/g)?.map((pair) => pair.split(" ")) ?? []), dark: luminance(read("paper")) < 0.2,
   };
 }
+
+// Call `changed` whenever the colours around an element may be others, until the returned function is called.
+export function whenRecoloured(element, changed) {
+  const watcher = new MutationObserver(changed), placed = new ResizeObserver(changed); // it may enter the page later
+  watcher.observe(document.body, { attributes: true });
+  placed.observe(element);
+  const scheme = matchMedia("(prefers-color-scheme: dark)");
+  scheme.addEventListener("change", changed);
+  return () => {
+    watcher.disconnect();
+    placed.disconnect();
+    scheme.removeEventListener("change", changed);
+  };
+}

@@ -3,12 +3,10 @@
 // The kernel has sent a book; step, angle, view, mark and trace are turned here. Only a new setting of the constants, or new
 // rules, ask the kernel for another book.
 
-import { openBook } from "../books/book.js";
-import { themeOf } from "../drawing/colours.js";
+import { themeOf, whenRecoloured } from "../drawing/colours.js";
 import { button, list, made, slider } from "../views/controls.js";
 import { countsView } from "../views/counts.js";
 import { drawingView } from "../drawing/drawing.js";
-import { filamentLength } from "../drawing/filament.js";
 import { seedsView, variantsView } from "../drawing/gallery.js";
 import { keeping } from "../views/keeping.js";
 import { ownKeys } from "../views/keys.js";
@@ -18,7 +16,8 @@ import { netView } from "../views/net.js";
 import { player } from "../views/player.js";
 import { rulesView } from "../views/rules.js";
 import { litAt, placesOf, told } from "../books/tracing.js";
-import { counted, sizeOf, wordView } from "../views/word.js";
+import { caption, code } from "./telling.js";
+import { wordView } from "../views/word.js";
 import { folding } from "../views/views.js";
 
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
@@ -70,7 +69,7 @@ export function openPanel(element, host, compared = null) {
   });
   const counts = countsView(view.counts.body, goTo);
   const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
-  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code, state }));
+  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code: () => code(host, book, turns()), state }));
 
   // -- what happens ---------------------------------------------------------------------------------------------------
 
@@ -100,16 +99,10 @@ export function openPanel(element, host, compared = null) {
     turnTo(answer.book);
     say(host.notice?.() ?? null); // a page may not hold all settings
     clearTimeout(idle);
-    if (host.ahead) idle = setTimeout(() => books.fetchAhead(neighbours()), REST);
+    if (host.ahead) idle = setTimeout(() => books.fetchAhead(request(), constants), REST);
   }
 
   const request = () => ({ constants: { ...host.get("settings") }, seed: host.get("seed") });
-
-  // The settings that one movement of a slider leads to.
-  function neighbours() {
-    return constants.flatMap((each) => [1, -1].map((way) => each.control.index + way).filter((index) => index >= 0 && index < each.texts.length)
-      .map((index) => ({ ...request(), constants: { ...host.get("settings"), [each.name]: each.texts[index] } })));
-  }
 
   async function newRules(text) {
     const number = ++asking, answer = await host.rules(text);
@@ -206,7 +199,7 @@ export function openPanel(element, host, compared = null) {
     counts.show(now);
     const kept = play.playing || scale.select.value === "same" ? boxed : null, looks = look();
     drawing.show({ ...sides(), step: now, boxed: kept, glides: play.playing && !still.matches }, looks);
-    status.textContent = caption(now, tokens);
+    status.textContent = caption(book, now, tokens, drawing.measured());
     drawing.describe(`Drawing of ${status.textContent}`);
     lightAround(looks);
     if (view.seeds.open) seeds.show(books, request(), sides(), looks);
@@ -245,19 +238,6 @@ export function openPanel(element, host, compared = null) {
     sentence.textContent = traced ? told(book, traced) : "";
   }
 
-  const rounded = (size) => Number((size + 1e-9).toFixed(2));
-
-  function caption(now, tokens) {
-    const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
-    const parts = [`step ${now}: ${sizeOf(book, now)}`, `${occupied} of ${counted(stages, "stage")} occupied`];
-    if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now))}`);
-    const measured = drawing.measured();
-    if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
-    if (book.data.said) parts.push(book.data.said);
-    if (now === book.steps && book.data.end) parts.push(book.data.end);
-    return parts.join("; ");
-  }
-
   function say(mistake) {
     message.hidden = !mistake;
     message.textContent = mistake ? `\u26a0 ${mistake.message}. ${mistake.hint ?? ""}` : "";
@@ -276,18 +256,6 @@ export function openPanel(element, host, compared = null) {
 
   function state() {
     return { ...request(), step: host.get("step"), angle: host.get("angle"), mark: host.get("mark") };
-  }
-
-  // The line of code that makes this panel as it stands.
-  function code() {
-    const changed = model.constants.filter((each) => host.get("settings")[each.name] !== each.texts[each.index]);
-    const reader = { map: "read_map", cellwork: "read_cellwork" }[book.data.notation], notation = reader ? "" : `, ${JSON.stringify(book.data.notation)}`;
-    const first = book.data.title ? JSON.stringify(book.data.title) : `${reader ?? "read"}(${JSON.stringify(book.data.text)}${notation})`;
-    const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
-      ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
-      ...(model.without?.length ? [`sliders=${JSON.stringify([...constants.map((each) => each.name), ...(turns() ? ["angle"] : []), ...(model.chance ? ["seed"] : [])])}`] : []),
-      ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];
-    return `explore(${[first, ...more].join(", ")})`;
   }
 
   // -- listening ------------------------------------------------------------------------------------------------------
@@ -310,11 +278,7 @@ export function openPanel(element, host, compared = null) {
   const recoloured = () => {
     if (book && JSON.stringify(themeOf(root)) !== shownTheme) turnTo(book);
   };
-  const watcher = new MutationObserver(recoloured), placed = new ResizeObserver(recoloured); // it may enter the page later
-  watcher.observe(document.body, { attributes: true });
-  placed.observe(root);
-  const scheme = matchMedia("(prefers-color-scheme: dark)");
-  scheme.addEventListener("change", recoloured);
+  offs.push(whenRecoloured(root, recoloured));
   offs.push(ownKeys(root));
   openModel();
 
@@ -322,9 +286,6 @@ export function openPanel(element, host, compared = null) {
 
   function close() {
     play.stop();
-    watcher.disconnect();
-    placed.disconnect();
-    scheme.removeEventListener("change", recoloured);
     for (const off of offs) off();
     for (const timer of [resting, idle]) clearTimeout(timer);
     cancelAnimationFrame(waiting);
