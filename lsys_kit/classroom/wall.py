@@ -1,7 +1,7 @@
 """Everybody's plants on one page: what a class has handed in, as links or as model files, drawn side by side.
 
 Each is read and drawn in a child process with limits of time and memory, as many processes at a time as there are processors.
-Most take a twentieth of a second. Those that take long are drawn last and share their time, so that many cost no more than some.
+Most take a twentieth of a second. Those that take long are drawn last, and share their time, however many they are.
 What cannot be drawn is a tile too, which says why; no text of a model or a name becomes markup, and pictures stand in the page
 as images, in which nothing runs.
 """

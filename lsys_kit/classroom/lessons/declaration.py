@@ -153,7 +153,8 @@ Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
 _LESSON: Shape = {
     "number": (_number, ...), "title": (_text, ...), "question": (_text, ...), "minutes": (_number, ...),
     "track": (_texts, ...), "objectives": (_texts, ...), "summary": (_text, ...), "systems": (_texts, ...),
-    "points": (_texts, ...), "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...), "settings": (_list, []),
+    "points": (_texts, ...), "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...),
+    "settings": (_list, []),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
 _OPTION: Shape = {"text": (_text, ...), "reply": (_text, ...), "right": (_truth, False)}

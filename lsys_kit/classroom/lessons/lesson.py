@@ -80,7 +80,7 @@ class Lesson:
     vote, tables
         What the notebook asks.
     settings
-        What its text asks of the sliders of a panel beside its tables: values that are set together, by the names of the sliders.
+        What its text asks of the sliders of a panel, beside its tables: values that are set together, by the sliders' names.
     """
 
     name: str
