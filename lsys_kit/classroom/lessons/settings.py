@@ -46,9 +46,9 @@ def asked_settings(lesson: Lesson, sliders: Collection[str]) -> Iterator[dict[st
             found = _values([*_SET.findall(prose_text(table.title)), *titled], sliders)
             if found:
                 yield found
-    for row in lesson.settings:
-        if set(row) <= set(sliders):
-            yield _values([*row.items()], sliders)
+    for together in lesson.settings:
+        if set(together) <= set(sliders):
+            yield _values([*together.items()], sliders)
 
 
 def _named(title: str, sliders: Collection[str]) -> str:
