@@ -13,7 +13,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from random import Random
-from statistics import fmean
 
 import numpy as np
 
@@ -151,14 +150,14 @@ def _ordered(layers: list[list[int]], pieces: tuple[dict[int, list[int]], dict[i
     """The best order found from several first orders: the one given, and shuffled ones that are the same every time."""
     best, fewest = layers, _crossings(layers, pieces[0])
     shuffled = Random(0)  # noqa: S311
-    for start in range(STARTS):
+    for start in range(STARTS if fewest else 0):
         order = [shuffled.sample(layer, len(layer)) for layer in layers] if start else [list(layer) for layer in layers]
         for now in _swept(order, pieces):
             count = _crossings(now, pieces[0])
             if count < fewest:
                 best, fewest = [list(layer) for layer in now], count
-        if not fewest:
-            break
+            if not fewest:
+                return best, 0
     return best, fewest
 
 
@@ -178,7 +177,8 @@ def _swept(order: list[list[int]], pieces: tuple[dict[int, list[int]], dict[int,
 
 def _by_means(layer: Sequence[int], neighbours: dict[int, list[int]], place: dict[int, float]) -> list[int]:
     """A layer by the mean place of its vertices' neighbours; vertices without any stay where they are."""
-    means = {vertex: fmean(place[other] for other in neighbours[vertex]) for vertex in layer if vertex in neighbours}
+    means = {vertex: sum([place[other] for other in neighbours[vertex]]) / len(neighbours[vertex])
+             for vertex in layer if vertex in neighbours}
     movable = iter(sorted(means, key=means.__getitem__))
     return [next(movable) if vertex in means else vertex for vertex in layer]
 
@@ -191,22 +191,29 @@ def _transpose(order: list[list[int]], pieces: tuple[dict[int, list[int]], dict[
         improved = False
         check_budget()
         for number, layer in enumerate(order):
-            following = {vertex: i for i, vertex in enumerate(order[number + 1])} if number + 1 < len(order) else {}
-            leading = {vertex: i for i, vertex in enumerate(order[number - 1])} if number else {}
+            onward = _places(layer, after, order[number + 1] if number + 1 < len(order) else [])
+            back = _places(layer, before, order[number - 1] if number else [])
             for index in range(len(layer) - 1):
                 a, b = layer[index], layer[index + 1]
-                gain = _gain(after, a, b, following) + _gain(before, a, b, leading)
-                if gain > 0:
+                if _gain(onward[a], onward[b]) + _gain(back[a], back[b]) > 0:
                     layer[index], layer[index + 1] = b, a
                     improved = True
 
 
-def _gain(neighbours: dict[int, list[int]], a: int, b: int, place: dict[int, int]) -> int:
-    """How many crossings fewer there are if two vertices, one after the other, are exchanged."""
-    if a not in neighbours or b not in neighbours:
-        return 0
-    differences = [place[one] - place[other] for one in neighbours[a] for other in neighbours[b]]
-    return sum(d > 0 for d in differences) - sum(d < 0 for d in differences)
+def _places(layer: Sequence[int], neighbours: dict[int, list[int]], beside: Sequence[int]) -> dict[int, list[int]]:
+    """For each vertex of a layer the places of its neighbours in a layer beside it."""
+    place = {vertex: index for index, vertex in enumerate(beside)}
+    return {vertex: [place[other] for other in neighbours.get(vertex, ())] for vertex in layer}
+
+
+def _gain(first: Sequence[int], second: Sequence[int]) -> int:
+    """How many crossings fewer there are if two vertices, one after the other, are exchanged, by the places of their neighbours
+    in one of the layers beside them."""
+    gain = 0
+    for one in first:
+        for other in second:
+            gain += (one > other) - (one < other)
+    return gain
 
 
 def _crossings(order: Sequence[Sequence[int]], after: dict[int, list[int]]) -> int:
