@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache
 from html import unescape
 from itertools import pairwise
 from pathlib import Path
@@ -39,34 +41,61 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture
-def opened(browser: Browser, site: Path) -> Iterator[Callable[..., Page]]:
-    """Opens a page from its file; whatever else it asks for, or complains of, is a fault."""
-    asked: list[str] = []
-    faults: list[str] = []
-    contexts = []
+@dataclass
+class Tab:
+    """A tab in which one page after another is opened, what these ask for, and what they complain of."""
 
-    def files_only(route: Route) -> None:
-        asked.append(route.request.url)
+    page: Page
+    asked: list[str] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.page.route("**/*", self.files_only)
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("console", lambda message: self.faults.append(message.text))
+
+    def files_only(self, route: Route) -> None:
+        self.asked.append(route.request.url)
         if route.request.url.startswith("file:"):
             route.continue_()
         else:
             route.abort()
 
-    def open_one(name: str, **choices) -> Page:
-        contexts.append(browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **choices}))
-        page = contexts[-1].new_page()
-        page.route("**/*", files_only)
-        page.on("pageerror", lambda error: faults.append(str(error)))
-        page.on("console", lambda message: faults.append(message.text))
-        page.goto((site / name).as_uri())
-        return page
+
+@pytest.fixture(scope="module")
+def tabs(browser: Browser) -> Callable[..., Tab]:
+    """A tab for each choice of a context; pages keep nothing in the browser."""
+
+    @lru_cache
+    def tab(is_phone: bool = False, **choices: Any) -> Tab:
+        size = {"width": 400, "height": 800} if is_phone else {"width": 1440, "height": 900}
+        return Tab(browser.new_context(viewport=size, has_touch=is_phone, **choices).new_page())
+
+    return tab
+
+
+@pytest.fixture
+def opened(tabs: Callable[..., Tab], site: Path) -> Iterator[Callable[..., Page]]:
+    """Opens a page from its file; whatever else it asks for, or complains of, is a fault."""
+    used: list[Tab] = []
+
+    def open_one(name: str, **choices: Any) -> Page:
+        tab = tabs(**choices)
+        used.append(tab)
+        if tab.page.url != "about:blank":
+            tab.page.goto("about:blank")
+        tab.page.mouse.move(0, 0)
+        tab.page.goto((site / name).as_uri())
+        return tab.page
 
     yield open_one
-    for context in contexts:
-        context.close()
-    assert faults == []
-    assert all(url.startswith(site.as_uri()) for url in asked)
+    for tab in used:
+        tab.page.goto("about:blank")
+        faults, asked = [*tab.faults], [*tab.asked]
+        tab.faults.clear()
+        tab.asked.clear()
+        assert faults == []
+        assert all(url.startswith(site.as_uri()) for url in asked)
 
 
 def all_parts_open(page: Page) -> None:
@@ -180,7 +209,7 @@ def check_tables(page: Page) -> None:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_fits_a_phone_and_axe_finds_nothing_serious(opened, pytestconfig, name: str, scheme: str) -> None:
-    page = opened(name, viewport={"width": 400, "height": 800}, color_scheme=scheme, has_touch=True)
+    page = opened(name, is_phone=True, color_scheme=scheme)
     all_parts_open(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= 400
     assert page.evaluate("document.documentElement.lang") == "en"

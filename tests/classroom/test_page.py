@@ -232,28 +232,49 @@ def test_a_page_is_saved_over_a_page_and_over_nothing_else(tmp_path: Path, j4: s
 
 # --- in a browser -------------------------------------------------------------------------------------------------------------
 
+FAULTS: list[str] = []
+ASKED: list[str] = []
+"""What the pages of a test complain of, and what they ask for."""
+
+
+def offline_tab(browser: Browser, **context: Any) -> Page:
+    found = browser.new_context(offline=True, **context).new_page()
+    found.on("pageerror", lambda error: FAULTS.append(str(error)))
+    found.on("console", lambda message: FAULTS.append(message.text))
+    found.on("request", lambda request: ASKED.append(request.url))
+    return found
+
+
+@pytest.fixture(scope="module")
+def tab(browser: Browser) -> Page:
+    """A tab in which one page after another is opened; pages keep nothing in the browser."""
+    return offline_tab(browser)
+
+
 @pytest.fixture
-def opened(browser: Browser, tmp_path: Path):
+def opened(browser: Browser, tab: Page, tmp_path: Path):
     """Opens a page from a file, with no network; whatever it asks for, or complains of, is a fault."""
-    contexts = []
+    own = []
 
     def open_one(text: str, fragment: str = "", **context: Any) -> Page:
         (tmp_path / "page.html").write_text(text, "utf-8")
-        contexts.append(browser.new_context(offline=True, **context))
-        found = contexts[-1].new_page()
-        found.on("pageerror", lambda error: faults.append(str(error)))
-        found.on("console", lambda message: faults.append(message.text))
-        found.on("request", lambda request: asked.append(request.url))
+        if context:
+            own.append(offline_tab(browser, **context))
+        found = own[-1] if context else tab
+        if found.url != "about:blank":
+            found.goto("about:blank")
+        found.mouse.move(0, 0)
         found.goto((tmp_path / "page.html").as_uri() + fragment)
         return found
 
-    faults: list[str] = []
-    asked: list[str] = []
+    FAULTS.clear()
+    ASKED.clear()
     yield open_one
-    for context in contexts:
-        context.close()
-    assert faults == []
-    assert {url.partition("#")[0] for url in asked} <= {(tmp_path / "page.html").as_uri()}
+    tab.goto("about:blank")
+    for each in own:
+        each.context.close()
+    assert FAULTS == []
+    assert {url.partition("#")[0] for url in ASKED} <= {"about:blank", (tmp_path / "page.html").as_uri()}
 
 
 def status(shown: Page) -> Any:
