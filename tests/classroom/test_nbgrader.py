@@ -21,7 +21,7 @@ POINTS = len(LESSON.exercises)
 CONFIG = """\
 c = get_config()
 c.CourseDirectory.course_id = "plants"
-c.Execute.timeout = 20
+c.Execute.timeout = 10
 """
 
 
