@@ -41,7 +41,10 @@ box.add_class("lsys-panel")
 text.add_class("bare")
 box"""
 GROWN = "c = 10 in 1 .. 60\nangle: 30\naxiom: A\nA -> F(c)[+A]F(1)[-A]A"
-KEYS = 40
+KEYS, FEW_KEYS = 40, 8
+"""How many keys are pressed where numbers are asked for, and where it is only seen whether each is answered."""
+PACE = 100
+"""Milliseconds between two keys where numbers are asked for."""
 
 
 @pytest.mark.parametrize(("id", "step"), [("J4", 15), ("K5", 4)])
@@ -75,20 +78,21 @@ def test_a_plant_is_turned_in_the_kernel(benchmark, step):
     (f"explore(read({GROWN!r}), 5)", "c", "canvas.lsys-canvas"), (BARE, None, ".bare")],
     ids=["step of J4", "step of K5", "angle of 15,625 strokes", "side of K19", "a new constant", "bare"])
 def test_from_key_press_to_after_paint(benchmark, open_notebook, write_notebook, source, name, changing):
-    """In a real JupyterLab, at a pace of ten keys a second."""
+    """In a real JupyterLab, at a pace of ten keys a second where numbers are asked for."""
     notebook = open_notebook(write_notebook("latency.ipynb", f"from lsys_kit import explore, read\n{source}"))
     notebook.run_all()
     panel = notebook.output(1).locator(".lsys-panel").first
     handle = panel.get_by_role("slider", name=f"{name}, slider", exact=True) if name else panel.locator(".noUi-handle")
     handle.focus()
-    notebook.page.wait_for_timeout(800)
+    keys_pressed, pace = (KEYS, PACE) if benchmark.enabled else (FEW_KEYS, 0)
+    notebook.page.wait_for_timeout(8 * pace)
     notebook.page.evaluate(WATCH, [panel.element_handle(), panel.locator(changing).element_handle()])
 
     def press_all():
-        half = 4 if name == "step" and "K5" in source else KEYS // 2 - 2
+        half = 4 if name == "step" and "K5" in source else keys_pressed // 2 - 2
         keys = ["ArrowRight"] * half + (["ArrowLeft"] * half if name != "c" else [])
-        for key in keys * (KEYS // len(keys)):
-            notebook.page.wait_for_timeout(100)
+        for key in keys * (keys_pressed // len(keys)):
+            notebook.page.wait_for_timeout(pace)
             before = notebook.page.evaluate("latencies.length")
             handle.press(key)
             notebook.page.wait_for_function(f"latencies.length > {before}", timeout=5_000)

@@ -1,4 +1,4 @@
-"""JupyterLab once for all browser tests, Chromium once a file, a notebook in a tab of its own for each test."""
+"""JupyterLab once for all browser tests, Chromium once a file; each test opens notebooks of its own in the tab of its file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, expect, sync_playwright
 
-from tests.browser.lab import Lab, OpenNotebook, launched, opened, started
+from tests.browser.lab import VIEWPORT, Lab, OpenNotebook, Tab, launched, started, tab_of
 
 expect.set_options(timeout=20_000)
 
@@ -30,18 +30,34 @@ def browser() -> Iterator[Browser]:
         running.close()
 
 
-@pytest.fixture
-def open_notebook(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
-    """Opens a notebook of the course: `open_notebook("notebooks/01_all_at_once.ipynb")`."""
-    folder, tabs = pytestconfig.getoption("screenshots"), []
+@pytest.fixture(scope="module")
+def lab_tab(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> Tab:
+    """The tab in which the tests of a file open one notebook after another."""
+    return tab_of(browser, lab, _shots(pytestconfig))
 
-    def open_one(name: str, **context: Any) -> OpenNotebook:
-        tabs.append(opened(browser, lab, name, Path(folder) if folder else None, **context))
-        return tabs[-1]
+
+@pytest.fixture
+def open_notebook(browser: Browser, lab: Lab, lab_tab: Tab, pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
+    """Opens a notebook of the course: `open_notebook("notebooks/01_all_at_once.ipynb")`; in a tab of its own if it asks for a
+    context of its own, as for `device_scale_factor=2`."""
+    used, own = [], []
+
+    def open_one(name: str, viewport: Mapping[str, int] = VIEWPORT, **context: Any) -> OpenNotebook:
+        if context:
+            own.append(tab_of(browser, lab, _shots(pytestconfig), **context))
+        used.append((own[-1] if context else lab_tab).open(name, viewport))
+        return used[-1]
 
     yield open_one
-    for tab in tabs:
-        tab.close()
+    for notebook in used:
+        notebook.close()
+    for tab in own:
+        tab.page.context.close()
+
+
+def _shots(config: pytest.Config) -> Path | None:
+    folder = config.getoption("screenshots")
+    return Path(folder) if folder else None
 
 
 @pytest.fixture
@@ -57,19 +73,33 @@ def write_notebook(lab: Lab) -> Callable[..., str]:
     return written
 
 
-@pytest.fixture
-def explored(browser: Browser) -> Iterator[Callable[..., Any]]:
-    """Opens a panel in a page without Jupyter: `explored("J4", 9, dark=True, context={"has_touch": True})`."""
-    from lsys_kit import explore
-    from tests.classroom.panel_page import open_panel
+@pytest.fixture(scope="module")
+def panel_tab(browser: Browser) -> Any:
+    """A tab in which the tests of a file open one panel after another."""
+    from tests.classroom.panel_page import open_tab
 
-    pages = []
+    return open_tab(browser)
+
+
+@pytest.fixture
+def explored(browser: Browser, panel_tab: Any) -> Iterator[Callable[..., Any]]:
+    """Opens a panel in a page without Jupyter: `explored("J4", 9, dark=True, context={"has_touch": True})`.
+
+    The first of a test is opened in the tab of the file, unless it asks for a context of its own.
+    """
+    from lsys_kit import explore
+    from tests.classroom.panel_page import open_panel, open_tab
+
+    panels, own = [], []
 
     def open_one(*what: Any, dark: bool = False, context: Mapping[str, Any] | None = None, **choices: Any) -> Any:
-        pages.append(open_panel(browser, explore(*what, **choices), dark, **(context or {})))
-        return pages[-1]
+        if panels or context is not None:
+            own.append(open_tab(browser, **(context or {})))
+        panels.append(open_panel(own[-1] if own else panel_tab, explore(*what, **choices), dark))
+        return panels[-1]
 
     yield open_one
-    for each in pages:
+    for tab in own:
+        tab.page.context.close()
+    for each in panels:
         assert each.errors == []
-        each.page.context.close()

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
          "--disable-component-update", "--disable-sync"]
 SECONDS = 120
 """How long anything may take on a slow machine."""
+VIEWPORT = {"width": 1400, "height": 1000}
 NOISE = re.compile(r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED")
 """What JupyterLab itself may write to the console."""
 
@@ -146,10 +147,10 @@ class OpenNotebook:
             self.page.screenshot(path=self.shots / f"{name}.png")
 
     def close(self) -> None:
-        """End the kernel, and leave the tab without saving."""
-        with contextlib.suppress(Error):
-            self._ask("await panel.sessionContext.shutdown();")
-        self.page.context.close()
+        """End the kernel, and close the notebook without saving; the tab stays."""
+        for ending in ("await panel.sessionContext.shutdown();", "panel.dispose();"):
+            with contextlib.suppress(Error):
+                self._ask(ending)
 
     def _ask(self, code: str, given: Any = None) -> Any:
         """Run JavaScript with JupyterLab as `app` and the notebook as `panel`."""
@@ -165,25 +166,46 @@ class OpenNotebook:
         }""", [code, given])
 
 
-def opened(browser: Browser, lab: Lab, name: str, shots: Path | None = None, **context: Any) -> OpenNotebook:
-    """Open a notebook of the course, with its kernel started and idle.
+@dataclass
+class Tab:
+    """JupyterLab in a tab of a browser, in which one notebook after another is opened."""
 
-    Parameters
-    ----------
-    name
-        From the folder of the course: "notebooks/01_all_at_once.ipynb".
-    **context
-        For playwright's `new_context`, such as `viewport`.
-    """
-    page = browser.new_context(**{"viewport": {"width": 1400, "height": 1000}, **context}).new_page()
+    page: Page
+    lab: Lab
+    shots: Path | None = None
+    notebook: OpenNotebook | None = None
+
+    def open(self, name: str, viewport: Mapping[str, int] = VIEWPORT) -> OpenNotebook:
+        """Open a notebook of the course, with its kernel started and idle, in a window of some size.
+
+        Its name is that from the folder of the course: "notebooks/01_all_at_once.ipynb".
+        """
+        is_new, self.notebook = self.notebook is None, OpenNotebook(self.page, self.shots)
+        self.page.set_viewport_size({"width": viewport["width"], "height": viewport["height"]})
+        if is_new:
+            self.page.goto(f"{self.lab.url}/lab/tree/{name}?reset")
+        else:
+            self.page.mouse.move(0, 0)
+            self.page.evaluate("""async name => {
+                window.jupyterapp.shell.expandLeft();
+                await window.jupyterapp.commands.execute('docmanager:open', { path: name });
+            }""", name)
+        self.page.wait_for_function("""name => {
+            const panel = window.jupyterapp?.shell?.currentWidget;
+            return panel?.context?.path === name && panel.sessionContext?.session?.kernel != null;
+        }""", arg=name)
+        self.notebook.idle()
+        return self.notebook
+
+
+def tab_of(browser: Browser, lab: Lab, shots: Path | None = None, **context: Any) -> Tab:
+    """A tab for JupyterLab, with choices for playwright's `new_context`."""
+    page = browser.new_context(**{"viewport": VIEWPORT, **context}).new_page()
     page.set_default_timeout(SECONDS * 1000)
-    notebook = OpenNotebook(page, shots)
-    page.on("console", lambda message: _note(notebook, message))
-    page.on("pageerror", lambda error: notebook.console.append(f"{error}"))
-    page.goto(f"{lab.url}/lab/tree/{name}?reset")
-    page.wait_for_function("window.jupyterapp?.shell?.currentWidget?.sessionContext?.session?.kernel != null")
-    notebook.idle()
-    return notebook
+    tab = Tab(page, lab, shots)
+    page.on("console", lambda message: _note(tab.notebook, message) if tab.notebook else None)
+    page.on("pageerror", lambda error: tab.notebook.console.append(f"{error}") if tab.notebook else None)
+    return tab
 
 
 def _note(notebook: OpenNotebook, message: ConsoleMessage) -> None:

@@ -37,7 +37,13 @@ const host = {
   keeps: ["svg", "page", "link"], editable: true, ahead: true,
 };
 window.asked = [];
-const ask = (content) => { window.asked.push(content.kind); return window.kernel(content); };
+window.answered = [];
+const ask = async (content) => {
+  window.asked.push(content.kind);
+  const answer = await window.kernel(content);
+  setTimeout(() => window.answered.push(content.kind)); // when the panel has shown it
+  return answer;
+};
 const openOne = () => openPanel(document.getElementById("here"), host);
 Object.assign(window, { host, data, openOne, handlersOf: () => handlers });
 window.panel = window.openOne();
@@ -76,20 +82,42 @@ class PanelPage:
         self.page.screenshot(path=path, full_page=True)
 
 
-def open_panel(browser: Browser, explorer: Explorer, dark: bool = False, **context: Any) -> PanelPage:
-    """A page with the panel of an explorer."""
-    page = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **context}).new_page()
-    found = PanelPage(page, explorer)
-    page.on("pageerror", lambda error: found.errors.append(f"{error}"))
-    page.on("console", lambda message: found.errors.append(message.text) if message.type == "error" else None)
-    page.expose_function("kernel", lambda content: answered(explorer, content))
+@dataclass
+class Tab:
+    """A tab of a browser, in which one panel after another may be opened."""
+
+    page: Page
+    shown: PanelPage | None = None
+
+    def __post_init__(self) -> None:
+        self.page.on("pageerror", lambda error: self._note(f"{error}"))
+        self.page.on("console", lambda message: self._note(message.text) if message.type == "error" else None)
+        self.page.on("dialog", lambda dialog: (self._note(dialog.message), dialog.dismiss()))
+        self.page.expose_function("kernel", lambda content: answered(self.shown.explorer, content) if self.shown else {})
+
+    def _note(self, error: str) -> None:
+        if self.shown:
+            self.shown.errors.append(error)
+
+
+def open_tab(browser: Browser, **context: Any) -> Tab:
+    """An empty tab of its own context."""
+    return Tab(browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **context}).new_page())
+
+
+def open_panel(tab: Tab, explorer: Explorer, dark: bool = False) -> PanelPage:
+    """A page with the panel of an explorer, in the place of what the tab has shown so far."""
+    page = tab.page
+    page.mouse.move(0, 0)
+    page.goto("about:blank")
+    tab.shown = PanelPage(page, explorer)
     theme = "false" if dark else "true"
     body = f'<body data-jp-theme-light="{theme}"><main id="here"></main></body></html>'
     page.set_content(f"{PAPER}<style>{style()}</style>{body}")
     data = json.dumps({name: getattr(explorer, name) for name in TRAITS})
     page.add_script_tag(content=f"{bundled('panel')}\nconst data = {data};\n{HOST}", type="module")
     page.locator("canvas[data-drawn]").first.wait_for()
-    return found
+    return tab.shown
 
 
 def answered(explorer: Explorer, content: dict[str, Any]) -> dict[str, Any]:

@@ -71,7 +71,7 @@ def metrics(panel: PanelPage) -> dict[str, float]:
 
 @pytest.mark.slow
 def test_two_hundred_panels_made_and_closed_leave_nothing_behind(explored):
-    panel = explored("J4", 9)
+    panel = explored("J4", 9, context={})
     turn = """async (times) => {
         window.panel?.close();
         for (let i = 0; i < times; i++) {
@@ -92,7 +92,7 @@ def test_two_hundred_panels_made_and_closed_leave_nothing_behind(explored):
 
 @pytest.mark.slow
 def test_ten_thousand_moves_of_a_slider_take_no_memory(explored):
-    panel = explored("J4", 9)
+    panel = explored("J4", 9, context={})
     turn = """async (times) => {
         for (let i = 0; i < times; i++) {
             host.set("step", i % 21);
@@ -115,14 +115,12 @@ FOREIGN = ".lsys-panel script, .lsys-panel iframe, .lsys-panel img, .lsys-panel 
 @pytest.mark.parametrize("text", TYPED, ids=ascii)
 def test_what_is_typed_into_the_rules_stays_text(explored, text):
     panel = explored("J1", 2)
-    asked = []
-    panel.page.on("dialog", lambda dialog: (asked.append(dialog.message), dialog.dismiss()))
     panel.view("rules")
     rules = panel.page.get_by_label("rules of the model")
-    for model in (f"axiom: {text}", f"axiom: A\nA -> {text} A", f"/* {text} */\naxiom: A\nA -> A B"):
+    for number, model in enumerate((f"axiom: {text}", f"axiom: A\nA -> {text} A", f"/* {text} */\naxiom: A\nA -> A B"), 1):
         rules.fill(model)
-        panel.page.wait_for_timeout(320)
-    assert asked == []
+        panel.page.wait_for_function("number => answered.filter(kind => kind === 'rules').length === number", arg=number)
+    assert panel.errors == []
     assert panel.page.locator(FOREIGN).count() == 0
 
 
