@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from weakref import WeakKeyDictionary
 
-from playwright.sync_api import Page
+from playwright.sync_api import JSHandle, Page
 
 import lsys_kit.classroom.panel
 from lsys_kit.classroom.panel.books.drawing import faces_in
@@ -36,8 +38,16 @@ def joined(*names: str) -> str:
 
 
 def answers(page: Page, code: str, given: Any, *names: str) -> Any:
-    """What some code makes of what is given, with the scripts before it."""
-    return page.evaluate(f"given => {{ {joined(*names)}\n{BOOKS}\n{code} }}", given)
+    """What some code makes of what is given, with the scripts before it; both ways as JSON, which is much the fastest."""
+    known = _FUNCTIONS.setdefault(page, {})
+    if (code, names) not in known:
+        known[code, names] = page.evaluate_handle(
+            f"() => {{ {joined(*names)}\n{BOOKS}\nreturn text => JSON.stringify((given => {{ {code} }})(JSON.parse(text))); }}")
+    return json.loads(page.evaluate("([function_, text]) => function_(text)", [known[code, names], json.dumps(given)]))
+
+
+_FUNCTIONS: WeakKeyDictionary[Page, dict[tuple[str, tuple[str, ...]], JSHandle]] = WeakKeyDictionary()
+"""What a page has compiled already."""
 
 
 BOOKS = "const bookOf = (data) => ({ data, word: (step) => Int32Array.from(data.words[step]) });"
