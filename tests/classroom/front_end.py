@@ -38,18 +38,22 @@ def joined(*names: str) -> str:
 
 
 def answers(page: Page, code: str, given: Any, *names: str) -> Any:
-    """What some code makes of what is given, with the scripts before it; both ways as JSON, which is much the fastest."""
+    """What some code makes of what is given, with the scripts before it."""
+    return called(page, f"{joined(*names)}\n{BOOKS}", f"given => {{ {code} }}", given)
+
+
+def called(page: Page, scripts: str, function: str, given: Any) -> Any:
+    """What a function, with some scripts before it, makes of what is given: both ways as JSON, which is much the fastest, and
+    compiled once a page."""
     known = _FUNCTIONS.setdefault(page, {})
-    if (code, names) not in known:
-        known[code, names] = page.evaluate_handle(
-            f"() => {{ {joined(*names)}\n{BOOKS}\nreturn text => JSON.stringify((given => {{ {code} }})(JSON.parse(text))); }}")
-    return json.loads(page.evaluate("([function_, text]) => function_(text)", [known[code, names], json.dumps(given)]))
+    if (scripts, function) not in known:
+        known[scripts, function] = page.evaluate_handle(
+            f"() => {{ {scripts}\nreturn text => JSON.stringify(({function})(JSON.parse(text))); }}")
+    return json.loads(page.evaluate("([made, text]) => made(text)", [known[scripts, function], json.dumps(given)]))
 
 
-_FUNCTIONS: WeakKeyDictionary[Page, dict[tuple[str, tuple[str, ...]], JSHandle]] = WeakKeyDictionary()
+_FUNCTIONS: WeakKeyDictionary[Page, dict[tuple[str, str], JSHandle]] = WeakKeyDictionary()
 """What a page has compiled already."""
-
-
 BOOKS = "const bookOf = (data) => ({ data, word: (step) => Int32Array.from(data.words[step]) });"
 
 

@@ -25,6 +25,7 @@ from lsys_kit.pictures.filaments.folding import MOST_CELLS
 from lsys_kit.pictures.filaments.layout import filament_layout
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.svg import FilamentRow
+from tests.classroom.front_end import called
 from tests.derivation.random_systems import KINDS, systems_with
 from tests.derivation.random_systems import systems as random_systems
 
@@ -96,7 +97,7 @@ def check_pages(page, model, most=8, **constants):
     """All that the browser makes of a book of the first steps is what the derivation says."""
     made = book(model, constants)
     steps = min(most, made["steps"])
-    found = page.evaluate(PAGES, [sent(made), steps])
+    found = called(page, "", PAGES, [sent(made), steps])
     derivation, notation = derive(model, made["steps"], **constants), dialect_named(model.notation)
     assert found["lengths"] == derivation.lengths
     try:
@@ -150,14 +151,14 @@ def test_words_that_answer_questions_are_those_that_are_shown(page):
 
 def test_modules_that_are_replaced_together_have_the_same_daughters(page):
     made = book(read("axiom: A B C\nA B -> D E\nC -> C C"))
-    seen = page.evaluate(PAGES, [sent(made), 1])["pages"]
+    seen = called(page, "", PAGES, [sent(made), 1])["pages"]
     assert seen[0]["daughters"] == [[0, 2], [0, 2], [2, 4]]
     assert seen[1]["mothers"] == [0, 0, 2, 2]
 
 
 def test_the_last_step_of_a_book_has_no_daughters(page):
     made = book(system("J1"))
-    assert set(map(str, page.evaluate(PAGES, [sent(made), made["steps"]])["pages"][-1]["daughters"])) == {"None"}
+    assert set(map(str, called(page, "", PAGES, [sent(made), made["steps"]])["pages"][-1]["daughters"])) == {"None"}
 
 
 # -- filaments ------------------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from lsys_kit import derive, explore, map_system, read_map
 from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.geometry.tissues.map_layout import initial_vertices, place_maps, tissue
 from lsys_kit.geometry.tissues.relaxation import Forces, areas, force, relax
+from tests.classroom.front_end import called
 from tests.classroom.test_map_book import FLAT
 
 MAPS = """
@@ -54,7 +55,7 @@ def page(browser):
 
 def asked(page, code, **given):
     """What some code makes of what is given, with the scripts of the panel before it."""
-    return page.evaluate(f"({{ {', '.join(given)} }}) => {{ {bundled('page')}\n{code} }}", given)
+    return called(page, bundled("page"), f"({{ {', '.join(given)} }}) => {{ {code} }}", given)
 
 
 @pytest.mark.parametrize("id", FLAT)
