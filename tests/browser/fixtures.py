@@ -37,7 +37,8 @@ def lab_tab(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> Tab:
 
 
 @pytest.fixture
-def open_notebook(browser: Browser, lab: Lab, lab_tab: Tab, pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
+def open_notebook(browser: Browser, lab: Lab, lab_tab: Tab,
+                  pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
     """Opens a notebook of the course: `open_notebook("notebooks/01_all_at_once.ipynb")`; in a tab of its own if it asks for a
     context of its own, as for `device_scale_factor=2`."""
     used, own = [], []
