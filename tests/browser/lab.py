@@ -180,9 +180,9 @@ class Tab:
 
         Its name is that from the folder of the course: "notebooks/01_all_at_once.ipynb".
         """
-        is_new, self.notebook = self.notebook is None, OpenNotebook(self.page, self.shots)
+        self.notebook = OpenNotebook(self.page, self.shots)
         self.page.set_viewport_size({"width": viewport["width"], "height": viewport["height"]})
-        if is_new:
+        if not self.page.evaluate("'jupyterapp' in window"):
             self.page.goto(f"{self.lab.url}/lab/tree/{name}?reset")
         else:
             self.page.mouse.move(0, 0)
