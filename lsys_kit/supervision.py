@@ -67,10 +67,17 @@ def supervised() -> Iterator[None]:
     except _UsedUp as used_up:
         raise used_up.error from None
     finally:
-        sys.setprofile(before)
+        _resume(before)
         sys.unraisablehook = report
         if sys.gettrace() is go_on:
             sys.settrace(tracer)
+
+
+def _resume(profiler: Any) -> None:
+    """Let the profiler go on that was at work before; one written in C, as `cProfile` is, is no function that could be set."""
+    sys.setprofile(profiler if callable(profiler) else None)
+    if hasattr(profiler, "enable"):
+        profiler.enable()
 
 
 def _imports(frame: FrameType | None) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cProfile
 import sys
 from collections.abc import Callable
 from contextvars import copy_context
@@ -106,6 +107,19 @@ def test_what_knows_of_no_budget_is_supervised() -> None:
     with limits(seconds=0.05), Task("It was not found"), pytest.raises(ModelLimitError, match="It was not found"), supervised():
         endless()
     assert sys.getprofile() is before
+
+
+def test_a_profiler_goes_on_behind_what_is_supervised() -> None:
+    """As `%prun` in a notebook."""
+    def behind() -> None:
+        pass
+
+    with cProfile.Profile() as profiler:
+        with Task("It was not found"), supervised():
+            abs(-1)
+        behind()
+    assert behind.__code__ in [entry.code for entry in profiler.getstats()]
+    assert sys.getprofile() is None
 
 
 def test_an_error_that_a_finalizer_swallows_is_raised_again_and_not_printed(monkeypatch: pytest.MonkeyPatch) -> None:

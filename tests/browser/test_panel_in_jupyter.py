@@ -342,7 +342,7 @@ def test_axe_finds_nothing(open_notebook, write_notebook, source):
 # --- what is left behind ----------------------------------------------------------------------------------------------
 
 def test_closed_panels_leave_no_comm_behind(open_notebook, write_notebook):
-    source = show("from comm import get_comm_manager\ndef many():\n    for _ in range(40):\n        explore('J1', 3).close()\n"
+    source = show("from comm import get_comm_manager\ndef many():\n    for _ in range(200):\n        explore('J1', 3).close()\n"
                   "    return len(get_comm_manager().comms)\nprint('left', many() - many())")
     notebook = open_notebook(write_notebook("comms.ipynb", source))
     notebook.run_all()
