@@ -165,8 +165,9 @@ def test_once_round_changes_nothing(found, data):
     tradition, modules = found
     at = data.draw(st.integers(0, len(modules)))
     round_ = data.draw(st.sampled_from(ONCE_ROUND[tradition]))
-    scenes = [trace_in_space(word_of(word, tradition, angle=72)) for word in (modules, [*modules[:at], *round_, *modules[at:]])]
-    assert same(*scenes)
+    words = [word_of(word, tradition, angle=72) for word in (modules, [*modules[:at], *round_, *modules[at:]])]
+    assume(("@B",) not in {module[:1] for module in modules} or len({in_plane(word.states.system) for word in words}) == 1)
+    assert same(*map(trace_in_space, words))  # a box is a rectangle where nothing leaves the plane
 
 
 @given(branched(STROKES["grogra"] | TURNS["grogra"]), st.sampled_from(("RU", "RL", "RH")), degrees, st.data())
