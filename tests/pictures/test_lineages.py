@@ -140,3 +140,9 @@ def test_a_lineage_of_anything_can_be_drawn(id: str) -> None:
 
 def test_a_lineage_of_no_step_is_one_cell() -> None:
     ET.fromstring(draw(lineage(system("P6"), 0)).svg)
+
+
+def test_cells_of_one_symbol_with_more_and_fewer_values_are_of_one_kind_where_kinds_are_many() -> None:
+    seen = draw(lineage(read("axiom: A(0)\nA(t) -> A(t+1) G(t) G(t, t)"), 9))
+    assert "A" in texts(seen)
+    assert "G" in texts(seen)

@@ -105,7 +105,7 @@ def html_label(module: Module, system: LSystem) -> str:
 
 def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
     """A stage's letter, subscript and values: without the polarity, where its modules differ in that, and with the values
-    that they share.
+    that they share, if all have as many.
 
     >>> from lsys_kit.derivation.petri.stages import stages
     >>> from lsys_kit.notation.read import read
@@ -116,7 +116,8 @@ def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
     letter, subscript = label_parts(place.symbol, system)
     if not place.modules:
         return letter, subscript, ""
-    columns = zip(*(module.arguments for module in place.modules), strict=True)
+    rows = [module.arguments for module in place.modules]
+    columns = zip(*rows, strict=True) if len({*map(len, rows)}) == 1 else ()
     shared = [column[0] for column in columns if len(set(column)) == 1]
     values = values_text(Module(place.symbol, tuple(shared)))
     merged = len({module.symbol for module in place.modules}) > 1
