@@ -262,6 +262,12 @@ def test_nine_variants_of_which_one_is_taken_on(explored):
     assert panel.explorer.system == read(rules.input_value()) != before
 
 
+def test_the_code_that_is_taken_along_unfolds_the_same_stages(explored):
+    panel = explored("K19", 3, unfold=("A", "I"))
+    panel.page.get_by_role("button", name="code").click()
+    expect(panel.page.get_by_label("to be copied")).to_have_value('explore("K19", 3, unfold=["A","I"])')
+
+
 def test_what_is_taken_along(explored):
     panel = explored("J4", 7)
     panel.page.get_by_role("button", name="code").click()

@@ -83,6 +83,7 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
     check_unfolded(system, unfold, constants)
+    unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)
     without = frozenset() if sliders is None else _without(sliders, (*found.values, "angle", "seed"))
     chosen = opened(system, title, constants, without, unfold) if without else found

@@ -159,8 +159,8 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         made = what.book(what.first, self.seed, first)
         return {"book": made, "constants": sliders, "chance": made["chance"] and "seed" not in self._without,
                 "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
-                "step": min(first, made["steps"]), "angle": self.angle, "around": self.around, "above": self.above,
-                "seed": self.seed, **translated_labels()}
+                "unfold": self._unfold, "step": min(first, made["steps"]), "angle": self.angle, "around": self.around,
+                "above": self.above, "seed": self.seed, **translated_labels()}
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""

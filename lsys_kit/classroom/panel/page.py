@@ -136,7 +136,7 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     model = {"constants": [slider(name, held.values[name], start[name]) for name in values if name in held.values],
              "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))],
              "together": held.together, "fixed": held_text(fixed, held, values), "without": sorted(without),
-             "step": min(wanted, first["steps"]),
+             "unfold": unfold, "step": min(wanted, first["steps"]),
              "angle": round(turn, 1), "around": around, "above": above, "seed": seed, **translated_labels()}
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
     kept = {name: number_text(value) for name, value in fixed.items() if name != SEED}

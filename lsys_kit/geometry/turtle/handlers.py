@@ -28,7 +28,7 @@ _saved_state = attrgetter(*_SAVED_ATTRIBUTES)
 def forward_handler(drawn: bool, vertex: bool) -> Handler:
     """A handler that moves the turtle forward, with or without a stroke and a vertex of a polygon."""
     def handler(turtle: Turtle, instruction: Instruction) -> None:
-        turtle.forward(turtle.scale * (instruction.factor * turtle.length + instruction.addend), drawn)
+        turtle.forward(_size(turtle, instruction), drawn)
         if vertex and turtle.open_polygons:
             turtle.open_polygons[-1].corners.append(turtle.position)
         if drawn and turtle.restored:
@@ -135,7 +135,7 @@ def draw_surface(turtle: Turtle, instruction: Instruction) -> None:
 
 
 def _size(turtle: Turtle, instruction: Instruction) -> float:
-    """A length that is drawn: the step, or an argument, at the scale of the turtle."""
+    """A length that is drawn or gone: the step, or an argument, at the scale of the turtle."""
     return turtle.scale * (instruction.factor * turtle.length + instruction.addend)
 
 

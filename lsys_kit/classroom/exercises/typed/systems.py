@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from lsys_kit.classroom.exercises.typed.formulas import with_operators
-from lsys_kit.classroom.exercises.typed.text import unquoted, without_commas
+from lsys_kit.classroom.exercises.typed.text import ARROW, unquoted, without_commas
 from lsys_kit.errors import LSystemError
 
 Read = TypeVar("Read")
@@ -19,7 +19,6 @@ _NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
 _SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
 _ARROW = re.compile(r"->|→|$")
 _ARGUMENTS = re.compile(r"\([^()\n]*\)")
-_TYPED_ARROW = re.compile(r"(?:(?<!-)-++|(?<!=)=++)>")
 _PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)(?=[A-Za-z])")
 _FIRST_WORD = re.compile(r"^\s*+[^\n:=>→]++\n(?=[^\n]*(?:->|→))")
 
@@ -61,7 +60,7 @@ def _spelt_out(text: str) -> str:
     >>> _spelt_out("a\\na -> a, b\\nb ->")
     'axiom: a\\na -> a b\\nb -> ε'
     """
-    text = _TYPED_ARROW.sub("->", text).replace("°", "").strip()
+    text = re.sub(ARROW, "->", text).replace("°", "").strip()
     text = _SETTING.sub(r"\1:", _NEXT_LINE.sub("\n", text))
     text = without_commas(_NOTHING.sub(r"\1 ε", text))
     text = "\n".join(map(_with_signs, text.split("\n")))

@@ -25,6 +25,7 @@ export function code(host, book, turns) {
   const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
     ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
     ...(model.without?.length ? [`sliders=${JSON.stringify([...model.constants.map((each) => each.name), ...(turns ? ["angle"] : []), ...(model.chance ? ["seed"] : [])])}`] : []),
+    ...(model.unfold ? [`unfold=${model.unfold === true ? "True" : JSON.stringify(model.unfold)}`] : []),
     ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];
   return `explore(${[first, ...more].join(", ")})`;
 }
