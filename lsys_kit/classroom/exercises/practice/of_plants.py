@@ -103,35 +103,30 @@ def _flowering(chance: Random, level: int) -> Exercise | None:
         gettext("Write down day by day how many internodes there are, and how many the signal has passed."),
     )
     if level > 2:
-        return number_exercise(
-            question,
-            passed,
-            [
-                (there, gettext("So many there were when the signal set out; while it rises, the axis grows.")),
-                (day, gettext("That is the day on which the signal arrives.")),
-                (passed + 1, gettext("There is no further internode yet: the signal is at the apex before it is made.")),
-            ],
-            explanation,
-            hints,
-            "internodes",
-        )
-    return number_exercise(
-        question,
-        day,
-        [
-            (
-                starts + there * through,
-                gettext(
-                    "So long it takes through the internodes of the day on which it sets out. "
-                    "Meanwhile others are made above them."
-                ),
+        return number_exercise(question, passed, _wrong_internodes(there, day, passed), explanation, hints, "internodes")
+    return number_exercise(question, day, _wrong_days(starts, there, through, day), explanation, hints)
+
+
+def _wrong_internodes(there: int, day: int, passed: int) -> list[tuple[int, str]]:
+    return [
+        (there, gettext("So many there were when the signal set out; while it rises, the axis grows.")),
+        (day, gettext("That is the day on which the signal arrives.")),
+        (passed + 1, gettext("There is no further internode yet: the signal is at the apex before it is made.")),
+    ]
+
+
+def _wrong_days(starts: int, there: int, through: int, day: int) -> list[tuple[int, str]]:
+    return [
+        (
+            starts + there * through,
+            gettext(
+                "So long it takes through the internodes of the day on which it sets out. "
+                "Meanwhile others are made above them."
             ),
-            (day - starts, gettext("So many days the signal is on its way. On which day did it set out?")),
-            (starts + through, gettext("It passes more than one internode.")),
-        ],
-        explanation,
-        hints,
-    )
+        ),
+        (day - starts, gettext("So many days the signal is on its way. On which day did it set out?")),
+        (starts + through, gettext("It passes more than one internode.")),
+    ]
 
 
 def _days(number: int) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import ceil
 from random import Random
+from typing import NamedTuple
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.practice.drafts import Topic, number_exercise
@@ -19,13 +20,23 @@ def _decimal(value: Fraction | int) -> str:
 # Slices
 
 
+class _Division(NamedTuple):
+    """A cell that divides within a slice of time: how long it lives, with which age daughters begin, how long a slice is, and
+    in which one the cell divides."""
+
+    life: int
+    newborn: Fraction
+    slice: Fraction
+    slices: int
+
+
 def _slices(chance: Random, level: int) -> Exercise | None:
     slice_ = Fraction(chance.choice([3, 4, 6, 7, 8, 9, 11, 12, 13, 14]), 10)
     life = 1 if level == 1 else chance.choice([1, 2, 3])
     newborn = Fraction(chance.randint(1, 4), 10) if level > 1 else Fraction(0)
-    slices = ceil(life / slice_)
-    age = slices * slice_ - life + newborn
-    if age >= life or slices * slice_ == life or (level > 1 and slices < 2):
+    division = _Division(life, newborn, slice_, ceil(life / slice_))
+    left = division.slices * slice_ - life
+    if left + newborn >= life or not left or (level > 1 and division.slices < 2):
         return None
     begins = (
         gettext("begins its life with age {newborn}", newborn=_decimal(newborn))
@@ -44,34 +55,43 @@ def _slices(chance: Random, level: int) -> Exercise | None:
         gettext("When it divides, a part of the slice is still to come."),
         gettext("In that part the daughters grow older, too."),
     )
-    late = slices * slice_ - life
-    if level < 3:
-        return number_exercise(
-            question + gettext("How old are its daughters at the end of the slice in which it divides?"),
-            age,
-            [
-                *(
-                    [(newborn, gettext("So old they are when they begin. What is left of the slice makes them older."))]
-                    if newborn
-                    else [(slice_, gettext("They have not lived through the whole slice, only through what was left of it."))]
-                ),
-                (slices * slice_, gettext("So old the mother would be. What is left of the slice after the division is less.")),
-                (
-                    slices * slice_ - (slices - 1) * slice_ + newborn if newborn else life - (slices - 1) * slice_,
-                    gettext("Only what is left of the slice after the division counts."),
-                ),
-            ],
-            gettext(
-                "After {slices} slices {passed} have passed: {late} since the division",
-                slices=slices,
-                passed=_decimal(slices * slice_),
-                late=_decimal(late),
-            )
-            + (gettext(", and {newborn} from the start.", newborn=_decimal(newborn)) if newborn else "."),
-            hints,
+    return (_age_of_daughters if level < 3 else _division_of_daughters)(division, question, hints)
+
+
+def _age_of_daughters(division: _Division, question: str, hints: tuple[str, ...]) -> Exercise | None:
+    """How old daughters are at the end of the slice in which their mother divides."""
+    life, newborn, slice_, slices = division
+    passed = slices * slice_
+    return number_exercise(
+        question + gettext("How old are its daughters at the end of the slice in which it divides?"),
+        passed - life + newborn,
+        [
+            *(
+                [(newborn, gettext("So old they are when they begin. What is left of the slice makes them older."))]
+                if newborn
+                else [(slice_, gettext("They have not lived through the whole slice, only through what was left of it."))]
+            ),
+            (passed, gettext("So old the mother would be. What is left of the slice after the division is less.")),
+            (
+                slice_ + newborn if newborn else life - (slices - 1) * slice_,
+                gettext("Only what is left of the slice after the division counts."),
+            ),
+        ],
+        gettext(
+            "After {slices} slices {passed} have passed: {late} since the division",
+            slices=slices,
+            passed=_decimal(passed),
+            late=_decimal(passed - life),
         )
-    total = ceil((2 * life - newborn) / slice_)
-    each = ceil((life - newborn) / slice_)
+        + (gettext(", and {newborn} from the start.", newborn=_decimal(newborn)) if newborn else "."),
+        hints,
+    )
+
+
+def _division_of_daughters(division: _Division, question: str, hints: tuple[str, ...]) -> Exercise | None:
+    """In which slice daughters divide in their turn."""
+    life, newborn, slice_, slices = division
+    total, each = ceil((2 * life - newborn) / slice_), ceil((life - newborn) / slice_)
     return number_exercise(
         question + gettext("In which slice do the daughters divide in their turn?"),
         total,
