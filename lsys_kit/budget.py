@@ -150,13 +150,14 @@ class Budget:
         """Refuse to go on where the time or the memory is used up; say then what has failed."""
         if (now := time.monotonic()) < self._look:
             return
-        self._look, most = now + SECONDS_BETWEEN_LOOKS, current()
+        most = current()
         if _processor_time() - self._start > most.seconds:
             raise ModelLimitError(f"{failed()} in {most.seconds:g} seconds", limit=most.seconds,
                                   hint="Take fewer steps, or set limits(seconds=...).")
         if self._first_objects < 0:
             self._first_objects = _objects()
         check_bytes((_objects() - self._first_objects) * BLOCK_BYTES, failed)
+        self._look = now + SECONDS_BETWEEN_LOOKS  # not before: what is used up is refused again, at once
 
 
 _task: ContextVar[tuple[Budget, Callable[[], str]] | None] = ContextVar("task", default=None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cProfile
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from contextvars import copy_context
 from dataclasses import FrozenInstanceError
 
@@ -154,3 +155,12 @@ def test_an_error_that_a_finalizer_swallows_is_raised_again_and_not_printed(monk
     assert len(put_in_order) == 100
     assert (sys.getprofile(), sys.gettrace()) == hooks
     assert (printed, sys.unraisablehook) == ([ValueError], reported)
+
+
+def test_what_is_used_up_is_refused_at_every_look() -> None:
+    """Whoever swallows one refusal meets the next at once."""
+    with limits(seconds=1e-9), Task():
+        with suppress(ModelLimitError):
+            sum(counted(range(10**9)))
+        with pytest.raises(ModelLimitError):
+            check_budget()

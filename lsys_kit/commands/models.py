@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.formats.film import Film
+
+BITS_A_DIGIT = 3
+"""A digit says at least so many bits of a number."""
 
 
 def list_systems(_: argparse.Namespace) -> None:
@@ -31,12 +35,22 @@ def list_systems(_: argparse.Namespace) -> None:
 def print_words(options: argparse.Namespace) -> None:
     """Print the words of the steps, or their numbers of modules."""
     steps = _counted(options) if options.counts else _derived(options)
-    if options.json:
-        rows = [json.dumps(step, ensure_ascii=False) for step in steps]
-        print("[\n" + ",\n".join(rows) + "\n]")
-    else:
-        for step in steps:
-            print(step["modules" if options.counts else "word"])
+    with Task("The steps were not all printed"):
+        if options.json:
+            rows = [*_held(json.dumps(step, ensure_ascii=False) for step in counted(steps))]
+            print("[\n" + ",\n".join(rows) + "\n]")
+        else:
+            for step in counted(steps):
+                print(step["modules" if options.counts else "word"])
+
+
+def _held(rows: Iterable[str]) -> Iterator[str]:
+    """The same rows of text, as long as there is room for all of them, and for one text of them."""
+    size = 0
+    for row in rows:
+        size += 2 * len(row)
+        check_bytes(size, lambda: "The steps were not all printed")
+        yield row
 
 
 def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
@@ -47,10 +61,12 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     system = system_with_constants(options)
     counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).traits.d0l else \
         _derivation(system, options).lengths
-    digits = sys.get_int_max_str_digits()
+    digits, written = sys.get_int_max_str_digits(), 0
     sys.set_int_max_str_digits(0)  # while they are written
     try:
         for step, modules in enumerate(counts):
+            written += modules.bit_length() // BITS_A_DIGIT
+            check_bytes(written, lambda: "The steps were not all counted")
             yield {"step": step, "modules": modules}
     finally:
         sys.set_int_max_str_digits(digits)

@@ -14,7 +14,7 @@ from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference.fits import Explanation, explanation
-from lsys_kit.derivation.inference.infer import MOST_FITS, infer
+from lsys_kit.derivation.inference.infer import MOST_FITS, conditions_of, infer
 from lsys_kit.derivation.inference.words import Row, read_words
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import joined
@@ -65,8 +65,8 @@ def rule_finder(words: Iterable[object], constants: Iterable[str] = ("+", "-"), 
         b -> c a
         c -> a
     """
-    kept = tuple(constants) if isinstance(constants, Iterable) else constants
     with Task("The rules were not found"):
+        kept = conditions_of(constants, erasing, context).constants
         rows = read_words(words)
         return RuleFinder(rows, [*_all_found(rows, kept, erasing, context)])
 

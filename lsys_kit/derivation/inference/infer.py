@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
-from lsys_kit.budget import Task
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.inference.cases import general_productions
 from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
 from lsys_kit.derivation.inference.problem import Conditions, Table, problem_of, tables, well_nested
@@ -44,9 +44,9 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
       a -> a b
       b -> a
     """
-    asked = _conditions(constants, erasing, context)
     found: list[Table] = []
     with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
+        asked = conditions_of(constants, erasing, context)
         rows = read_words(words)
         if asked.context != (0, 0):
             _check_brackets(rows)
@@ -66,14 +66,15 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
             return Fits(rows, (), asked, Refusal(None))
 
 
-def _conditions(constants: object, erasing: object, context: object) -> Conditions:
+def conditions_of(constants: object, erasing: object, context: object) -> Conditions:
     """What is looked for, where the arguments say that."""
     if not isinstance(constants, Iterable):
         raise ModelValueError(f"The constants must be symbols in a row, not {type(constants).__name__}",
                               hint='Give their symbols, as in constants=("+", "-").')
-    symbols = tuple(constants)
-    for symbol in symbols:
+    symbols = set[str]()
+    for symbol in counted(constants):
         require(symbol, str, "A symbol as a constant")
+        symbols.add(symbol)
     require(erasing, bool, 'True or False for "erasing"')
     if not isinstance(context, Sequence) or isinstance(context, str) or len(context) != 2:
         raise ModelValueError(f"The context must be two whole numbers, not {shown(context)}",

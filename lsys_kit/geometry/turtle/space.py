@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands.instructions import Instruction
@@ -84,6 +85,7 @@ class SpaceTurtle(Turtle):
         if self.in_plane or self.flat or not surface.normals:
             super().draw_surface(surface, size)
             return
+        check_budget()
         for face, normals in zip(surface.faces, surface.normals, strict=True) if size else ():
             self.outlines.append(Outline(self.local_points(face, size), self.state, self.colour,
                                          [combined(self.orientation, normal) for normal in normals]))

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_budget, current
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_colour
 from lsys_kit.geometry.turtle.patches import Face
@@ -109,6 +109,7 @@ class Turtle(ABC):
 
     def draw_faces(self, faces: Iterable[Face], size: float = 1.0) -> None:
         """Draw flat faces, given in the frame of the turtle."""
+        check_budget()  # one surface may have thousands of corners
         self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in faces]
 
     def local_points(self, face: Face, size: float) -> list[Any]:

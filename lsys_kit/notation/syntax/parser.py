@@ -9,7 +9,7 @@ from typing import Any
 from lark import Lark, TextSlice
 from lark.exceptions import UnexpectedInput
 
-from lsys_kit.budget import current
+from lsys_kit.budget import check_budget, current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.problems import ProblemFound
 from lsys_kit.notation.syntax.actions import ActionError
@@ -23,6 +23,7 @@ _SYNTAX = Path(__file__).parent
 
 def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
     """The record of a stretch of a text."""
+    check_budget()
     if end - start > current().line:
         raise ModelLimitError(f"This line has {end - start:,} characters; the limit is {current().line:,}",
                               limit=current().line, needed=end - start, source=text, start=start)

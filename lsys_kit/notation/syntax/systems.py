@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import fields, replace
 
+from lsys_kit.budget import Task
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.expressions import Number
@@ -27,9 +28,10 @@ _LONGEST = 60
 
 def system_in(notation: Dialect, text: str, name: str | None = None) -> LSystem:
     """The system that a text in a notation describes; with a name, the one of several."""
-    transcript = notation.transcribe(notation.entry(text, name))
-    system = _built(notation, transcript)
-    return replace(system, notes=(*transcript.notes, *system.notes, *notes(warnings(system), notation.spelling)))
+    with Task("The model was not read"):
+        transcript = notation.transcribe(notation.entry(text, name))
+        system = _built(notation, transcript)
+        return replace(system, notes=(*transcript.notes, *system.notes, *notes(warnings(system), notation.spelling)))
 
 
 def text_in(notation: Dialect, system: LSystem) -> str:
@@ -42,14 +44,15 @@ def text_in(notation: Dialect, system: LSystem) -> str:
     ModelLimitError
         The text is longer than what is read.
     """
-    missing = lacking(notation, system)
-    if missing:
-        raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs")
-    text = notation.write(system)
-    lost = _lost(notation, system, text)
-    if lost:
-        raise ModelValueError(f"The notation {notation.name} has no way to write {lost}, which this system needs")
-    return text
+    with Task("The model was not written"):
+        missing = lacking(notation, system)
+        if missing:
+            raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs")
+        text = notation.write(system)
+        lost = _lost(notation, system, text)
+        if lost:
+            raise ModelValueError(f"The notation {notation.name} has no way to write {lost}, which this system needs")
+        return text
 
 
 def lacking(notation: Dialect, system: LSystem) -> str | None:
@@ -88,6 +91,8 @@ def _reads_back(notation: Dialect, module: Pattern) -> bool:
     text = notation.module(module)
     try:
         return bool(parse(notation, "word", text, 0, len(text)) == (module,))
+    except ModelLimitError:
+        raise
     except LSystemError:
         return False
 
