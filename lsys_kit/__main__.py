@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import NoReturn
 
-from lsys_kit.commands import classes, course, models
+from lsys_kit.commands import classes, course, hard_limits, models
 from lsys_kit.errors import LSystemError, printable
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
@@ -37,19 +37,39 @@ def main(arguments: Sequence[str] | None = None) -> int:
     bl ar ar
     0
     """
+    return _carried_out(sys.argv[1:] if arguments is None else arguments, lambda command: None)
+
+
+def run() -> int:
+    """Carry out the command line of this process, which has hard limits of its own; return its exit status."""
+    return _carried_out(sys.argv[1:], hard_limits.set_hard_limits)
+
+
+def _carried_out(arguments: Sequence[str], prepare: Callable[[str], None]) -> int:
+    """Carry out a command line, after something that prepares for its command; return its exit status."""
     try:
-        options = _argument_parser().parse_args(list(_spread(sys.argv[1:] if arguments is None else arguments)))
+        options = _argument_parser().parse_args(list(_spread(arguments)))
+        prepare(options.command)
         options.action(options)
         sys.stdout.flush()
     except LSystemError as mistake:
-        print(f"lsys-kit: {mistake}", file=sys.stderr)
-        return BAD_INPUT
+        return _refused(str(mistake))
+    except MemoryError:
+        return _refused("The command needs more memory than there is for it. Take fewer steps.")
+    except hard_limits.UsedUp:
+        return _refused(f"The command was not finished in {hard_limits.most_seconds()} seconds. Take fewer steps.")
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
     return 0
+
+
+def _refused(message: str) -> int:
+    """Say what is wrong."""
+    print(f"lsys-kit: {message}", file=sys.stderr)
+    return BAD_INPUT
 
 
 class _Parser(argparse.ArgumentParser):
@@ -280,4 +300,4 @@ def _seed(text: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run())

@@ -589,3 +589,46 @@ def test_a_site_is_not_written_over_what_is_not_the_kits(shell, tmp_path, monkey
     assert "index.html" in said.err
     assert "was not made by the kit" in said.err
     assert (tmp_path / "index.html").read_text() == "mine"
+
+
+# --- hard limits ------------------------------------------------------------------------------------------------------
+
+def left_alone(doing: str, **limits: float) -> subprocess.CompletedProcess[str]:
+    """The command `list` as a process of its own, where it does something that looks at no budget."""
+    code = (f"import sys\nfrom lsys_kit import __main__ as shell, limits\ndef endless(_):\n    {doing}\n"
+            f"shell.models.list_systems = endless\nsys.argv = ['lsys-kit', 'list']\n"
+            f"with limits(**{limits}):\n    sys.exit(shell.run())")
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
+@pytest.mark.parametrize(("doing", "limits", "said"), [
+    ("while True: pass", {"seconds": 0.1}, "The command was not finished in 1 seconds. Take fewer steps."),
+    ("bytearray(2**30)", {"bytes": 2**26}, "The command needs more memory than there is for it. Take fewer steps."),
+])
+def test_a_command_that_no_budget_stops_ends_with_a_sentence(doing, limits, said):
+    done = left_alone(doing, **limits)
+    assert (done.returncode, done.stdout, done.stderr) == (BAD_INPUT, "", f"lsys-kit: {said}\n")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
+@pytest.mark.parametrize(("command", "limited"), [
+    ("draw", (True, True)), ("derive", (True, True)), ("site", (True, False)), ("collect", (True, False)),
+    ("lab", (False, False)),
+])
+def test_each_command_has_the_limits_of_its_kind(command, limited):
+    code = ("import resource as r\nfrom lsys_kit.commands.hard_limits import set_hard_limits\n"
+            f"set_hard_limits({command!r})\n"
+            "print(*(r.getrlimit(kind)[0] != r.RLIM_INFINITY for kind in (r.RLIMIT_DATA, r.RLIMIT_CPU)))")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
+    assert done.stdout.split() == [str(each) for each in limited]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
+def test_a_command_within_another_process_leaves_its_limits_as_they_are(shell):
+    import resource
+
+    kinds = resource.RLIMIT_DATA, resource.RLIMIT_CPU, resource.RLIMIT_AS
+    before = [*map(resource.getrlimit, kinds)]
+    shell("derive", "J1", "-n", "1")
+    assert [*map(resource.getrlimit, kinds)] == before
