@@ -17,12 +17,15 @@ from __future__ import annotations
 
 import sys
 import time
+import weakref
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ContextDecorator
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from inspect import CO_ASYNC_GENERATOR, CO_COROUTINE, CO_GENERATOR
 from math import log10
-from typing import TypeVar
+from types import FrameType
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, shown
 
@@ -77,16 +80,84 @@ class Limits:
 
 DEFAULT = Limits()
 """The limits where none are set."""
-_current: ContextVar[Limits] = ContextVar("limits", default=DEFAULT)
+
+
+class Block:
+    """A `with` block, as who opened it knows it: whether it is still at work.
+
+    An interrupt may fall between any two instructions of what opens and closes a block, also behind the first and before the
+    last, where no `finally` sees it. So what a block sets is never believed for longer than its frame runs and its context
+    manager lives. Of a generator, which rests between, and of a stack of contexts the frame is not known.
+    """
+
+    __slots__ = ("_frame", "_manager")
+
+    def __init__(self, manager: object, frame: FrameType) -> None:
+        rests = frame.f_code.co_flags & (CO_GENERATOR | CO_COROUTINE | CO_ASYNC_GENERATOR)
+        self._manager = weakref.ref(manager)
+        self._frame = None if rests or frame.f_globals.get("__name__") == "contextlib" else frame
+
+    def belongs_to(self, manager: object) -> bool:
+        """Whether a context manager has opened the block."""
+        return self._manager() is manager
+
+    def is_open(self) -> bool:
+        """Whether the block has not been left, in whatever way."""
+        return self._manager() is not None and (self._frame is None or _runs(self._frame))
+
+
+def _runs(wanted: FrameType) -> bool:
+    """Whether a frame is at work, in this thread or in another."""
+    return _calls(wanted, sys._getframe(1)) or any(_calls(wanted, top) for top in sys._current_frames().values())
+
+
+def _calls(wanted: FrameType, frame: FrameType | None) -> bool:
+    """Whether a frame is another, or waits for it to return."""
+    while frame is not None and frame is not wanted:
+        frame = frame.f_back
+    return frame is not None
+
+
+class _Setting(NamedTuple, Generic[_T]):
+    """What a block sets, on top of what was set around it."""
+
+    value: _T
+    block: Block
+    outer: _Setting[_T] | None
+
+
+_Variable: TypeAlias = "ContextVar[_Setting[_T] | None]"
+
+
+def _in_force(variable: _Variable[_T]) -> _Setting[_T] | None:
+    """What is set by the innermost block that is open; what others have left behind is taken away."""
+    first = found = variable.get()
+    while found is not None and not found.block.is_open():
+        found = found.outer
+    if found is not first:
+        variable.set(found)
+    return found
+
+
+def _leave(variable: _Variable[_T], manager: object) -> None:
+    """Take away what the block of a context manager has set."""
+    found = variable.get()
+    while found is not None and not found.block.belongs_to(manager):
+        found = found.outer
+    if found is not None:
+        variable.set(found.outer)
+
+
+_limits: _Variable[Limits] = ContextVar("limits", default=None)
 
 
 def current() -> Limits:
     """The limits in force here."""
-    return _current.get()
+    found = _in_force(_limits)
+    return DEFAULT if found is None else found.value
 
 
-@contextmanager
-def limits(**changes: float) -> Iterator[Limits]:
+class limits(ContextDecorator):  # noqa: N801 - used as a function is
     """Set limits for a `with` block.
 
     Parameters
@@ -101,18 +172,24 @@ def limits(**changes: float) -> Iterator[Limits]:
     ModelValueError
         A limit is not a positive number.
     """
-    for name, value in changes.items():
-        if name not in Limits.__dataclass_fields__:
-            known = ", ".join(Limits.__dataclass_fields__)
-            raise ModelNameError(f'There is no limit called "{name}"', hint=f"Limits are: {known}.")
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
-            raise ModelValueError(f'The limit "{name}" must be a positive number, not {shown(value)}')
-    before = current()
-    try:  # the limits change within: an interrupt just behind the change puts them back as well
-        _current.set(replace(before, **changes))  # type: ignore[arg-type]
-        yield current()
-    finally:
-        _current.set(before)
+
+    def __init__(self, **changes: float) -> None:
+        for name, value in changes.items():
+            if name not in Limits.__dataclass_fields__:
+                known = ", ".join(Limits.__dataclass_fields__)
+                raise ModelNameError(f'There is no limit called "{name}"', hint=f"Limits are: {known}.")
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
+                raise ModelValueError(f'The limit "{name}" must be a positive number, not {shown(value)}')
+        self._changes: dict[str, Any] = changes
+
+    def __enter__(self) -> Limits:
+        outer = _in_force(_limits)
+        set_here = replace(outer.value if outer else DEFAULT, **self._changes)
+        _limits.set(_Setting(set_here, Block(self, sys._getframe(1)), outer))
+        return set_here
+
+    def __exit__(self, *_: object) -> None:
+        _leave(_limits, self)
 
 
 BLOCK_BYTES = 64
@@ -132,35 +209,42 @@ class Budget:
     objects: who makes them knows their size beforehand, and asks `check_bytes`.
     """
 
-    __slots__ = ("_first_objects", "_look", "_start")
+    __slots__ = ("_clock", "_first_objects", "_look")
 
     def __init__(self) -> None:
-        self._start, self._first_objects = _processor_time(), -1
+        self._clock, self._first_objects = (0.0, _processor_time()), -1
+        """the seconds that were spent before, and when the clock was started"""
         self._look = time.monotonic() + min(current().seconds, SECONDS_BETWEEN_LOOKS)
 
     def wait(self) -> None:
         """Stop the clock."""
-        self._start -= _processor_time()
+        self._clock = self._spent(), 0.0
 
     def go_on(self) -> None:
-        """Let the clock go on."""
-        self._start += _processor_time()
+        """Let the clock go on. Where an interrupt kept it from being stopped, what has passed since is not counted."""
+        self._clock = self._clock[0], _processor_time()
+
+    def _spent(self) -> float:
+        before, started = self._clock
+        return before + _processor_time() - started
+
+    def is_due(self) -> bool:
+        """Whether it is time to look at what is left."""
+        return time.monotonic() >= self._look
 
     def check(self, failed: Callable[[], str]) -> None:
         """Refuse to go on where the time or the memory is used up; say then what has failed."""
-        if (now := time.monotonic()) < self._look:
-            return
         most = current()
-        if _processor_time() - self._start > most.seconds:
+        if self._spent() > most.seconds:
             raise ModelLimitError(f"{failed()} in {most.seconds:g} seconds", limit=most.seconds,
                                   hint="Take fewer steps, or set limits(seconds=...).")
         if self._first_objects < 0:
             self._first_objects = _objects()
         check_bytes((_objects() - self._first_objects) * BLOCK_BYTES, failed)
-        self._look = now + SECONDS_BETWEEN_LOOKS  # not before: what is used up is refused again, at once
+        self._look = time.monotonic() + SECONDS_BETWEEN_LOOKS  # not before: what is used up is refused again, at once
 
 
-_task: ContextVar[tuple[Budget, Callable[[], str]] | None] = ContextVar("task", default=None)
+_task: _Variable[tuple[Budget, Callable[[], str]]] = ContextVar("task", default=None)
 
 
 class Task:
@@ -181,29 +265,31 @@ class Task:
     lsys_kit.errors.ModelLimitError: The sum was not found in 0.01 seconds. Take fewer steps, or set limits(seconds=...).
     """
 
-    __slots__ = ("_failed", "_own", "_token")
+    __slots__ = ("__weakref__", "_failed", "_own")
 
     def __init__(self, failed: Callable[[], str] | str = "This was not finished") -> None:
         self._failed = (lambda: failed) if isinstance(failed, str) else failed
         self._own: Budget | None = None
 
     def __enter__(self) -> None:
-        outer = _task.get()
-        if self._own is not None:
+        outer = _in_force(_task)
+        shared = outer.value[0] if outer else None
+        if self._own is None:
+            self._own = None if shared else Budget()
+        elif self._own is not shared:
             self._own.go_on()
-        elif outer is None:
-            self._own = Budget()
-        self._token = _task.set((self._own or outer[0], self._failed))  # type: ignore[index]
+        _task.set(_Setting((self._own or shared, self._failed), Block(self, sys._getframe(1)), outer))  # type: ignore[arg-type]
 
     def __exit__(self, *_: object) -> None:
-        _task.reset(self._token)
-        if self._own is not None:
+        _leave(_task, self)
+        outer = _task.get()
+        if self._own is not None and not (outer and outer.value[0] is self._own):
             self._own.wait()
 
 
 def in_task() -> bool:
     """Whether there is a task at present, and so a budget."""
-    return _task.get() is not None
+    return _in_force(_task) is not None
 
 
 def check_budget() -> None:
@@ -214,8 +300,9 @@ def check_budget() -> None:
     ModelLimitError
         The task has taken too long, or holds too much.
     """
-    if (now := _task.get()) is not None:
-        now[0].check(now[1])
+    if (first := _task.get()) is not None and first.value[0].is_due() and (now := _in_force(_task)) is not None:
+        budget, failed = now.value
+        budget.check(failed)
 
 
 def check_bytes(needed: int, failed: Callable[[], str]) -> None:

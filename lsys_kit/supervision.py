@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
@@ -23,8 +21,7 @@ class _UsedUp(BaseException):
         self.error = error
 
 
-@contextmanager
-def supervised() -> Iterator[None]:
+class supervised:  # noqa: N801 - used as a function is
     """A `with` block in which another library works, which never looks at the budget: it is looked at whenever a function is
     called there.
 
@@ -34,43 +31,70 @@ def supervised() -> Iterator[None]:
     An error may be swallowed there, as in a finalizer, or by the garbage collector; then it is raised again, but not so soon
     that what is put in order on the way out is disturbed. Nothing is printed of the one that was swallowed.
     """
-    left, before, tracer, report = CALLS_BETWEEN_CHECKS, sys.getprofile(), sys.gettrace(), sys.unraisablehook
-    if not in_task():
-        yield
-        return
 
-    def look(frame: FrameType, _: str, __: Any) -> None:
-        nonlocal left
-        left -= 1
-        if left < 0:
-            left = CALLS_BETWEEN_CHECKS
-            try:
-                check_budget()
-            except ModelLimitError as error:
-                if not _imports(frame):
-                    sys.settrace(go_on)
-                    raise _UsedUp(error) from None
+    def __enter__(self) -> None:
+        self._hooks = _Hooks(sys._getframe(1)) if in_task() else None
+        if self._hooks is not None:
+            self._hooks.put_in()
 
-    def go_on(_: FrameType, __: str, ___: Any) -> None:
+    def __exit__(self, _: object, error: BaseException | None, __: object) -> None:
+        if self._hooks is not None:
+            self._hooks.take_away()
+        if isinstance(error, _UsedUp):
+            raise error.error from None
+
+
+class _Hooks:
+    """The hooks of a block that is supervised. They go when its frame ends, also where an interrupt keeps the block from taking
+    them away, and when there is no task any more."""
+
+    __slots__ = ("_frame", "_left", "_profiler", "_report", "_tracer")
+
+    def __init__(self, frame: FrameType) -> None:
+        self._frame, self._left = frame, CALLS_BETWEEN_CHECKS
+        self._profiler, self._tracer, self._report = sys.getprofile(), sys.gettrace(), sys.unraisablehook
+
+    def put_in(self) -> None:
+        """Look at the budget from now on."""
+        sys.setprofile(self._look)
+        sys.unraisablehook = self._report_others
+
+    def take_away(self) -> None:
+        """Put back what was there before; that which takes the others away comes last."""
+        if sys.gettrace() == self._go_on:
+            sys.settrace(self._tracer)
+        if sys.unraisablehook == self._report_others:
+            sys.unraisablehook = self._report
+        if sys.getprofile() in (self._look, None):  # Python takes away one that raises
+            _resume(self._profiler)
+
+    def _look(self, frame: FrameType, event: str, _: Any) -> None:
+        self._left -= 1
+        if frame is self._frame and event == "return":
+            self.take_away()
+        elif self._left < 0:
+            self._left = CALLS_BETWEEN_CHECKS
+            if not in_task():
+                self.take_away()
+            else:
+                self._check(frame)
+
+    def _check(self, frame: FrameType) -> None:
+        try:
+            check_budget()
+        except ModelLimitError as error:
+            if not _imports(frame):
+                sys.settrace(self._go_on)
+                raise _UsedUp(error) from None
+
+    def _go_on(self, _: FrameType, __: str, ___: Any) -> None:
         """Put the hook back, at the next call: Python takes away one that raises."""
-        sys.settrace(tracer)
-        sys.setprofile(look)
+        sys.settrace(self._tracer)
+        sys.setprofile(self._look)
 
-    def report_others(swallowed: sys.UnraisableHookArgs) -> None:
+    def _report_others(self, swallowed: sys.UnraisableHookArgs) -> None:
         if not isinstance(swallowed.exc_value, _UsedUp):
-            report(swallowed)
-
-    sys.unraisablehook = report_others
-    sys.setprofile(look)
-    try:
-        yield
-    except _UsedUp as used_up:
-        raise used_up.error from None
-    finally:
-        _resume(before)
-        sys.unraisablehook = report
-        if sys.gettrace() is go_on:
-            sys.settrace(tracer)
+            self._report(swallowed)
 
 
 def _resume(profiler: Any) -> None:

@@ -7,8 +7,8 @@ import errno
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from contextvars import copy_context
 from functools import cache
+from itertools import count
 from pathlib import Path
 from types import FrameType, MappingProxyType
 from typing import Any, TypeAlias
@@ -35,11 +35,19 @@ def lines_of(work: Work, rooms: Sequence[str]) -> list[Line]:
     return found
 
 
-def break_off(work: Work, rooms: Sequence[str], moment: int, fault: Callable[[], BaseException]) -> None:
-    """Do some work, and raise an error before the line that it comes to at a moment, counted from 0.
+def bytecodes_of(work: Work, rooms: Sequence[str]) -> dict[object, int]:
+    """The bytecodes of some folders and files of the package that some work comes to, with the moments of the first time."""
+    first: dict[object, int] = {}
+    moments = count()
+    with _watched(rooms, lambda frame: first.setdefault((frame.f_code, frame.f_lasti), next(moments)), "opcode"):
+        work()
+    return first
 
-    It is done in a context of its own: a task that is broken off in the line that ends it stays open there.
-    """
+
+def break_off(work: Work, rooms: Sequence[str], moment: int, fault: Callable[[], BaseException],
+              before: str = "line") -> BaseException | None:
+    """Do some work, and raise an error before the line, or the "opcode", that it comes to at a moment, counted from 0. What has
+    come out of it."""
     left = moment
 
     def strike(_: FrameType) -> None:
@@ -49,10 +57,12 @@ def break_off(work: Work, rooms: Sequence[str], moment: int, fault: Callable[[],
             raise fault()
 
     try:
-        with _watched(rooms, strike):
-            copy_context().run(work)
-    except (KeyboardInterrupt, Exception):
+        with _watched(rooms, strike, before):
+            work()
+    except (KeyboardInterrupt, Exception) as error:
         assert left < 0, "the work fails by itself"
+        return error
+    return None
 
 
 def moments_of(lines: Sequence[Line], most: int) -> list[int]:
@@ -97,24 +107,25 @@ def _within(file: str, rooms: Sequence[str]) -> bool:
 
 
 @contextmanager
-def _watched(rooms: Sequence[str], at_line: Callable[[FrameType], object]) -> Iterator[None]:
-    """Call a function before each line of some folders and files of the package."""
-    before = sys.gettrace()
+def _watched(rooms: Sequence[str], at_moment: Callable[[FrameType], object], before: str = "line") -> Iterator[None]:
+    """Call a function before each line, or before each "opcode", of some folders and files of the package."""
+    tracer = sys.gettrace()
     known: dict[str, bool] = {}
 
     def in_frame(frame: FrameType, event: str, _: Any) -> Any:
-        if event == "line":
-            at_line(frame)
+        if event == before:
+            at_moment(frame)
         return in_frame
 
     def called(frame: FrameType, event: str, _: Any) -> Any:
         file = frame.f_code.co_filename
         if file not in known:
             known[file] = _within(file, rooms)
+        frame.f_trace_opcodes = known[file] and before == "opcode"
         return in_frame if known[file] else None
 
     sys.settrace(called)
     try:
         yield
     finally:
-        sys.settrace(before)
+        sys.settrace(tracer)

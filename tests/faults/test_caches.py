@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextvars import copy_context
 
 import pytest
 
-from lsys_kit.budget import Limits, current, limits
 from tests.faults.injection import FAULTS, break_off, forget, lines_of, moments_of
 from tests.faults.scenarios import SCENARIOS, Scenario
 
@@ -25,7 +23,7 @@ def broken_off(scenario: Scenario, faults: Sequence[str], most: int) -> None:
     for number, moment in enumerate(moments_of(lines_of(lambda: scenario.work(whole), scenario.rooms), most)):
         forget(scenario.rooms)
         subject, fault = scenario.make(), FAULTS[faults[number % len(faults)]]
-        copy_context().run(break_off, lambda subject=subject: scenario.work(subject), scenario.rooms, moment, fault)
+        break_off(lambda subject=subject: scenario.work(subject), scenario.rooms, moment, fault)
         assert scenario.work(subject) == expected, moment
 
 
@@ -34,17 +32,3 @@ def broken_off(scenario: Scenario, faults: Sequence[str], most: int) -> None:
 def test_what_is_broken_off_goes_on(name: str) -> None:
     long = name.startswith(("panel", "picture", "mesh"))
     broken_off(SCENARIOS[name], ("interrupt", "no memory"), FEW_MOMENTS if long else MOST_MOMENTS)
-
-
-
-
-def test_limits_end_whatever_line_of_theirs_is_broken_off() -> None:
-    def limited() -> None:
-        with limits(modules=7):
-            pass
-
-    lines = lines_of(limited, ("budget.py",))
-    for moment in range(len(lines) - 1):  # before the last line, which puts the limits back, nothing can be broken off
-        for fault in FAULTS.values():
-            break_off(limited, ("budget.py",), moment, fault)
-            assert current() == Limits()

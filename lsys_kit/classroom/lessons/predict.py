@@ -11,6 +11,7 @@ from ipywidgets import VBox, Widget
 from lsys_kit.classroom.lessons.displayed import forget_figure, media, widget
 from lsys_kit.classroom.lessons.widget import MOST_TYPED, LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import ModelValueError, shown
 
 _STORED = ("image/svg+xml", "image/png", "text/latex")
@@ -70,7 +71,7 @@ class Prompt(LessonWidget):
         return prose_text(self.question)
 
 
-class Prediction(VBox):  # type: ignore[misc]
+class Prediction(Unfinalized, VBox):  # type: ignore[misc]
     """The question that `predict` asks, and below it, once it is revealed, what answers it.
 
     Attributes

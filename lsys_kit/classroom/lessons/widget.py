@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
-import anywidget
 import traitlets
 
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
+from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext
 
@@ -21,8 +20,8 @@ LABELS = (
 _MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
 
 
-class LessonWidget(anywidget.AnyWidget):  # type: ignore[misc]
-    """A widget that is displayed by its script, and stored as text."""
+class LessonWidget(KitWidget):
+    """A widget of a lesson."""
 
     words = traitlets.Dict().tag(sync=True)
 
@@ -30,19 +29,6 @@ class LessonWidget(anywidget.AnyWidget):  # type: ignore[misc]
     def _translated_labels(self) -> dict[str, str]:
         """The labels that another language has another word for."""
         return {label: gettext(label) for label in LABELS if gettext(label) != label}
-
-    def _stored(self) -> dict[str, Any]:
-        """What a page without a kernel shows, by media types."""
-        return {"text/plain": repr(self)}
-
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        bundle = super()._repr_mimebundle_(**options)
-        return {**dict(bundle[0] if isinstance(bundle, tuple) else bundle or {}), **self._stored()}
-
-    def close(self) -> None:
-        """Close the widget, and what the browser keeps of it."""
-        self.layout.close()
-        super().close()
 
 
 def boxed_html(*parts: str) -> str:

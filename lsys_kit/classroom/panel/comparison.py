@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
-import anywidget
 import traitlets
 from ipywidgets import widget_serialization
 
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.explore import explore
 from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import ModelValueError, quotable
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
@@ -87,7 +87,7 @@ def _named(settings: Mapping[str, object]) -> dict[str, Any]:
     return dict(settings)
 
 
-class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
+class Comparison(KitWidget):
     """The two panels that `compare` shows.
 
     Attributes
@@ -114,17 +114,14 @@ class Comparison(anywidget.AnyWidget):  # type: ignore[misc]
         """What a page without a kernel has to know of both panels, and of the settings that are asked for."""
         return {"left": self.left.page_data(asked), "right": self.right.page_data(asked)}
 
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live panels, and for a page without a kernel their words and the picture of the left one."""
-        bundle = super()._repr_mimebundle_(**options)
-        data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
-        return {**data, "text/plain": self.text, **self.left.still}
+    def _stored(self) -> dict[str, Any]:
+        """The words of both, and the picture of the left one."""
+        return {"text/plain": self.text, **self.left.still}
 
     def close(self) -> None:
         """Close both panels, and what the browser keeps of them."""
         for each in (self.left, self.right):
             each.close()
-        self.layout.close()
         super().close()
 
     def __repr__(self) -> str:

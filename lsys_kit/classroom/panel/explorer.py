@@ -12,7 +12,6 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
-import anywidget
 import traitlets
 
 from lsys_kit.budget import Task, current, limits
@@ -25,14 +24,17 @@ from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
+from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
+_BROKEN_OFF = LSystemError("The kernel was interrupted before this was finished", hint="Try it again.")
 
-class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
+
+class Explorer(KitWidget):
     """The panel that `explore` shows. What it shows can be read, set, observed and linked to other widgets.
 
     Attributes
@@ -69,9 +71,17 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened), around=opened.side[0],
                          above=opened.side[1])
+        try:
+            self._begin(first, step is None)
+        except BaseException:
+            self.close()
+            raise
+
+    def _begin(self, first: int, may_be_less: bool) -> None:
+        """Show a step, or one before it where that may be, and from now on answer."""
         with self._limited(), Task("The step was not shown"):
             self.model = self._model_of(self._opened, first)
-        if step is None:
+        if may_be_less:
             self.step = self.model["step"]
         self._check_step(self.step)
         self._offer_constants()
@@ -190,12 +200,14 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
     def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
         """Answer what the browser asks, by its number; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
+        reply: dict[str, Any] = {"mistake": _mistake(_BROKEN_OFF)}
         try:
             with self._limited(), Task("It was not finished"):
-                reply: dict[str, Any] = kinds[content["kind"]](content)
+                reply = kinds[content["kind"]](content)
         except LSystemError as error:
             reply = {"mistake": _mistake(error)}
-        self.send({"number": content["number"], **reply})
+        finally:  # the browser waits for an answer, also where the kernel is interrupted
+            self.send({"number": content["number"], **reply})
 
     def _book_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
         return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
@@ -230,16 +242,9 @@ class Explorer(anywidget.AnyWidget):  # type: ignore[misc]
 
     # -- what is kept ---------------------------------------------------------------------------------------------------
 
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live panel, and for a page without a kernel its picture and its words."""
-        bundle = super()._repr_mimebundle_(**options)
-        data: dict[str, Any] = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
-        return {**data, "text/plain": f"{self.text} Run this cell to play.", **self.still}
-
-    def close(self) -> None:
-        """Close the panel, and what the browser keeps of it."""
-        self.layout.close()
-        super().close()
+    def _stored(self) -> dict[str, Any]:
+        """Its words and its picture."""
+        return {"text/plain": f"{self.text} Run this cell to play.", **self.still}
 
     def __repr__(self) -> str:
         return self.text

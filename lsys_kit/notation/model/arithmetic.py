@@ -18,6 +18,8 @@ Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""
 SMALL = 2**63
 """Whole numbers below this need no check of their size."""
+FEW_BITS = 64
+"""Nor do numbers with no more bits than this."""
 
 
 SHORT = 40
@@ -164,7 +166,7 @@ def bounded_exact(value: Value) -> Value:
         return value
     if isinstance(value, float) or is_symbolic(value):
         return value
-    if value.numerator.bit_length() + value.denominator.bit_length() > current().bits:
+    if (bits := value.numerator.bit_length() + value.denominator.bit_length()) > FEW_BITS and bits > current().bits:
         raise OverflowError
     return normalised(value)
 

@@ -1,0 +1,32 @@
+"""What all widgets of the kit share: what a page without a kernel shows of them, and how they end."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import anywidget
+
+
+class Unfinalized:
+    """A widget that is not closed when it is collected: the open ones are kept by a registry, so it has been closed, or an
+    interrupt came while it was made; of half a widget nothing can be closed."""
+
+    __del__ = staticmethod(tuple)  # does nothing, and has no bytecode of its own in which an interrupt would be swallowed
+
+
+class KitWidget(Unfinalized, anywidget.AnyWidget):  # type: ignore[misc]
+    """A widget that is displayed by its script, and stored as text."""
+
+    def _stored(self) -> dict[str, Any]:
+        """What a page without a kernel shows, by media types."""
+        return {"text/plain": repr(self)}
+
+    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+        """The live widget, and what a page without a kernel shows."""
+        bundle = super()._repr_mimebundle_(**options)
+        return {**dict(bundle[0] if isinstance(bundle, tuple) else bundle or {}), **self._stored()}
+
+    def close(self) -> None:
+        """Close the widget, and what the browser keeps of it."""
+        self.layout.close()
+        super().close()
