@@ -198,7 +198,8 @@ SECONDS_BETWEEN_LOOKS = 0.02
 """A budget is looked at no more often than this, by the clock on the wall: the processor has not spent more."""
 INTERVAL = 1_024
 """The budget is checked after so many things that take about a microsecond each."""
-_processor_time = getattr(time, "thread_time", time.process_time)
+processor_time = getattr(time, "thread_time", time.process_time)
+"""Seconds of the processor in this thread; of the whole process where threads have no clocks of their own, as in WebAssembly."""
 _objects = getattr(sys, "getallocatedblocks", int)
 
 
@@ -212,7 +213,7 @@ class Budget:
     __slots__ = ("_clock", "_first_objects", "_look")
 
     def __init__(self) -> None:
-        self._clock, self._first_objects = (0.0, _processor_time()), -1
+        self._clock, self._first_objects = (0.0, processor_time()), -1
         """the seconds that were spent before, and when the clock was started"""
         self._look = time.monotonic() + min(current().seconds, SECONDS_BETWEEN_LOOKS)
 
@@ -222,11 +223,11 @@ class Budget:
 
     def go_on(self) -> None:
         """Let the clock go on. Where an interrupt kept it from being stopped, what has passed since is not counted."""
-        self._clock = self._clock[0], _processor_time()
+        self._clock = self._clock[0], processor_time()
 
     def _spent(self) -> float:
         before, started = self._clock
-        return before + _processor_time() - started
+        return before + processor_time() - started
 
     def is_due(self) -> bool:
         """Whether it is time to look at what is left."""

@@ -69,7 +69,7 @@ def test_a_task_within_a_task_has_the_same_budget() -> None:
 
 def test_what_passes_between_two_parts_of_a_task_is_not_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
-    monkeypatch.setattr("lsys_kit.budget._processor_time", lambda: now[0])
+    monkeypatch.setattr("lsys_kit.budget.processor_time", lambda: now[0])
     monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
     work = Task()
     with limits(seconds=10):

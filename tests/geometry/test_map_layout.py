@@ -173,8 +173,12 @@ def test_a_relaxation_that_does_not_come_to_rest_says_so() -> None:
 
 
 def test_a_relaxation_that_blows_up_keeps_the_steps_before() -> None:
-    forces = Forces(stiffness=100, rest=1, pressure=0.01, damping=0.1)
+    """By which step it blows up is chaotic: another machine may find another one."""
+    maps, forces = [*develop(read_map(K28), 2)], Forces(stiffness=100, rest=1, pressure=0.01, damping=0.1)
     with pytest.raises(ModelValueError, match="blows up") as error:
-        [*place_maps(develop(read_map(K28), 2), forces)]
-    assert "This was step 2. Steps 0-1 are kept." in (error.value.hint or "")
-    assert len(error.value.partial) == 2
+        [*place_maps(maps, forces)]
+    kept = error.value.partial
+    assert isinstance(kept, list)
+    assert kept
+    assert f"This was step {len(kept)}. Step" in (error.value.hint or "")
+    np.testing.assert_equal(kept, [*place_maps(maps[:len(kept)], forces)])

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from lsys_kit.budget import current
+from lsys_kit.budget import current, processor_time
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.bundle import compact, style
@@ -218,9 +217,9 @@ class _Shelf:
     def _kept(self, chosen: Mapping[str, Value]) -> dict[str, Any]:
         key = tuple(chosen.values())
         if key not in self._made:
-            began = time.thread_time()
+            began = processor_time()
             self._made[key] = self._book({name: value for name, value in chosen.items() if name != SEED}, int(chosen[SEED]))
-            self._seconds += time.thread_time() - began
+            self._seconds += processor_time() - began
         return self._made[key]
 
 
