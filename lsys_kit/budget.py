@@ -199,7 +199,7 @@ SECONDS_BETWEEN_LOOKS = 0.02
 INTERVAL = 1_024
 """The budget is checked after so many things that take about a microsecond each."""
 processor_time = getattr(time, "thread_time", time.process_time)
-"""Seconds of the processor in this thread; of the whole process where threads have no clocks of their own, as in WebAssembly."""
+"""Seconds of the processor in this thread; of the process where threads have no clocks of their own, as in WebAssembly."""
 _objects = getattr(sys, "getallocatedblocks", int)
 
 
