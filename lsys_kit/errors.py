@@ -8,8 +8,16 @@ caret under the place, and suggests what to try. Faults of the kit itself are ne
 from __future__ import annotations
 
 import unicodedata
+from itertools import islice
 from numbers import Integral
+from reprlib import Repr
 from typing import Self
+
+_LINE = 80
+"""The most characters of a name or a value in a message."""
+
+_LONGEST = 20_000
+"""The most characters of a message."""
 
 
 class LSystemError(Exception):
@@ -174,7 +182,8 @@ def printable(character: str) -> str:
 
 
 def _printable_text(text: str) -> str:
-    """A text with its lines, without characters that are invisible or reverse it."""
+    """A text with its lines, without characters that are invisible or reverse it, and cut off where it is far too long."""
+    text = text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
     return "\n".join("".join(map(printable, line)) for line in text.split("\n"))
 
 
@@ -184,17 +193,41 @@ def quotable(name: str) -> str:
     >>> quotable("plant.svg"), quotable("a\\nb")
     ('plant.svg', 'a?b')
     """
-    return "".join(map(printable, name if len(name) <= 80 else f"{name[:80]}..."))
+    return "".join(map(printable, name if len(name) <= _LINE else f"{name[:_LINE]}..."))
+
+
+class _Beginning(Repr):
+    """As much of a representation as fills a line: what is left out is never written, and nothing is put in order."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel = 3
+        self.maxlist = self.maxtuple = self.maxset = self.maxfrozenset = self.maxdeque = self.maxarray = _LINE // 2
+
+    def repr_str(self, value: str | bytes, _: int) -> str:
+        return repr(value[:_LINE + 1])
+
+    repr_bytes = repr_str
+
+    def repr_dict(self, value: dict[object, object], level: int) -> str:
+        some = islice(value.items(), _LINE // 4) if level else ()
+        return f"{{{', '.join(f'{self.repr1(key, level - 1)}: {self.repr1(each, level - 1)}' for key, each in some)}}}"
+
+    def repr_int(self, value: int, _: int) -> str:
+        return repr(value)
+
+    def repr_instance(self, value: object, _: int) -> str:
+        return repr(value)
 
 
 def shown(value: object) -> str:
     """Any value as a message shows it: no longer than a line.
 
-    >>> shown("a"), shown(10**10_000)
-    ("'a'", 'a very large int')
+    >>> shown("a"), shown(10**10_000), len(shown([0] * 10**6))
+    ("'a'", 'a very large int', 83)
     """
     try:
-        return quotable(repr(value))
+        return quotable(_Beginning().repr(value))
     except ValueError:  # Python refuses to write numbers of thousands of digits
         return f"a very large {type(value).__name__}"
 

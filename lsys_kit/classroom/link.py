@@ -129,7 +129,7 @@ def _values(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str,
     for name in settings:
         if name not in (STEP, ANGLE, SEED, *constants):
             listed = f"Its constants are: {', '.join(constants)}." if constants else "It has none."
-            raise ModelNameError(f'The system declares no constant "{name}"', hint=suggestion(str(name), constants) or listed)
+            raise ModelNameError(f'The system declares no constant "{name}"', hint=suggestion(name, constants) or listed)
     return {name: _value(name, given) for name, given in settings.items()}
 
 

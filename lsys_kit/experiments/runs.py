@@ -205,7 +205,7 @@ def _check_names(system: LSystem, keys: Sequence[str], choices: Mapping[str, obj
     for name in (*keys, *choices):
         if name not in (*constants, "seed", "arithmetic"):
             known = f"Constants of the system are: {', '.join(constants)}." if constants else "It declares no constants."
-            raise ModelNameError(f"The system has no constant {shown(name)}", hint=suggestion(str(name), constants) or known)
+            raise ModelNameError(f"The system has no constant {shown(name)}", hint=suggestion(name, constants) or known)
     for name in keys:
         if name in choices:
             raise ModelNameError(f'"{name}" is varied, and given a value as well')

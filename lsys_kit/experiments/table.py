@@ -88,7 +88,7 @@ class Table:
         if isinstance(column, str) and column in self.columns:
             return self.columns.index(column)
         raise ModelNameError(f"There is no column {shown(column)}",
-                             hint=suggestion(str(column), self.columns) or f"Columns are: {', '.join(self.columns)}.")
+                             hint=suggestion(column, self.columns) or f"Columns are: {', '.join(self.columns)}.")
 
     def where(self, **values: object) -> Table:
         """The rows in which some columns have given values.

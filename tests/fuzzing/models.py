@@ -1,9 +1,20 @@
-"""Models that repeat, grow or nest without end, one for each part of a model that can."""
+"""What repeats, grows or nests without end: models, one for each part of a model that can; words, texts and values."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from itertools import count, repeat
+from math import cos, inf, sin
+from typing import Any
 
+import numpy as np
+import sympy
+
+from lsys_kit import cellwork_system
+
+CORNERS = " ".join(f"({place % 100 / 100:g}, {place / 3000:.3f})" for place in range(3_000))
+"""The corners of a surface: many, and not convex."""
 BOMBS: Mapping[str, str] = {
     "empty repetition": "axiom: A\nA -> repeat(1000,h)<repeat(1000,i)<repeat(1000,j)<repeat(1000,k)<repeat(0,l)<A>>>>>",
     "production": "axiom: A\nA -> repeat(100000,i)<repeat(100000,j)<A>>",
@@ -53,6 +64,23 @@ BOMBS: Mapping[str, str] = {
     "tropism": "axiom: A\nA -> &(20)F$[/(30)A]A",
     "macros": "\n".join([*(f"#define {new} {' '.join(old * 10)}" for old, new in zip("Fabcdefg", "abcdefgh", strict=True)),
                          "Axiom: h", "F --> F"]),
+    "jagged surface": f"axiom: A\nA -> ~L +(7) A A\nsurface L: {CORNERS}",
+    "jagged surface in space": f"axiom: A\nA -> ~L &(7) A A\nsurface L: {CORNERS}",
+    "jagged polygon": "axiom: A\nA -> {.repeat(3000,i)<+(90*i)F(1+i).>} &(7) A A",
+    "many conditions": "axiom: A(1)\n" + "\n".join(f"A(x) : x > {k} && x*x > {k} -> A(x+1) B(x)" for k in range(900)),
+    "a thousand rules": "axiom: A0\n" + "\n".join(f"A{k} -> A{k + 1} A{k // 2}" for k in range(990)),
+    "long successor": f"axiom: A\nA -> {'A[+A]' * 8_000}",
+    "long axiom": f"axiom: {'A[+A]' * 8_000}\nA -> A A",
+    "long names": "axiom: N0\n".replace("N", "N" * 60) + "\n".join(
+        f"N{k} -> N{k + 1} N0".replace("N", "N" * 60) for k in range(300)),
+    "deep brackets": f"axiom: A\nA -> {'[' * 5_000}A{']' * 5_000}A",
+    "deep repetition": f"axiom: A\nA -> {''.join(f'repeat(9,i{k})<' for k in range(40))}A{'>' * 40}",
+    "deep expression": f"axiom: A(1)\nA(x) -> A({'(x+' * 45}1{')' * 45}) A(x+1)",
+    "many parameters": f"axiom: A({','.join(['1'] * 16)})\n" + "A({0}) -> A({1}) A({0})".format(
+        ",".join(f"x{k}" for k in range(16)), ",".join(f"x{k}+x{(k + 1) % 16}" for k in range(16))),
+    "huge numbers": "axiom: A(9)\nA(x) -> A(x*x) A(x+1) repeat(x,i)<B(x^i)>",
+    "many constants": "\n".join([*(f"c{k} = {k % 10} in 0 .. 9 by 1" for k in range(300)),
+                                 "axiom: A(c1)", "A(x) -> A(x+c2) A(x*c3)"]),
 }
 """L-systems."""
 
@@ -66,3 +94,72 @@ MAPS: Mapping[str, str] = {
     "resting map": "map: ABAB\nA -> A\nB -> B",
 }
 """Map systems."""
+
+CELLWORKS: Mapping[str, str] = {
+    "growing cells": str(cellwork_system("K33")),
+    "many walls": str(cellwork_system("K33")).replace("steps: 4", "steps: 1000000"),
+    "growing edges": str(cellwork_system("K33")).replace("Q: * -> P", "Q: * -> P Q P").replace("R: * -> Q", "R: * -> Q R Q"),
+}
+"""Cellwork systems."""
+
+WORDS: Mapping[str, Callable[[], Any]] = {
+    "endless words": lambda: repeat("ab"),
+    "endless letters": lambda: ["ab", (f"a{number}" for number in count())],
+    "a range of words": lambda: range(10**12),
+    "a range as a word": lambda: [range(10**12)] * 2,
+    "many words": lambda: ["a"] * 10**6,
+    "long words": lambda: ["a" * 10**6, "ab" * 10**6],
+    "long different words": lambda: [" ".join(f"s{place * place % 977}" for place in range(30_000))] * 3,
+    "ignored symbols": lambda: [f"a{'+' * 24_000}b"] * 3,
+    "lines of ignored symbols": lambda: [f"{'a+' * 12_000}b{'+-' * step}" for step in range(4)],
+    "long names": lambda: [" ".join(f"{'x' * 900}{place % 7}" for place in range(9_000))] * 3,
+    "long numbers": lambda: [f"a({'9' * 100_000})", f"a({'8' * 100_000}) b"],
+    "deep brackets": lambda: ["[" * 40_000 + "a" + "]" * 40_000] * 2,
+    "unclear words": lambda: ["abcdefgh", "a" * 3_000, "a" * 9_000],
+    "branches": lambda: ["F" + "[+F]" * 9_000, "F" + "[+F]" * 19_000],
+    "endless strokes": lambda: repeat([(0, 0, 0, 1)]),
+    "many strokes": lambda: [[(x, y, x, y + 1) for x in range(99)] for y in range(99)],
+    "strokes everywhere": lambda: [[(0, 0, cos(angle), sin(angle)) for angle in range(1, 2_000 * step)] for step in (1, 2)],
+}
+"""What rules are looked for in."""
+
+TEXTS: Mapping[str, str] = {
+    "letters": "a" * 999_000, "lines of letters": f"{'a' * 40_000}\n" * 24, "blanks": " " * 999_000,
+    "empty lines": "\n" * 999_000,
+    "digits": "9" * 49_000, "axiom of digits": f"axiom: A({'9' * 1_900})\nA(x) -> A(x*x)", "many digits": "9 " * 24_000,
+    "opened": "(" * 49_000, "branches": "axiom: " + "[" * 49_000, "closed": ")" * 49_000, "quotes": '"' * 49_000,
+    "arrows": "-> " * 16_000, "commas": "," * 49_000, "braces": "{" * 49_000, "comments": "/*" * 400_000,
+    "signs": "+-" * 24_000,
+    "statements": "A -> B\n" * 140_000, "axioms": "axiom: A\n" * 100_000, "macros": "#define A B\n" * 80_000,
+    "constants": "\n".join(f"c{number} = {number}" for number in range(60_000)), "powers": "axiom: A(" + "9^" * 900 + "9)",
+    "factorials": f"axiom: A({'factorial(' * 40}9{')' * 40})", "exponents": "axiom: A(1e999999999999)",
+    "names": f"axiom: {'n' * 40_000}", "markup": "<a>" * 300_000, "braces and brackets": "{[(" * 16_000,
+    "rows": "1 2 3\n" * 160_000,
+    "points": "0 0 0 0 0 1 0 1 0 0 1 1\n" * 40_000, "walls": f"map: {'AB' * 24_000}\n{'A -> AB' * 9}",
+    "far text": "\U000f0000" * 400_000,
+    "link": "#lsys=" + "a" * 900_000, "broken link": "#lsys=" + "aS0zKBwA" * 90_000, "surrogates": "\ud800" * 400_000,
+}
+"""Texts of about the size that is read, and of a line."""
+
+VALUES: Mapping[str, Callable[[], Any]] = {
+    "a billion": lambda: 10**9, "five thousand digits": lambda: 10**5_000, "a negative one": lambda: -10**5_000,
+    "a fraction": lambda: Fraction(10**5_000 + 1, 7), "greatest double": lambda: 1.7e308, "least double": lambda: 5e-324,
+    "infinity": lambda: inf, "digits": lambda: "9" * 10**6, "an exponent": lambda: "1e999999999", "powers": lambda: "9^9^9^9^9",
+    "letters": lambda: "a" * 10**7, "a range": lambda: range(10**12), "without end": lambda: count(),
+    "the same": lambda: repeat("a"),
+    "a long list": lambda: [0] * 10**7, "a list of lists": lambda: [[0] * 1_000] * 1_000,
+    "nested lists": lambda: nested(50_000),
+    "bytes": lambda: b"a" * 10**7, "a mapping": lambda: {f"a{number}": number for number in range(10**6)},
+    "two billions": lambda: (10**9, 10**9), "a set": lambda: {*range(10**6)}, "an array": lambda: np.zeros((10**4, 10**3)),
+    "a mapping of ranges": lambda: {"c": range(10**12)}, "a mapping without end": lambda: {"c": count()},
+    "a mapping of digits": lambda: {"c": "9" * 10**6}, "an expression": lambda: sympy.Symbol("x") ** 10**9,
+}
+"""Values of any argument: made anew each time, since some are used up."""
+
+
+def nested(depth: int) -> list[Any]:
+    """Lists within lists."""
+    found: list[Any] = []
+    for _ in range(depth):
+        found = [found]
+    return found

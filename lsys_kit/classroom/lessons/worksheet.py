@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import islice
 from typing import Any
 
 import traitlets
@@ -71,7 +72,7 @@ class Worksheet(LessonWidget):
     @property
     def entries(self) -> list[str]:
         """What is in the cells to be filled, row by row, when they were last checked."""
-        given = [str(each)[:MOST_CHARACTERS + 1] for each in self.asked.get("entries", ())]
+        given = [str(each)[:MOST_CHARACTERS + 1] for each in islice(self.asked.get("entries", ()), len(self._table.blanks))]
         return (given + [""] * len(self._table.blanks))[:len(self._table.blanks)]
 
     @property

@@ -31,24 +31,29 @@ def span(record: object) -> tuple[int | None, int | None]:
     return getattr(record, "at", None) or (None, None)
 
 
+_LONGEST_NAME = 200
+"""So much of a name is compared."""
+
+
 def closest(name: str, known: Collection[str], likeness: float = 0.6) -> str | None:
     """The known name that a name resembles most.
 
     >>> closest("lifetimeA", ["lifeTimeA", "dt"])
     'lifeTimeA'
     """
+    name = name[:_LONGEST_NAME]
     close = (get_close_matches(name, sorted(known), 1, likeness)
              or get_close_matches(name.lower(), sorted(known), 1, likeness))
     return close[0] if close else None
 
 
-def suggestion(name: str, known: Collection[str], likeness: float = 0.6) -> str | None:
-    """A hint that gives the name that was probably meant.
+def suggestion(name: object, known: Collection[str], likeness: float = 0.6) -> str | None:
+    """A hint that gives the name that was probably meant; None where there is none like it, or no name was given.
 
     >>> suggestion("lifetimeA", ["lifeTimeA", "dt"])
     'Did you mean "lifeTimeA"?'
     """
-    name_meant = closest(name, known, likeness)
+    name_meant = closest(name, known, likeness) if isinstance(name, str) else None
     return gettext('Did you mean "{name}"?', name=name_meant) if name_meant else None
 
 
