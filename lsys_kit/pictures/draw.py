@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
-from lsys_kit.budget import Task
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
@@ -182,7 +182,8 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options,
              marked: Collection[int] = (), cells: str | None = None, view: object = None, steps: object = (),
              seeds: object = (), **choices: Any) -> AnyPicture:
     require(marked, Collection, "A collection of states")
-    states, side = frozenset(whole_number(each, "A state") for each in marked), None if view is None else view_from(view)
+    states, side = frozenset(whole_number(each, "A state") for each in counted(marked)),
+    None if view is None else view_from(view)
     drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
     system = drawn[0].word.states.system
     if drawing_mode(system) is DrawingMode.FILAMENT:

@@ -86,13 +86,15 @@ MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "Plot": lambda system: kit.plot(system, 9), "QRCode": lambda system: kit.qr_code(kit.link(system)),
     "LSystem": lambda system: system, "Prediction": lambda system: kit.predict("What comes?", kit.draw(system, 6)),
     "Observation": lambda system: kit.derive(system, 6).sight(6), "Origins": lambda system: kit.derive(system, 9).origins(9),
-    "Column": lambda system: kit.derive(system, 9).column(),     "Linked": lambda system: kit.linked(kit.link(system)), "Explanation": lambda system: kit.explain(kit.derive(system, 7), 7),
+    "Column": lambda system: kit.derive(system, 9).column(),     "Linked": lambda system: kit.linked(kit.link(system)),
+    "Explanation": lambda system: kit.explain(kit.derive(system, 7), 7),
     "Drawing": lambda system: longest_drawn(system).drawing(), "Scene": lambda system: longest_drawn(system).scene,
     "Mesh": lambda system: longest_drawn(system).mesh,
 }
 """How each result is made of an L-system."""
 MAP_MAKERS: Mapping[str, Callable[[Any], Any]] = {
-    "Development": longest, "Map": lambda system: longest(system)[-1], "MapPicture": lambda system: kit.draw(system, 5), "MapSystem": lambda system: system}
+    "Development": longest, "Map": lambda system: longest(system)[-1], "MapPicture": lambda system: kit.draw(system, 5),
+    "MapSystem": lambda system: system}
 CELLWORK_MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "CellworkDevelopment": longest, "Cellwork": lambda system: longest(system)[-1], "CellworkSystem": lambda system: system}
 """The same of a map system and of a cellwork system."""
@@ -196,9 +198,11 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "check": (lambda system: kit.check("1.3", str(system)),),
         "predict": (lambda system: kit.predict("What comes?", kit.draw(system, 9)),),
         **{f"write: {name}": (lambda system, name=name: kit.write(system, name),) for name in DIALECTS},
-        **{f"lsys-kit {line.partition(' ')[0]}: {line}": (kept, typed(*line.replace("MODEL", model).replace("OUT", str(folder)).split()))
+        **{f"lsys-kit {line.partition(' ')[0]}: {line}": (kept, typed(*line.replace("MODEL", model).replace("OUT",
+            str(folder)).split()))
            for line in ("derive MODEL -n 12", "derive MODEL -n 100000 --counts", "derive MODEL -n 30 --json",
-                        "derive MODEL -n 1000000 --counts --json", "draw MODEL -n 9 -o OUT/a.png", "draw MODEL -n 9 -o OUT/a.gif",
+                        "derive MODEL -n 1000000 --counts --json", "draw MODEL -n 9 -o OUT/a.png",
+                        "draw MODEL -n 9 -o OUT/a.gif",
                         "draw MODEL -n 4,6,8 -o OUT/a.svg", "draw MODEL -n 9 -o OUT/a.glb", "stages MODEL -o OUT/net.pnml",
                         "stages MODEL --unfold -o OUT/net.svg", "convert MODEL --to cpfg", "link MODEL --qr OUT/code.png",
                         "page MODEL -o OUT/page.html", "wall OUT -o OUT/wall.html")},
@@ -279,7 +283,8 @@ def text_acts(folder: Path) -> Mapping[str, Calls]:
                              typed("collect", str(folder), "-o", str(folder / "marks.csv"))),
         "lsys-kit exercises": (lambda text: (folder / "own.toml").write_text(text, errors="replace"),
                                typed("exercises", "check", str(folder))),
-        "exercises: own": (lambda text: (folder / "own.toml").write_text(text, errors="replace"), lambda _: kit.exercises(folder)),
+        "exercises: own": (lambda text: (folder / "own.toml").write_text(text, errors="replace"),
+            lambda _: kit.exercises(folder)),
     }
 
 
@@ -301,7 +306,8 @@ FIRST = (
     "read_cellwork", "read_map", "rule_finder", "score", "stages", "system", "timed", "variants", "vote", "write")
 """Functions whose first argument gets a value."""
 ASKED: Mapping[str, tuple[str, ...]] = {
-    "Growth": ("counts", "lengths", "length", "recurrence_of"), "Stages": ("expected", "tokens", "place_of", "line", "in_places", "fired"),
+    "Growth": ("counts", "lengths", "length", "recurrence_of"), "Stages": ("expected", "tokens", "place_of", "line",
+        "in_places", "fired"),
     "Derivation": ("to", "counts", "origins", "ancestors", "sight", "column", "__getitem__"), "Word": ("coded", "__getitem__"),
     "Picture": ("image", "drawing"), "Timed": ("word", "later", "division"), "Lineage": ("daughters",),
     "Table": ("where", "summary", "plot", "measured", "__getitem__"), "LSystem": ("picture",), "Continuity": ("solve",),
@@ -319,7 +325,8 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
               "Word": lambda system: kit.derive(system, 3)[3], "Picture": lambda system: kit.draw(system, 3),
               "Lineage": lambda _: kit.lineage(kit.timed(ageing), 3), "Practice": lambda _: kit.practice("derive", 1, 1)}
     return {
-        **{f"{name}: {key}": (lambda value, name=name, given=given, key=key: getattr(kit, name)(plant, *given, **{key: value}), shown)
+        **{f"{name}: {key}": (lambda value, name=name, given=given, key=key: getattr(kit, name)(plant, *given,
+            **{key: value}), shown)
            for name, (given, keys) in NAMED.items() for key in keys},
         **{f"{name}: value": (getattr(kit, name), shown) for name in FIRST},
         **{f"{result}.{name}: value": (
@@ -332,10 +339,13 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
         "infer: angle": (lambda value: kit.infer([[(0, 0, 0, 1)]] * 2, angle=value), repr),
         "rule_finder: constants": (partial(kit.rule_finder, ["a", "ab"]), repr),
         "check: value": (partial(kit.check, "1.1"), repr), "check: hint": (partial(kit.check, "1.1", "a"), repr),
-        "practice: seed": (partial(kit.practice, "derive", 1), repr), "practice: level": (partial(kit.practice, "derive"), repr),
-        "predict: question": (lambda value: kit.predict(value, 1), repr), "predict: what": (partial(kit.predict, "What?"), repr),
+        "practice: seed": (partial(kit.practice, "derive", 1), repr), "practice: level": (partial(kit.practice, "derive"),
+            repr),
+        "predict: question": (lambda value: kit.predict(value, 1), repr), "predict: what": (partial(kit.predict, "What?"),
+            repr),
         "vote: again": (partial(kit.vote, "01"), repr), "worksheet": (lambda value: kit.worksheet(value, "counts"),),
-        "worksheet: table": (partial(kit.worksheet, "01"), repr), "explain: step": (partial(kit.explain, kit.derive(plant, 2)), repr),
+        "worksheet: table": (partial(kit.worksheet, "01"), repr), "explain: step": (partial(kit.explain, kit.derive(plant,
+            2)), repr),
         "continuity: lengths": (partial(kit.continuity, ageing), repr),
         "continuity: order": (partial(kit.continuity, ageing, {"a": "1"}), repr),
         "plot: in time": (partial(kit.plot, kit.timed(ageing)), shown), "pnml: net": (kit.pnml,),
@@ -348,8 +358,10 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
            for name in ("model", "angle", "around", "above", "mark", "seed", "step")},
         **{f"Prompt.{name}": (lambda value: (kit.predict("What?", "21").prompt, value), put(name))
            for name in ("question", "revealed", "words")},
-        **{f"RuleFinder.{name}": (lambda value: (kit.rule_finder(["a", "ab"]), value), put(name)) for name in ("found", "words", "step")},
-        **{f"VoteBox.{name}": (lambda value: (kit.vote("01"), value), put(name)) for name in ("asked", "chosen", "said", "words")},
+        **{f"RuleFinder.{name}": (lambda value: (kit.rule_finder(["a", "ab"]), value), put(name)) for name in ("found",
+            "words", "step")},
+        **{f"VoteBox.{name}": (lambda value: (kit.vote("01"), value), put(name)) for name in ("asked", "chosen", "said",
+            "words")},
         **{f"Worksheet.{name}": (lambda value: (kit.worksheet("01", "counts"), value), put(name))
            for name in ("asked", "result", "sheet", "words")},
         "Worksheet.asked: entries": (lambda value: (kit.worksheet("01", "counts"), {"entries": value}), put("asked")),
@@ -367,7 +379,8 @@ def _nothing_grows(*names: str) -> Mapping[str, str]:
 
 LEFT_OUT: Mapping[str, str] = {
     **_nothing_grows("book_systems", "cellwork_systems", "map_systems", "systems", "lsys-kit list", "ExerciseList.__repr__",
-                     "lsys-kit site", "VoteBox.close", "VoteBox.page_data", "VoteBox.__repr__", "Worksheet.close", "Worksheet.entries",
+                     "lsys-kit site", "VoteBox.close", "VoteBox.page_data", "VoteBox.__repr__", "Worksheet.close",
+                     "Worksheet.entries",
                      "Worksheet.page_data", "Worksheet.__repr__", "Progress.count", "Progress.state", "Progress.__repr__",
                      "Verdict.__repr__", "Practice.next", "Practice.__repr__", "Comparison.left", "Comparison.right"),
     "lsys-kit lab": "it serves until it is closed",

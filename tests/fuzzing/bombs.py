@@ -4,12 +4,14 @@ time and memory, with a result or with an error of the kit.
     nice python -m tests.fuzzing.bombs                     all of it, within the limits that the kit has by default
     python -m tests.fuzzing.bombs 1 100                    within one second and 100 MB
     python -m tests.fuzzing.bombs 1 100 chance "derive"    some bombs, and what some rows of calls do to all
+    python -m tests.fuzzing.bombs --rows 150 --seed 7      some rows, drawn at random
 
-Written out is what takes most, and at the end what broke its limits.
+Each row is written out with what it took, and at the end what broke its limits.
 """
 
 from __future__ import annotations
 
+import argparse
 import gc
 import json
 import os
@@ -144,20 +146,26 @@ def report(rows: Iterable[Row], seconds: float, megabytes: int) -> list[str]:
     return wrong
 
 
-def main(seconds: float = 10, megabytes: int = 512, *only: str) -> list[str]:
-    """All rows, or those with one of some names."""
+def main(seconds: float, megabytes: int, only: Iterable[str], most: int | None, seed: int) -> list[str]:
+    """So many rows at most, drawn with a seed; those with one of some names, if any are given."""
     with tempfile.TemporaryDirectory() as folder:
         asked = (row for row in table(Path(folder)) if not only or {row.bomb, row.way, row.way.partition(":")[0]} & {*only})
         rows = [*asked]
-        random.Random(1).shuffle(rows)
+        random.Random(seed).shuffle(rows)
         warm_up(Path(folder))
         gc.freeze()
-        return report(rows, seconds, megabytes)
+        return report(rows[:most], seconds, megabytes)
 
 
 if __name__ == "__main__":
-    given = sys.argv[1:]
-    wrong = main(*map(float, given[:1]), *map(int, given[1:2]), *given[2:])
+    parser = argparse.ArgumentParser()
+    parser.add_argument("seconds", nargs="?", type=float, default=10)
+    parser.add_argument("megabytes", nargs="?", type=int, default=512)
+    parser.add_argument("only", nargs="*")
+    parser.add_argument("--rows", type=int)
+    parser.add_argument("--seed", type=int, default=1)
+    given = parser.parse_args()
+    wrong = main(given.seconds, given.megabytes, given.only, given.rows, given.seed)
     for line in wrong:
         print(line, file=sys.stderr)
     sys.exit(bool(wrong))

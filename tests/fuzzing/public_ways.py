@@ -1,4 +1,5 @@
-"""All public ways into the kit: what a person can call, ask a result, type into a shell, read and write, or send from a browser."""
+"""All public ways into the kit: what a person can call, ask of a result, type into a shell, read, write, or send from a
+browser."""
 
 from __future__ import annotations
 

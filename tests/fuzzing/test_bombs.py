@@ -1,4 +1,4 @@
-"""No model exhausts the machine, whatever is asked of it: each part that can repeat, grow or nest, by each public function."""
+"""Nothing exhausts the machine: every public way has a row in the table, and a share of the table is measured."""
 
 from __future__ import annotations
 
@@ -8,27 +8,43 @@ from pathlib import Path
 
 import pytest
 
-from tests.fuzzing.acts import acts, map_acts
-from tests.fuzzing.models import BOMBS, MAPS
+from tests.fuzzing.acts import GROUPS, LEFT_OUT
+from tests.fuzzing.bombs import broken, outcome
+from tests.fuzzing.public_ways import public_ways
 
-SHARES = 4
-"""The models are tried in so many processes."""
-MODELS = [*BOMBS, *MAPS]
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="the memory of a process is limited as on Linux")
-@pytest.mark.parametrize("share", range(SHARES))
-def test_what_has_no_end_is_refused_in_time_and_within_its_memory(share: int) -> None:
-    command = [sys.executable, "-m", "tests.fuzzing.bombs", "0.02", "200", *MODELS[share::SHARES]]
-    run = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert "in 0.02 seconds" in run.stdout
+linux = pytest.mark.skipif(sys.platform != "linux", reason="a process is measured as on Linux")
 
 
-def test_no_two_models_and_no_model_and_row_of_calls_have_one_name() -> None:
-    names = [*MODELS, *{*acts(Path()), *map_acts(Path())}]
+def test_every_public_way_has_a_row(tmp_path: Path) -> None:
+    rows = {way for _, _, acts in GROUPS for way in acts(tmp_path)}
+    tried = rows | {way.partition(":")[0] for way in rows}
+    assert public_ways() - tried - LEFT_OUT.keys() == set()
+    assert LEFT_OUT.keys() - public_ways() == set(), "what is left out is a public way"
+    assert LEFT_OUT.keys() & tried == set(), "and has no row"
+
+
+def test_no_two_bombs_have_one_name() -> None:
+    names = [name for bombs, _, _ in GROUPS for name in bombs]
     assert len({*names}) == len(names)
+
+
+@linux
+def test_what_breaks_a_limit_is_found() -> None:
+    """What works, allocates and recurses without end is measured as what it is."""
+    assert not [*broken(outcome((lambda _: [],), 0.2, 100), 0.2, 100)]
+    assert [*broken(outcome((lambda _: sum(range(10**8)),), 0.2, 100), 0.2, 100)]
+    assert [*broken(outcome((lambda _: len(b"a" * 400 * 2**20),), 1, 100), 1, 100)]
+    assert [*broken(outcome((lambda _: bytearray(2**40),), 1, 100), 1, 100)]
+
+
+@linux
+@pytest.mark.slow
+def test_a_share_of_the_table_keeps_to_its_limits() -> None:
+    run = subprocess.run([sys.executable, "-m", "tests.fuzzing.bombs", "--rows", "150", "0.1", "200"], capture_output=True,
+        text=True,
+                         check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "in 0.1 seconds" in run.stdout
 
 
 def test_calls_at_random_are_answered_or_refused() -> None:

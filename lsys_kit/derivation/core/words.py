@@ -94,7 +94,10 @@ class Word(Sequence[Module]):
         """
         require(coding, Mapping, "A dictionary of what is written in place of modules")
         with Task("The text of the word was not written"):
-            return joined(coding.get(text, text) for text in map(str, counted(self)))
+            texts = {state: str(self.states.modules[state]) for state in counted(state_counts(self))}
+            texts = {state: coding.get(text, text) for state, text in texts.items()}
+            _check_size(texts, state_counts(self))
+            return joined(map(texts.__getitem__, chain.from_iterable(blocks(self.numbers()))))
 
     def counts(self) -> Mapping[str, int]:
         """How often each symbol occurs.
@@ -138,9 +141,14 @@ def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
     notation = dialect_named(states.system.notation)
     counts = state_counts(Word(states, codes))
     texts = {state: notation.module(states.modules[state]) for state in counted(counts)}
+    _check_size(texts, counts)
+    return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
+
+
+def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:
+    """Refuse a text that would take too much memory, given the text of each state and how often it occurs."""
     size = sum(len(texts[state]) * count for state, count in counts.items())
     check_bytes(size, lambda: "The text of the word was not written")
-    return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
 
 
 def abridged(word: Word, characters: int) -> str:

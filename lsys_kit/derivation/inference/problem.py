@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TypeAlias
 
-from lsys_kit.budget import counted
+from lsys_kit.budget import INTERVAL, counted
 from lsys_kit.derivation.core.matching import Neighbours, Passing, neighbours, neighbours_along
 from lsys_kit.derivation.inference.word_equations.bounds import Bounds, first_bounds
 from lsys_kit.derivation.inference.word_equations.counting import Count, count_of
@@ -129,7 +129,7 @@ def letters_of(word: Row, conditions: Conditions) -> Iterator[Letter]:
         yield from (Letter((), module) for module in counted(word))
         return
     around = neighbours([module.symbol for module in word], Passing(conditions.constants))
-    for place in counted(range(len(word))):
+    for place in counted(range(len(word)), max(1, INTERVAL // max(1, sum(conditions.context)))):
         yield letter_at(word, around, place, conditions.context)
 
 

@@ -18,7 +18,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
-from lsys_kit.budget import Task
+from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
@@ -138,10 +138,12 @@ def _symbols_from(unfold: object) -> tuple[str, ...] | None:
     require(unfold, (bool, str, Collection), 'True, False, a symbol or several for "unfold"')
     if isinstance(unfold, bool):
         return None
-    symbols = (unfold,) if isinstance(unfold, str) else tuple(unfold)  # type: ignore[arg-type]
-    for symbol in symbols:
+    symbols, given = list[str](), (unfold,) if isinstance(unfold, str) else unfold
+    assert isinstance(given, Collection)
+    for symbol in counted(given):
         require(symbol, str, 'A symbol for "unfold"')
-    return symbols
+        symbols.append(symbol)
+    return tuple(symbols)
 
 
 def _unfolded(nets: Iterable[Stages]) -> Stages:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import TypeAlias
 
-from lsys_kit.budget import check_budget
+from lsys_kit.budget import check_budget, counted
 from lsys_kit.derivation.inference.word_equations.bounds import Bounds, counts_of, narrowed
 from lsys_kit.derivation.inference.word_equations.equations import Equation, linked, put_in
 from lsys_kit.derivation.inference.word_equations.positions import bits, cuts, greatest, least, parts
@@ -217,8 +217,8 @@ def _at_the_ends(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> Ite
     first, last, target = equation.items[0], equation.items[-1], equation.target
     assert isinstance(first, int)
     assert isinstance(last, int)
-    yield first, {word for end in bits(gaps[1]) if _possible(first, word := target[:end], bounds)}
-    yield last, {word for begin in bits(gaps[-2]) if _possible(last, word := target[begin:], bounds)}
+    yield first, {word for end in counted(bits(gaps[1]), 1) if _possible(first, word := target[:end], bounds)}
+    yield last, {word for begin in counted(bits(gaps[-2]), 1) if _possible(last, word := target[begin:], bounds)}
 
 
 def _possible(letter: int, word: str, bounds: Bounds) -> bool:
