@@ -1,7 +1,9 @@
-"""JupyterLab once for all browser tests, Chromium once a file; each test opens notebooks of its own in the tab of its file."""
+"""JupyterLab and what kernels are forked from once for all tests, Chromium once a file; each test opens notebooks of its own in
+the tab of its file."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -12,12 +14,24 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.lab import VIEWPORT, Lab, OpenNotebook, Tab, launched, started, tab_of
+from tests.notebooks.kernels import ARE_FORKED, forked
 
 expect.set_options(timeout=20_000)
 
 
 @pytest.fixture(scope="session")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+def kernels(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Kernels that start at once, for all that Jupyter runs."""
+    if not ARE_FORKED:
+        yield
+        return
+    with forked(tmp_path_factory.mktemp("kernels")) as folder, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("JUPYTER_PATH", str(folder), prepend=os.pathsep)
+        yield
+
+
+@pytest.fixture(scope="session")
+def lab(tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Iterator[Lab]:
     with started(tmp_path_factory.mktemp("lab")) as running:
         yield running
 

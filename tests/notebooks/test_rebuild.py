@@ -87,6 +87,7 @@ def test_a_cell_with_another_id_takes_no_picture():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("kernels")
 def test_a_notebook_is_run_where_it_stands(tmp_path: Path):
     (tmp_path / "note.txt").write_text("from beside")
     notebook = new_notebook(cells=[new_code_cell("print(open('note.txt').read())\n1 + 1", id="sum")])
@@ -104,6 +105,7 @@ def test_there_are_lessons_exercises_and_references():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("kernels")
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_rebuilding_changes_no_byte(path: Path):
     before, after = path.read_bytes().decode(), rebuilt(path)
