@@ -35,7 +35,7 @@ LESSONS = [name.replace(".ipynb", ".html") for name in course_files() if is_less
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def site(tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Path:
     folder = tmp_path_factory.mktemp("site")
     build_site(folder)
     return folder
