@@ -31,10 +31,3 @@ export function tellModel(model, values, status) {
   model.save_changes();
   if (model.comm_live === false) status.replaceChildren(translated(model, GONE));
 }
-
-let last = 0;
-
-// An id of the page that nothing else has.
-export function freshId() {
-  return `lsys-lesson-${(last += 1)}-${Math.floor(Math.random() * 1e9)}`;
-}

@@ -1,7 +1,7 @@
 // A table to fill. The model checks it, and says of each cell no more than whether it is right.
 
-import { made } from "../views/controls.js";
-import { freshId, translated, question, tellModel } from "./asking.js";
+import { freshId, made } from "../views/controls.js";
+import { translated, question, tellModel } from "./asking.js";
 import { plain, prose } from "./prose.js";
 
 const SIGNS = { right: "✓", "not yet": "✗", "not filled in yet": "○" };

@@ -1,7 +1,7 @@
 // The words of an organism up to a step, and beside them all systems that fit. All steps are there beforehand: no kernel is asked.
 
-import { made } from "../views/controls.js";
-import { freshId, question } from "./asking.js";
+import { freshId, made } from "../views/controls.js";
+import { question } from "./asking.js";
 
 export function showRules({ model, el }) {
   return question(model, el, "rules that fit", ["step"], (root) => {

@@ -1,7 +1,7 @@
 // The question of a prediction, with its box. What answers it is not here: the model is told when it may be seen.
 
-import { made } from "../views/controls.js";
-import { freshId, translated, question, tellModel } from "./asking.js";
+import { freshId, made } from "../views/controls.js";
+import { translated, question, tellModel } from "./asking.js";
 import { prose } from "./prose.js";
 
 export function askForPrediction({ model, el }) {

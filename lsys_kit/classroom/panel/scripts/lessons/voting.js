@@ -1,7 +1,7 @@
 // A vote: a question and four buttons. Which is right, the model says, and only the second time.
 
-import { made } from "../views/controls.js";
-import { freshId, translated, question, tellModel } from "./asking.js";
+import { freshId, made } from "../views/controls.js";
+import { translated, question, tellModel } from "./asking.js";
 import { prose } from "./prose.js";
 
 const LETTERS = "ABCD";

@@ -24,11 +24,14 @@ export function drawn(tag, attributes = {}, ...inside) {
   return element;
 }
 
-let controls = 0;
+// An id that nothing else of the page has: each panel of a notebook has a copy of this script, so that counting is not enough.
+export function freshId() {
+  return `lsys-${Math.random().toString(36).slice(2)}`;
+}
 
 // A slider over some texts of numbers, with a box in which one can be typed. `chosen` is called with the index.
 export function slider(name, hint, texts, index, chosen, label = name) {
-  const id = `lsys-control-${++controls}`;
+  const id = freshId();
   const box = made("input", { id, type: "text", inputmode: "decimal", class: "lsys-box", autocomplete: "off", spellcheck: "false" });
   const range = made("input", { type: "range", class: "lsys-range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
   const element = made("div", { class: "lsys-control", "data-control": name },
@@ -115,7 +118,7 @@ export function icon(name) {
 
 // A list to choose from: `options` are pairs of a value and its text.
 export function list(name, hint, options, value, chosen, label = name) {
-  const id = `lsys-control-${++controls}`;
+  const id = freshId();
   const select = made("select", { id, class: "lsys-list" });
   const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, label), select);
   select.addEventListener("change", () => chosen(select.value));

@@ -1,6 +1,6 @@
 // Step after step by itself: play, back, single steps, speed, loop.
 
-import { made, button, icon, list } from "./controls.js";
+import { made, button, freshId, icon, list } from "./controls.js";
 import { worded } from "./language.js";
 
 const SPEEDS = [["1200", "slow"], ["600", "normal"], ["250", "fast"]]; // milliseconds a step
@@ -11,7 +11,7 @@ export function player(steps, go, moved) {
   const play = button("play", worded("play"), toggle, { class: "lsys-button lsys-play" });
   const back = button("back", worded("one step back"), () => one(-1)), forward = button("forward", worded("one step on"), () => one(1));
   const first = button("first", worded("to step 0"), () => { stop(); go(0); });
-  const loop = made("input", { type: "checkbox", id: `lsys-loop-${Math.random().toString(36).slice(2)}` });
+  const loop = made("input", { type: "checkbox", id: freshId() });
   const speed = list("speed", worded("how long each step is shown"), SPEEDS.map(([value, name]) => [value, worded(name)]), "600", (value) => {
     pause = Number(value);
     if (timer) start();
