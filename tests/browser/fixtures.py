@@ -11,8 +11,9 @@ from typing import Any
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
-from playwright.sync_api import Browser, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
+from tests.browser.homes import show
 from tests.browser.lab import VIEWPORT, Lab, OpenNotebook, Tab, launched, started, tab_of
 from tests.notebooks.kernels import ARE_FORKED, forked
 
@@ -75,7 +76,7 @@ def _shots(config: pytest.Config) -> Path | None:
     return Path(folder) if folder else None
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def write_notebook(lab: Lab) -> Callable[..., str]:
     """Writes a notebook of a title and some code cells into the course: `write_notebook("name.ipynb", "1 + 1")`."""
 
@@ -86,6 +87,27 @@ def write_notebook(lab: Lab) -> Callable[..., str]:
         return f"notebooks/{name}"
 
     return written
+
+
+@pytest.fixture(scope="module")
+def open_at_home(browser: Browser, lab: Lab, write_notebook: Callable[..., str],
+                 pytestconfig: pytest.Config) -> Iterator[Callable[..., Page]]:
+    """Opens a notebook in JupyterLab, Notebook 7 or Voila; of each a picture is kept at the end."""
+    pages: list[tuple[Page, str]] = []
+
+    def open_one(home: Callable[[Page, Lab, str], None], *sources: str, name: str = "panel",
+                 viewport: Mapping[str, int] = VIEWPORT) -> Page:
+        page = browser.new_context(viewport={"width": viewport["width"], "height": viewport["height"]}).new_page()
+        pages.append((page, f"{name}-{home.__name__}"))
+        home(page, lab, write_notebook(f"{name}_{home.__name__}.ipynb", *map(show, sources)))
+        return page
+
+    yield open_one
+    for page, name in pages:
+        if folder := _shots(pytestconfig):
+            folder.mkdir(parents=True, exist_ok=True)
+            page.screenshot(path=folder / f"{name}.png")
+        page.context.close()
 
 
 @pytest.fixture(scope="module")

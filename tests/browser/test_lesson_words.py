@@ -2,36 +2,23 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
-from tests.browser.lab import Lab
-from tests.browser.test_panel_in_jupyter import HOMES, show
+from tests.browser.homes import HOMES
 
 WORDS = ("vote('01')", "predict('How many cells has step 6 of `J1`?', explore('J1', 6))",
          "predict('What is its word?', derive(system('J1'), 3))", "worksheet('01', 'counts')", "vote('01', again=True)")
 
 
-@pytest.fixture
-def at_home(browser: Browser, lab: Lab, write_notebook, pytestconfig):
-    """Opens a notebook with these words in one of the three homes, and keeps a picture of it at the end."""
-    pages, folder = [], pytestconfig.getoption("screenshots")
-
-    def opened(home, *sources, name="words", **context):
-        page = browser.new_context(**{"viewport": {"width": 1440, "height": 1000}, **context}).new_page()
-        pages.append((page, f"{name}-{home.__name__}"))
-        home(page, lab, write_notebook(f"{name}_{home.__name__}.ipynb", *map(show, sources)))
-        expect(page.locator(".lsys-lesson").first).to_be_visible(timeout=90_000)
-        return page
-
-    yield opened
-    for page, name in pages:
-        if folder:
-            Path(folder).mkdir(parents=True, exist_ok=True)
-            page.screenshot(path=Path(folder) / f"{name}.png")
-        page.context.close()
+@pytest.fixture(scope="module")
+def home(request: pytest.FixtureRequest, open_at_home: Callable[..., Page]) -> Page:
+    """A notebook with these words in one of the three homes, for all tests."""
+    page = open_at_home(request.param, *WORDS, name="words", viewport={"width": 1440, "height": 1000})
+    expect(page.locator(".lsys-lesson").first).to_be_visible(timeout=90_000)
+    return page
 
 
 def options(page: Page, again: bool = False):
@@ -39,8 +26,8 @@ def options(page: Page, again: bool = False):
 
 
 @HOMES
-def test_a_vote_is_kept_and_judged_only_the_second_time(at_home, home):
-    page = at_home(home, "vote('01')", "vote('01', again=True)", name="vote")
+def test_a_vote_is_kept_and_judged_only_the_second_time(home):
+    page = home
     first, second = (page.get_by_role("region", name="vote").nth(n) for n in (0, 1))
     expect(second.locator(".lsys-before")).to_have_text("You have not voted the first time.")
     options(page).nth(0).press("Enter")
@@ -57,8 +44,8 @@ def test_a_vote_is_kept_and_judged_only_the_second_time(at_home, home):
 
 
 @HOMES
-def test_what_answers_a_question_appears_after_a_prediction(at_home, home):
-    page = at_home(home, WORDS[1], WORDS[2], name="predict")
+def test_what_answers_a_question_appears_after_a_prediction(home):
+    page = home
     first, second = (page.get_by_role("region", name="prediction").nth(n) for n in (0, 1))
     box = first.get_by_role("textbox", name="How many cells has step 6 of J1?")
     expect(first.get_by_role("button", name="Show", exact=True)).to_be_disabled()
@@ -74,8 +61,8 @@ def test_what_answers_a_question_appears_after_a_prediction(at_home, home):
 
 
 @HOMES
-def test_a_table_says_which_cells_are_right_and_gives_none_away(at_home, home):
-    page = at_home(home, WORDS[3], name="worksheet")
+def test_a_table_says_which_cells_are_right_and_gives_none_away(home):
+    page = home
     for (row, column), entry in {("1", "all at once"): "2", ("1", "rule after rule"): " 2 ", ("2", "all at once"): "4"}.items():
         page.get_by_role("textbox", name=f"step {row}: {column}").fill(entry)
     page.get_by_role("textbox", name="step 2: all at once").press("Enter")

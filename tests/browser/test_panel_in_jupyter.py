@@ -9,21 +9,20 @@ from pathlib import Path
 
 import axe_playwright_python
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.lab import Lab, OpenNotebook
+from tests.browser.homes import HOMES, show
+from tests.browser.lab import OpenNotebook
 from tests.classroom.test_panel import SETTLED
 
+LOOKED_AT = ("explore('J4', 9)", "explore('K19', 12)", "draw(system('K5'))", "draw(stages(system('J4')))",
+             "animate(system('J4'), 4)")
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 SENT = """
     window.sent = [];
     panel.sessionContext.session.kernel.anyMessage.connect((_, { msg, direction }) => {
         if (direction === 'send' && msg.header.msg_type === 'comm_msg') window.sent.push(msg.content.data.method ?? 'other');
     });"""
-
-
-def show(source: str) -> str:
-    return f"from lsys_kit import *\n{source}"
 
 
 @pytest.fixture
@@ -153,7 +152,8 @@ def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
 @pytest.mark.parametrize(("width", "zoom"), [(1440, 1), (900, 1), (400, 1), (1440, 2)])
 def test_at_every_width(shown, width, zoom):
     """At 200 % a window has half as many pixels of the style, each twice as large."""
-    notebook = shown("explore('J4', 9)", viewport={"width": width // zoom, "height": 900 // zoom}, device_scale_factor=zoom)
+    larger = {"device_scale_factor": zoom} if zoom > 1 else {}
+    notebook = shown("explore('J4', 9)", viewport={"width": width // zoom, "height": 900 // zoom}, **larger)
     panel = panel_of(notebook.page)
     panel.scroll_into_view_if_needed()
     box = panel.evaluate("panel => [panel.scrollWidth, panel.clientWidth]")
@@ -181,47 +181,23 @@ def test_compare_has_one_slider_and_marks_differences(shown):
 
 # --- JupyterLab, Notebook 7 and Voila ---------------------------------------------------------------------------------
 
-def in_jupyterlab(page: Page, lab: Lab, name: str) -> None:
-    page.goto(f"{lab.url}/lab/tree/{name}?reset")
-    page.wait_for_function("window.jupyterapp?.shell?.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'")
-    page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
+@pytest.fixture(scope="module")
+def home(request: pytest.FixtureRequest, open_at_home: Callable[..., Page]) -> Callable[[str], Locator]:
+    """Finds what is explored or compared in a page of one of the three, each for the tests that act on it."""
+    shown = ["explore('J4', 9)", "explore('J4', 9)", "explore('K7', 3)", "compare('P2', 'P3', step=9)"]
+    page = open_at_home(request.param, f"from ipywidgets import VBox\nVBox([{', '.join(shown)}])")
 
+    def panel(number: int) -> Locator:
+        found = page.locator(".lsys-panel:not(.lsys-both .lsys-panel)").nth(number)
+        expect(found.locator("canvas[data-drawn]").first).to_be_visible(timeout=90_000)
+        return found
 
-def in_notebook_7(page: Page, lab: Lab, name: str) -> None:
-    page.goto(f"{lab.url}/notebooks/{name}")
-    page.wait_for_function("window.jupyterapp?.shell?.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'")
-    page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
-
-
-def in_voila(page: Page, lab: Lab, name: str) -> None:
-    page.goto(f"{lab.url}/voila/render/{name}")
-
-
-@pytest.fixture
-def at_home(browser: Browser, lab: Lab, write_notebook, pytestconfig):
-    """Opens a panel in one of the three, and keeps a picture of it at the end."""
-    pages, folder = [], pytestconfig.getoption("screenshots")
-
-    def opened(home, source):
-        page = browser.new_page(viewport={"width": 1300, "height": 1000})
-        pages.append((page, home))
-        home(page, lab, write_notebook(f"{home.__name__}.ipynb", show(source)))
-        expect(panel_of(page).locator("canvas[data-drawn]").first).to_be_visible(timeout=90_000)
-        return panel_of(page)
-
-    yield opened
-    for page, home in pages:
-        if folder:
-            page.screenshot(path=Path(folder) / f"{home.__name__}.png")
-        page.close()
-
-
-HOMES = pytest.mark.parametrize("home", [in_jupyterlab, in_notebook_7, in_voila])
+    return panel
 
 
 @HOMES
-def test_every_control_by_the_keyboard(at_home, home):
-    panel = at_home(home, "explore('J4', 9)")
+def test_every_control_by_the_keyboard(home):
+    panel = home(0)
     status = panel.locator(".lsys-status")
     for name, key, told in (("step", "ArrowRight", "step 10"), ("step", "Home", "step 0"), ("step", "End", "step 20"),
                             ("lifeTimeB", "ArrowRight", "of 6 stages"), ("lifeTimeA", "ArrowLeft", "of 5 stages")):
@@ -269,8 +245,8 @@ def test_every_control_by_the_keyboard(at_home, home):
 
 
 @HOMES
-def test_every_control_by_the_mouse(at_home, home):
-    panel = at_home(home, "explore('J4', 9)")
+def test_every_control_by_the_mouse(home):
+    panel = home(1)
     status = panel.locator(".lsys-status")
     for name in ("step", "lifeTimeA", "lifeTimeB"):
         handle = slider(panel, name)
@@ -306,43 +282,41 @@ def test_every_control_by_the_mouse(at_home, home):
 
 
 @HOMES
-def test_nine_seeds_and_two_systems(at_home, home):
-    panel = at_home(home, "explore('K7', 3)")
+def test_nine_seeds_and_two_systems(home):
+    panel = home(2)
     panel.get_by_role("group", name="views").get_by_role("button", name="nine seeds", exact=True).click()
     expect(panel.locator(".lsys-tile-button")).to_have_count(9)
     panel.locator(".lsys-tile-button").nth(5).click()
     expect(panel.get_by_label("seed", exact=True)).to_have_value("5")
-    both = at_home(home, "compare('P2', 'P3', step=9)").page
+    both = home(3)
     both.get_by_role("slider", name="step, slider", exact=True).first.press("ArrowLeft")
-    expect(both.locator(".lsys-both > .lsys-sentence")).to_contain_text("cell by cell they are drawn alike")
+    expect(both.page.locator(".lsys-both > .lsys-sentence")).to_contain_text("cell by cell they are drawn alike")
 
 
 # --- accessibility ----------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("source", [
-    "explore('J4', 9)", "explore('K19', 12)", "draw(system('K5'))", "draw(stages(system('J4')))", "animate(system('J4'), 4)"])
-def test_axe_finds_nothing(open_notebook, write_notebook, source):
-    notebook = open_notebook(write_notebook("axe.ipynb", show(source)))
+def test_axe_finds_nothing(open_notebook, write_notebook):
+    notebook = open_notebook(write_notebook("axe.ipynb", *map(show, LOOKED_AT)))
     notebook.run_all()
-    output = notebook.output(1)
-    expect(output.locator("canvas[data-drawn], svg, img").first).to_be_visible()
-    if "explore" in source:
-        for title in ("rules", "how many"):
-            output.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
     notebook.page.evaluate(AXE.read_text(encoding="utf-8"))
-    found = notebook.page.evaluate("""async () => {
-        const output = document.querySelector(".jp-OutputArea-output:has(.lsys-panel, svg, img)");
-        const { violations, incomplete } = await axe.run(output);
-        return [...violations, ...incomplete].filter(({ impact }) => impact === "critical" || impact === "serious")
-            .map((each) => [each.id, ...each.nodes.map((node) => node.html.slice(0, 200))]);
-    }""")
-    assert found == [], json.dumps(found, indent=1)
+    for number, source in enumerate(LOOKED_AT, 1):
+        output = notebook.output(number).locator(".jp-OutputArea-output:has(.lsys-panel, svg, img)").first
+        expect(output.locator("canvas[data-drawn], svg, img").first).to_be_visible()
+        if "explore" in source:
+            for title in ("rules", "how many"):
+                output.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+        found = output.evaluate("""async (output) => {
+            const { violations, incomplete } = await axe.run(output);
+            return [...violations, ...incomplete].filter(({ impact }) => impact === "critical" || impact === "serious")
+                .map((each) => [each.id, ...each.nodes.map((node) => node.html.slice(0, 200))]);
+        }""")
+        assert found == [], f"{source}: {json.dumps(found, indent=1)}"
 
 
 # --- what is left behind ----------------------------------------------------------------------------------------------
 
 def test_closed_panels_leave_no_comm_behind(open_notebook, write_notebook):
-    source = show("from comm import get_comm_manager\ndef many():\n    for _ in range(200):\n        explore('J1', 3).close()\n"
+    source = show("from comm import get_comm_manager\ndef many():\n    for _ in range(20):\n        explore('J1', 3).close()\n"
                   "    return len(get_comm_manager().comms)\nprint('left', many() - many())")
     notebook = open_notebook(write_notebook("comms.ipynb", source))
     notebook.run_all()
