@@ -182,8 +182,8 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options,
              marked: Collection[int] = (), cells: str | None = None, view: object = None, steps: object = (),
              seeds: object = (), **choices: Any) -> AnyPicture:
     require(marked, Collection, "A collection of states")
-    states, side = frozenset(whole_number(each, "A state") for each in counted(marked)),
-    None if view is None else view_from(view)
+    states = frozenset(whole_number(each, "A state") for each in counted(marked))
+    side = None if view is None else view_from(view)
     drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
     system = drawn[0].word.states.system
     if drawing_mode(system) is DrawingMode.FILAMENT:
