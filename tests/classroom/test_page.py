@@ -11,7 +11,6 @@ from fractions import Fraction
 from html.parser import HTMLParser
 from itertools import product
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -136,7 +135,7 @@ def test_books_that_share_their_parts_are_the_same_books(books: list[dict[str, A
 @pytest.mark.parametrize("setting", ["MOST_BOOKS", "MOST_CHARACTERS", "seconds"])
 def test_a_page_has_room_for_few_books_and_time_for_one_task(monkeypatch, setting: str) -> None:
     found = read("n = 3 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)")
-    monkeypatch.setattr(panel_page, "time", SimpleNamespace(thread_time=iter(range(10_000)).__next__))  # a second a book
+    monkeypatch.setattr(panel_page, "processor_time", iter(range(10_000)).__next__)  # a second a book
     few = [{}, {"n": 1}, {"n": 9}, {"m": 9}]
     unit = len(deflated(shared([book(found, {"n": 3, "m": 1, **each}, 0, least=5) for each in few]))) / len(few)
     for room, least in ((81.5, 81), (30, 17), (12, 8), (4, 4)):

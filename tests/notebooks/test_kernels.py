@@ -45,7 +45,7 @@ def test_it_has_its_own_folder_and_no_names(running, tmp_path: Path) -> None:
 
 def test_it_is_interrupted_and_goes_on(running) -> None:
     manager, client = running
-    client.execute("import time\nprint('begun')\ntime.sleep(600)")
+    client.execute("import time\nprint('begun')\ntime.sleep(600)", stop_on_error=False)
     while client.get_iopub_msg(timeout=PATIENCE)["content"].get("text") != "begun\n":
         pass
     manager.interrupt_kernel()

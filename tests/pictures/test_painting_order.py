@@ -6,7 +6,7 @@ import cProfile
 import io
 import pstats
 import re
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 import numpy as np
 import pytest
@@ -71,14 +71,18 @@ def test_what_is_nearer_is_painted_later(scene, side):
 
 @given(SCENES, SIDES)
 def test_a_casing_hides_what_is_farther_than_its_stroke_is_long(scene, side):
-    """What crosses a stroke behind it is interrupted there; what the stroke is joined to is not."""
+    """What crosses a stroke behind it is interrupted there; what it is joined to is not, and no edge of a polygon has one."""
     [seen] = project([scene], side)
     shapes, strokes = display_list(seen, 20.0, {}), len(scene.segments)
     where = {one: place for place, one in enumerate(painted(shapes))}
     assert {shapes.palette[colour] for colour in shapes.lines.colours[:strokes]} == {PAPER}
     depths, ends = seen.depths[len(scene.polygons):], scene.segments.points.reshape(-1, 2, 3)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    sides = {(*one, *other) for a, b, c in map(np.ndarray.tolist, scene.polygons)
+             for one, other in permutations((a, b, c), 2)}
     for number in range(strokes):
+        if (*ends[number].ravel().tolist(),) in sides:
+            continue
         for face in range(len(scene.polygons)):
             behind = depths[number] - seen.depths[face] - lengths[number]
             if abs(behind) > 1e-3:
