@@ -328,6 +328,17 @@ def test_an_empty_context_is_none(system: LSystem) -> None:
             assert read(text).productions == (replace(bare, condition=rule.condition),)
 
 
+@given(st.integers(-322, 308), st.sampled_from(("", "A < ")), st.integers(0, 9))
+def test_only_the_ratios_of_weights_decide(power: int, context: str, seed: int) -> None:
+    """At both ends of what doubles can hold, too."""
+    def system(weight: str, other: str) -> LSystem:
+        return read(f"axiom: A A A A\n{context}A -> A A : {weight}\n{context}A -> A B : {other}\n{context}A -> B : 0")
+
+    extreme, usual = system(f"1e{power}", f"1.5e{power}"), system("1", "1.5")
+    assert str(derive(extreme, STEPS, seed=seed)[-1]) == str(derive(usual, STEPS, seed=seed)[-1])
+    assert str(stages(extreme)) == str(stages(usual))
+
+
 @given(systems_with(CONTEXT), st.sampled_from((1, 0.25, 7)), seeds)
 def test_what_has_no_rival_happens_whatever_its_probability(system: LSystem, probability: float, seed: int) -> None:
     first = {rule.predecessor.symbol: rule for rule in reversed(system.productions)}

@@ -8,9 +8,11 @@ splitmix64 (Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generator
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import accumulate
 from statistics import NormalDist
 from typing import Any
 
@@ -128,13 +130,21 @@ def choose(weights: Sequence[Value], unit: float) -> int:
     >>> choose((1, 1, 2), 0.49), choose((1, 1, 2), 0.5)
     (1, 2)
     """
-    total = _total_weight(weights)
-    mark, below = unit * float(total), 0.0
-    for number, weight in enumerate(weights):
-        below += float(weight)
-        if mark < below:
-            return number
-    return max(number for number, weight in enumerate(weights) if weight)
+    ends, total = stretches(weights)
+    return bisect_right(ends, unit * total)
+
+
+def stretches(weights: Sequence[Value]) -> tuple[list[float], float]:
+    """Where the stretch of each weight ends in a line from 0 on, and how long the line is.
+
+    The last stretch has no end, so that rounding leaves nothing behind it.
+
+    >>> stretches((1, 1, 2, 0)), stretches((2.0**1023, 2.0**1023))
+    (([1.0, 2.0, inf, inf], 4.0), ([1.0, inf], 2.0))
+    """
+    weights, total = _moderate(weights)
+    last = max(number for number, weight in enumerate(weights) if weight)
+    return [*accumulate(map(float, weights[:last])), *[math.inf] * (len(weights) - last)], float(total)
 
 
 def shares(weights: Sequence[Value]) -> list[Value]:
@@ -143,26 +153,28 @@ def shares(weights: Sequence[Value]) -> list[Value]:
     >>> shares((1, 1, 2))
     [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]
     """
-    total = _total_weight(weights)
+    weights, total = _moderate(weights)
     exact = all(isinstance(weight, int | Fraction) for weight in weights)
     return [normalised(Fraction(weight) / Fraction(total)) if exact else float(weight) / float(total) for weight in weights]
 
 
-def _total_weight(weights: Sequence[Value]) -> Value:
-    total = _sum(weights)
-    if min(weights) < 0 or not total > 0:
+_MODERATE = 2**900
+"""Weights up to this, and down to its reciprocal, have sums and quotients among the doubles."""
+
+
+def _moderate(weights: Sequence[Value]) -> tuple[Sequence[Value], Value]:
+    """The weights, multiplied by one power of two where the largest is very large or very small, and their sum.
+
+    The sum is exact, or the double nearest to it: from Python 3.12 on, `sum` rounds doubles differently.
+    """
+    if not (all(weight >= 0 for weight in weights) and 0 < (largest := max(weights)) < math.inf):
         raise ValueError("probabilities are not negative, and one of them is greater than 0")
-    return total
-
-
-def _sum(weights: Sequence[Value]) -> Value:
-    """The exact sum, or the double nearest to it: from Python 3.12 on, `sum` rounds doubles differently."""
-    if not any(isinstance(weight, float) for weight in weights):
-        return sum(weights)
-    try:
-        return math.fsum(weights)
-    except OverflowError:
-        raise ValueError("the sum of the probabilities is too large") from None
+    if not Fraction(1, _MODERATE) <= largest <= _MODERATE:
+        exact = Fraction(largest)
+        scale = Fraction(2) ** (exact.denominator.bit_length() - exact.numerator.bit_length())
+        scaled = [Fraction(weight) * scale for weight in weights]
+        weights = [float(now) if isinstance(weight, float) else now for weight, now in zip(weights, scaled, strict=True)]
+    return weights, math.fsum(weights) if any(isinstance(weight, float) for weight in weights) else sum(weights)
 
 
 def _check_probability(probability: float) -> None:

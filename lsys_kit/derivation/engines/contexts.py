@@ -15,7 +15,7 @@ import numpy as np
 
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.application import Match
-from lsys_kit.derivation.core.chance import units
+from lsys_kit.derivation.core.chance import stretches, units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
 from lsys_kit.derivation.core.rules import Rule
 from lsys_kit.derivation.core.states import States
@@ -100,7 +100,7 @@ class RuleChoice:
 
     def drawn(self, units: IntegerArray) -> IntegerArray:
         """For each random number from 0 up to 1 the index of the rule that it chooses."""
-        return np.searchsorted(self.marks, units * self.total, side="right").clip(max=len(self.rules) - 1)
+        return np.searchsorted(self.marks, units * self.total, side="right")
 
 
 class ContextEngine:
@@ -206,10 +206,11 @@ class ContextEngine:
         if not matched:
             return Replacement(states.decompose(states.modules[code]), None)
         states.choose_rule(matched, None)  # refuses weights that are none
-        weights = [states.weight(rule, values) for rule, values in matched if rule.probability]
-        if len(weights) < 2:
+        likely = [match for match in matched if match[0].probability]
+        if len(likely) < 2:
             return self._applied(code, *matched[0])
-        return RuleChoice(code, matched, np.cumsum(list(map(float, weights))), float(sum(weights)))
+        marks, total = stretches([states.weight(*match) for match in likely])
+        return RuleChoice(code, likely, np.array(marks), total)
 
     def _applied(self, code: int, rule: Rule, values: tuple[Value, ...]) -> Replacement:
         states = self.stepper.states
