@@ -1,0 +1,123 @@
+"""Changes that are compiled into the code, or read into a script, and done while they are on."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import copy
+import sys
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from pathlib import Path
+from types import CodeType, ModuleType
+
+from tests.mutants.changes import ROOT, Change, changed, changes, expressions
+
+_SWITCH = "__is_on__"
+
+
+class Switches:
+    """Which change is on, and which ones the code has come to.
+
+    Parameters
+    ----------
+    chosen
+        The changes: those in Python are compiled into what is imported from now on.
+    """
+
+    def __init__(self, chosen: Iterable[Change]) -> None:
+        self.on: Change | None = None
+        self.reached: set[Change] = set()
+        self._of_file: defaultdict[Path, list[Change]] = defaultdict(list)
+        for change in chosen:
+            self._of_file[ROOT / change.file].append(change)
+        self._numbered = [change for each in self._of_file.values() for change in each]
+        setattr(builtins, _SWITCH, self._is_on)
+        sys.meta_path.insert(0, _Finder(self._changed))
+
+    def _is_on(self, number: int) -> bool:
+        change = self._numbered[number]
+        self.reached.add(change)
+        return change == self.on
+
+    def _changed(self, path: Path) -> CodeType | None:
+        """The code of a file with its changes, if it has any."""
+        if not (chosen := self._of_file.get(path)):
+            return None
+        sites = changes(str(path.relative_to(ROOT)))
+        tree = ast.parse(path.read_text("utf-8"))
+        wanted: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+        every = list(expressions(tree))
+        for change in chosen:
+            node = every[sites[change].at][1]
+            wanted[id(node)].append((sites[change].end, self._numbered.index(change)))
+        conditions = {id(node) for _, node, condition in every if condition}
+        made = ast.fix_missing_locations(_Schemata(wanted, conditions).visit(tree))
+        return compile(made, str(path), "exec", dont_inherit=True)
+
+    def turn_on(self, change: Change) -> None:
+        """Do a change; of a script, in all that is read from now on."""
+        self.on = change
+        if change.file.endswith(".js"):
+            _change_script(change)
+
+
+class _Schemata(ast.NodeTransformer):
+    """Puts both forms of an expression into a program, and a switch between them."""
+
+    def __init__(self, wanted: Mapping[int, Sequence[tuple[int, int]]], conditions: set[int]) -> None:
+        self._wanted, self._conditions = wanted, conditions
+
+    def visit(self, node: ast.AST) -> ast.AST:
+        seen, condition = self._wanted.get(id(node), ()), id(node) in self._conditions
+        made = self.generic_visit(node)
+        if not isinstance(made, ast.expr):
+            return made
+        others = changed(made, condition)
+        for which, number in seen:
+            switch = ast.Call(ast.Name(_SWITCH, ast.Load()), [ast.Constant(number)], [])
+            made = ast.copy_location(ast.IfExp(switch, copy.deepcopy(others[which]), made), node)
+        return made
+
+
+class _Finder(MetaPathFinder):
+    """Finds the files that are changed before others do."""
+
+    def __init__(self, changed_code: object) -> None:
+        self._changed = changed_code
+
+    def find_spec(self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
+        spec = PathFinder.find_spec(name, path, target) if name.startswith("lsys_kit.") else None
+        code = self._changed(Path(spec.origin)) if spec and spec.origin else None  # type: ignore[operator]
+        if spec and spec.origin and code:
+            spec.loader = _Loader(name, spec.origin, code)
+            return spec
+        return None
+
+
+class _Loader(SourceFileLoader):
+    """Loads code that is compiled already."""
+
+    def __init__(self, name: str, path: str, code: CodeType) -> None:
+        super().__init__(name, path)
+        self._code = code
+
+    def get_code(self, fullname: str) -> CodeType:
+        return self._code
+
+
+def _change_script(change: Change) -> None:
+    site, read, script = changes(change.file)[change], Path.read_text, ROOT / change.file
+
+    def changed_text(path: Path, *arguments: object, **options: object) -> str:
+        text: str = read(path, *arguments, **options)  # type: ignore[arg-type]
+        return f"{text[:site.at]}{site.text}{text[site.end:]}" if path == script else text
+
+    Path.read_text = changed_text  # type: ignore[assignment,method-assign]
+    from lsys_kit.classroom.panel import bundle
+
+    for each in vars(bundle).values():
+        if hasattr(each, "cache_clear"):
+            each.cache_clear()
