@@ -51,9 +51,10 @@ def taken(earlier: Path) -> dict[Change, Site]:
 
 def table(outcomes: Mapping[Change, Outcome]) -> str:
     """How many mutants of each room were tried and caught."""
-    rows = [(room, [outcome for change, outcome in outcomes.items() if change.file.startswith(f"{room}/")]) for room in SHARES]
-    return "\n".join(f"{room:40}{len(every):5}{sum(each.caught for each in every):5}"
-                     for room, every in [("room, mutants, caught", []), *rows, ("together", list(outcomes.values()))][1:])
+    rows = {room: [outcome for change, outcome in outcomes.items() if change.file.startswith(f"{room}/")] for room in SHARES}
+    return "\n".join([f"{'room':40} mutants  caught", *(
+        f"{room:40}{len(every):8}{sum(each.caught for each in every):8}"
+        for room, every in {**rows, "together": [*outcomes.values()]}.items())])
 
 
 def _survivors(sites: Mapping[Change, Site], outcomes: Mapping[Change, Outcome]) -> str:

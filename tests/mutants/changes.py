@@ -7,8 +7,10 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -43,18 +45,20 @@ _OTHER: Mapping[type[ast.AST], type[ast.AST]] = MappingProxyType({
     ast.BitAnd: ast.BitOr, ast.And: ast.Or, ast.Or: ast.And})
 
 
+@cache
 def changes(file: str) -> dict[Change, Site]:
     """Every change of a file, in order."""
     text = (ROOT / file).read_text("utf-8")
     seen: Counter[tuple[str, str, str]] = Counter()
     found = {}
-    for where, old, new, site in (_of_python if file.endswith(".py") else _of_script)(text):
+    for where, old, new, site in (in_python if file.endswith(".py") else in_script)(text):
         found[Change(file, where, old, new, seen[where, old, new])] = site
         seen[where, old, new] += 1
     return found
 
 
-def _of_python(text: str) -> Iterator[tuple[str, str, str, Site]]:
+def in_python(text: str) -> Iterator[tuple[str, str, str, Site]]:
+    """Of each change of a text: in which function it is, what it makes of what, and where."""
     for at, (where, node, condition) in enumerate(expressions(ast.parse(text))):
         for which, new in enumerate(changed(node, condition)):
             yield where, ast.unparse(node), ast.unparse(new), Site(node.lineno, at, which)
@@ -78,6 +82,7 @@ _LEFT_OUT = (ast.Raise, ast.pattern, ast.JoinedStr)
 
 def _inside(tree: ast.AST) -> list[ast.AST]:
     """What stands directly in a part of a program, as far as it may be changed."""
+    inside: list[ast.AST]
     match tree:
         case ast.ClassDef(body=body):
             inside = [each for each in body if isinstance(each, _NAMED)]
@@ -118,7 +123,7 @@ def changed(node: ast.expr, condition: bool) -> list[ast.expr]:
     return [ast.UnaryOp(ast.Not(), node)] if condition else []
 
 
-def _other(operator: ast.AST) -> ast.AST:
+def _other(operator: ast.AST) -> Any:
     return _OTHER[type(operator)]()
 
 
@@ -139,8 +144,10 @@ _OTHER_IN_A_SCRIPT = MappingProxyType({
 _FUNCTION = re.compile(r"^ *(?:export )?(?:async )?(?:function\*? |const |(?=\w+\(.*\{$))(\w+)", re.MULTILINE)
 
 
-def _of_script(text: str) -> Iterator[tuple[str, str, str, Site]]:
+def in_script(text: str) -> Iterator[tuple[str, str, str, Site]]:
+    """The same of a script: the whole line before and after."""
     code = _WORDS_OF_A_SCRIPT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+    functions = [(each.start(), each[1]) for each in _FUNCTION.finditer(code)]
     for found in _IN_A_SCRIPT.finditer(code):
         at, end = found.span()
         if found["condition"]:
@@ -149,7 +156,7 @@ def _of_script(text: str) -> Iterator[tuple[str, str, str, Site]]:
         else:
             new = _OTHER_IN_A_SCRIPT.get(found[0]) or str(float(found[0]) + 1).removesuffix(".0")
         begin, stop = text.rfind("\n", 0, at) + 1, text.find("\n", end)
-        where = next((each[1] for each in reversed([*_FUNCTION.finditer(code, 0, at)])), "")
+        where = max((each for each in functions if each[0] < at), default=(0, ""))[1]
         old = text[begin:stop].strip()
         yield where, old, f"{text[begin:at]}{new}{text[end:stop]}".strip(), Site(text.count("\n", 0, at) + 1, at, end, new)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import chain, groupby
 from pathlib import Path
 
@@ -110,8 +111,9 @@ class Runner:
         while (failed := forked(lambda: self._first_failure(items, change), seconds, browser)) is not None:
             if failed == -1:
                 return False, "", quick
-            if forked(lambda at=failed: self._first_failure([items[at]], None), seconds, browser) == -1:
-                return True, items[failed].nodeid + slow, quick
+            alone = items[failed]
+            if forked(partial(self._first_failure, [alone], None), seconds, browser) == -1:
+                return True, alone.nodeid + slow, quick
             del items[failed]
         ends = forked(lambda: self._first_failure(items, None), seconds, browser) is not None
         return (True, "it runs away", quick) if ends else (False, "the tests do not end without it either", quick)
@@ -134,7 +136,8 @@ class Runner:
             items = sorted(self._tests[change], key=lambda item: (not _near(item, change), self._cost(item)))
         else:
             items = [item for item in self._items if item.get_closest_marker("slow") and _near(item, change)]
-        chosen, seconds = [], 0.0
+        chosen: list[pytest.Item] = []
+        seconds = 0.0
         for item in items:
             seconds += self._cost(item)
             if seconds > MOST_SECONDS and chosen:

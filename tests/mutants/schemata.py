@@ -7,7 +7,7 @@ import builtins
 import copy
 import sys
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
@@ -44,18 +44,16 @@ class Switches:
 
     def _changed(self, path: Path) -> CodeType | None:
         """The code of a file with its changes, if it has any."""
-        if not (chosen := self._of_file.get(path)):
+        if path not in self._of_file:
             return None
-        sites = changes(str(path.relative_to(ROOT)))
-        tree = ast.parse(path.read_text("utf-8"))
-        wanted: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+        sites, tree = changes(path.relative_to(ROOT).as_posix()), ast.parse(path.read_text("utf-8"))
         every = list(expressions(tree))
-        for change in chosen:
-            node = every[sites[change].at][1]
-            wanted[id(node)].append((sites[change].end, self._numbered.index(change)))
+        wanted: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+        for change in self._of_file[path]:
+            wanted[id(every[sites[change].at][1])].append((sites[change].end, self._numbered.index(change)))
         conditions = {id(node) for _, node, condition in every if condition}
-        made = ast.fix_missing_locations(_Schemata(wanted, conditions).visit(tree))
-        return compile(made, str(path), "exec", dont_inherit=True)
+        _Schemata(wanted, conditions).visit(tree)
+        return compile(ast.fix_missing_locations(tree), str(path), "exec", dont_inherit=True)
 
     def turn_on(self, change: Change) -> None:
         """Do a change; of a script, in all that is read from now on."""
@@ -85,12 +83,12 @@ class _Schemata(ast.NodeTransformer):
 class _Finder(MetaPathFinder):
     """Finds the files that are changed before others do."""
 
-    def __init__(self, changed_code: object) -> None:
+    def __init__(self, changed_code: Callable[[Path], CodeType | None]) -> None:
         self._changed = changed_code
 
     def find_spec(self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
         spec = PathFinder.find_spec(name, path, target) if name.startswith("lsys_kit.") else None
-        code = self._changed(Path(spec.origin)) if spec and spec.origin else None  # type: ignore[operator]
+        code = self._changed(Path(spec.origin)) if spec and spec.origin else None
         if spec and spec.origin and code:
             spec.loader = _Loader(name, spec.origin, code)
             return spec
