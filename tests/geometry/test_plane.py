@@ -99,6 +99,11 @@ def test_both_brackets_of_plant_strings_branch_and_their_strokes_are_thirds():
     assert ends[3].tolist() == pytest.approx([0, 1, 0, 2])
 
 
+def test_a_point_of_the_last_stroke_is_where_the_turtle_stands_before_the_first():
+    word = derive(read("turtle: grogra\naxiom: @(0.5) F(4) @(0.25) RU(90) F(1)"), 0)[0]
+    assert place_path(trace(word), 90).segments.ends == pytest.approx(np.array([[0, 0, 0, 4], [0, 1, 1, 1]]))
+
+
 def test_strokes_remember_their_order_and_their_state():
     path = trace(derive(system("K5"), 1)[-1])
     assert path.orders.tolist() == [0, 1, 0, 1, 0]
