@@ -212,6 +212,12 @@ def test_what_dies_out_has_no_shares_in_the_long_run() -> None:
     assert dying.frequencies is None
 
 
+def test_shares_in_the_long_run_are_those_of_the_fastest_factor_of_the_growth() -> None:
+    """Here of t -> 2^t, beside a line in t."""
+    found = growth(read("axiom: a\na -> a a b\nb -> b c\nc -> c")).frequencies
+    assert found == pytest.approx((1 / 3, 1 / 3, 1 / 3))
+
+
 def test_multiple_roots_of_the_third_degree_are_in_no_closed_form() -> None:
     """Each symbol of Padovan's sequence makes one of a second such sequence, too: (x^3 - x - 1)^2."""
     twofold = growth(read("axiom: p\np -> q x\nq -> r\nr -> p q\nx -> y\ny -> z\nz -> x y"))

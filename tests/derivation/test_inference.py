@@ -240,6 +240,7 @@ def test_a_refusal_names_a_slip_in_few_words() -> None:
     (["a", "ab", "aba", "baab", "abaababa"], "if a stood at the beginning of step 3"),
     (["a", "ab", "aba", "abaaab", "abaababa"], "if letter 5 of step 3, a, were left out."),
     (["a", "ab", "aba", "ababa", "abaababa"], "letters 4 and 5 of step 3, b a, changed places"),
+    (["a", "ab", "aba", "baaab", "abaababa"], "letters 1 and 2 of step 3, b a, changed places"),
     (["a", "ab", "aba", "abaab", "ab", "abaababaabaab"], "would fit if the word of step 4 were another."),
     (["a", "ab", "aba", "ab", "abaababa"], "if the word of step 2 or 3 were another."),
     (["abcdef", "uvxyz"], " other changes were made."),

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from lsys_kit.budget import limits
 from lsys_kit.derivation.core.words import Word, abridged, state_counts
 from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
@@ -18,6 +20,14 @@ def test_a_word_prints_as_its_notation() -> None:
     assert [str(word) for word in derive(AGEING, 3)] == ["A(1)", "A(2)[B]", "A(3)[B][]", "A(1)C[][]"]
     assert str(derive(read("Axiom: I\nI -> I[A]A(I)A", "plant-string"), 1)[-1]) == "I[A]A(I)A"
     assert str(derive(read("axiom: al(2) br"), 0)[0]) == "al(2)br"
+
+
+def test_a_text_takes_the_bytes_of_all_its_modules() -> None:
+    word = derive(read("axiom: a\na -> a a"), 10)[-1]
+    with limits(bytes=1024):
+        assert str(word).count("a") == 1024
+    with limits(bytes=1023), pytest.raises(ModelLimitError, match="it would take 1,024 bytes"):
+        str(word)
 
 
 def test_an_erased_word_is_empty() -> None:
