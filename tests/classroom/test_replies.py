@@ -8,8 +8,10 @@ import sympy
 
 from lsys_kit import check, derive, read, stages, system
 from lsys_kit.classroom.exercises.declared.declarations import questions_in
+from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged
-from lsys_kit.classroom.exercises.kinds.proofs import proved_equal
+from lsys_kit.classroom.exercises.kinds.proofs import differing_values, proved_equal
+from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.rewriting import leftmost_only, sequential, words_by
 from lsys_kit.notation.read import read_expression
 from tests.classroom.answers import OF_EACH_KIND, of_each_kind_added
@@ -93,6 +95,17 @@ def test_the_first_difference_of_a_word_names_the_module_before_and_not_what_sho
         "Not yet. Up to position 6 your word is right; at position 7 your word ends. " \
         "Look at what becomes of the a at position 4 of step 3."
     assert "position 4" in said(word, "abab").message
+
+
+@pytest.mark.parametrize(("answer", "said", "likeness"), [
+    ("a ab", "You have 2 words, and 4 are asked for. As far as both go they agree.", 1 / 2),
+    ("a b aba", "You have 3 words, and 4 are asked for. Word 2, that of step 1, is the first that differs.", 1 / 4),
+    ("a ab aba abaa", "Word 4, that of step 3, is the first that differs. There look at position 5.", 3 / 4)])
+def test_of_several_words_the_first_wrong_one_is_named_with_its_step(answer, said, likeness):
+    exercise = Exercise("t", "", "words", "", "a\nab\naba\nabaab", "", (), system=FIBONACCI, steps=3)
+    words, solution = (ANSWER_KINDS["words"].read(exercise, "\n".join(each.split())) for each in (answer, exercise.solution))
+    found = ANSWER_KINDS["words"].difference(exercise, words, solution)
+    assert (found.message, found.likeness) == (said, likeness)
 
 
 def test_several_misconceptions_that_yield_the_same_word_are_asked_about(asked):
@@ -253,6 +266,14 @@ def test_a_system_must_be_right_for_probes_and_settings(asked):
     assert said(lived, "n = 3\naxiom: A(0)\nA(t) : t < 3 -> A(t+1)\nA(t) -> A(0)A(0)") < 1
 
 
+@pytest.mark.parametrize(("rules", "honest"), [
+    ("a -> b", True), ("x -> y\ny -> x", False), ("a -> b\nx -> y", True), ("", False)])
+def test_a_try_has_half_as_many_productions_as_are_asked_for_of_the_symbols_of_the_question(rules, honest):
+    exercise = Exercise("t", "", "system", "", FIBONACCI, "", (), steps=3)
+    kind = ANSWER_KINDS["system"]
+    assert kind.honest(exercise, kind.read(exercise, f"axiom: a\n{rules}"), kind.read(exercise, FIBONACCI)) is honest
+
+
 def test_chance_is_compared_by_probabilities(asked):
     family = asked("system", solution="axiom: F\nF -> F F : 0.3\nF -> ε : 0.7", steps=5)
     assert said(family, "axiom: F\nF -> ε : 7\nF -> F F : 3") == 1
@@ -282,6 +303,12 @@ def test_a_formula_that_is_right_for_the_asked_values_alone_is_another_function(
 def test_a_wrong_formula_is_shown_a_case():
     assert "With s = 1 and d = 5 your expression gives 8" in check("anabaena.23", "d + 3").message
     assert "has no value (division by zero)" in check("anabaena.23", "1/(s-1)").message
+
+
+def test_a_wrong_condition_is_shown_a_case():
+    wrong, right = read_expression("t < 5"), read_expression("t <= 5")
+    said = "With t = 5 your expression gives false, and it should give true."
+    assert differing_values(wrong, right, [{"t": 4}, {"t": 5}]) == said
 
 
 @pytest.mark.parametrize("answer", ["d - t + 1", "d > s", "d = s", "(", sympy.Symbol("x"),

@@ -17,6 +17,7 @@ from lsys_kit import ModelLimitError, ModelValueError, derive, draw, infer, limi
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.inference import infer as infer_module
 from lsys_kit.geometry.inference.fits import DrawingFits
+from lsys_kit.geometry.inference.strokes import angle_between, read_drawings
 from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.system import LSystem
@@ -135,6 +136,11 @@ def test_pictures_and_scenes_are_drawings() -> None:
     assert [*fits] == [*infer([scene_of(derive(plant, step)) for step in range(3)])]
     assert str(fits) == "\n".join([
         "One system draws these 3 pictures:", "  angle: 25.7", "  axiom: F", "  F -> F[+F]F[-F]F"])
+
+
+def test_an_angle_of_which_others_are_multiples_may_be_none_of_them() -> None:
+    """Between strokes that lie 60 and 90 degrees apart."""
+    assert angle_between(read_drawings([strokes_of(read("angle: 30\naxiom: F ++ F +++ F"), 0)])) == 30
 
 
 def test_an_angle_can_be_told() -> None:

@@ -11,7 +11,7 @@ from lsys_kit import derive, draw, read
 from lsys_kit.geometry.scene import Scene, no_segments
 from lsys_kit.geometry.smoothing import smoothed
 from lsys_kit.geometry.turtle.frames import initial_frame
-from lsys_kit.geometry.turtle.patches import revolved_facets
+from lsys_kit.geometry.turtle.patches import patch_grid, revolved_facets
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.shapes import collected_shapes
 from lsys_kit.geometry.turtle.space import SpaceTurtle, trace_in_space
@@ -165,6 +165,12 @@ def test_a_patch_is_drawn_as_the_surface_of_its_control_points():
     gradient = np.stack([ahead / 10, -left / 10, np.ones(len(up))], axis=1)  # x is to the right, y ahead, z up
     assert polygons.normals == pytest.approx(gradient / np.linalg.norm(gradient, axis=1, keepdims=True), abs=2e-3)
     assert len(in_the_plane(f"{DECLARED}axiom: ~wing").polygons) == 1
+
+
+def test_a_patch_that_is_a_point_faces_upwards():
+    points, normals = patch_grid(np.full((4, 4, 3), 2.0), 1, 1)
+    assert (points == 2).all()
+    assert (normals == [0, 0, 1]).all()
 
 
 def test_a_declared_surface_keeps_its_name_whole():

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import _lru_cache_wrapper, partial
 from itertools import chain, groupby
 from pathlib import Path
 
@@ -17,8 +18,8 @@ from tests.mutants.schemata import Switches
 
 MOST_SECONDS = 60.0
 """As long as the tests of one change may take, measured without it."""
-SECONDS_OF_A_PAGE = 0.5
-"""What a test in a browser is taken to need."""
+SECONDS_OF_OTHERS = 0.5
+"""What a slow test, or one in a browser, is taken to need."""
 SECONDS_OF_A_ROOM = 3600.0
 CHOSEN = "not slow or slow or browser"
 """All tests, with as few examples of a law as a quick run tries."""
@@ -64,6 +65,7 @@ class Runner:
         """Run the quick tests once, and those that come to each change with it."""
         self._items = [each for each in session.items if each.path.suffix == ".py"]
         self._quick = [each for each in self._items if not any(map(each.get_closest_marker, ("slow", "browser")))]
+        _forget()
         self._find_out()
         for number, outcome in in_parallel(self._outcome, range(len(self.chosen)), self.jobs):
             self.tell(self.chosen[number], Outcome(*outcome))
@@ -107,7 +109,7 @@ class Runner:
         items, quick = self._tests_for(change), len(self._tests[change])
         browser = change.file.endswith(".js")
         slow = "" if quick or browser else " (slow)"
-        seconds = 60 + 4 * sum(self._cost(item) for item in items)
+        seconds = 60 + 8 * sum(self._cost(item) for item in items)
         while (failed := forked(lambda: self._first_failure(items, change), seconds, browser)) is not None:
             if failed == -1:
                 return False, "", quick
@@ -126,7 +128,7 @@ class Runner:
                      if not self._passes(item, following)), -1)
 
     def _cost(self, item: pytest.Item) -> float:
-        return self._seconds.get(item.nodeid, SECONDS_OF_A_PAGE)
+        return self._seconds.get(item.nodeid, SECONDS_OF_OTHERS)
 
     def _tests_for(self, change: Change) -> list[pytest.Item]:
         """The tests that are run for a change, those first that are likely to fail soon."""
@@ -144,6 +146,14 @@ class Runner:
                 break
             chosen.append(item)
         return chosen
+
+
+def _forget() -> None:
+    """Empty the caches, which may hold what was made without a change while the tests were collected."""
+    modules = [module for name, module in [*sys.modules.items()] if name.startswith("lsys_kit")]
+    for value in chain.from_iterable(vars(module).values() for module in modules):
+        if isinstance(value, _lru_cache_wrapper):
+            value.cache_clear()
 
 
 def _near(item: pytest.Item, change: Change) -> bool:

@@ -114,8 +114,3 @@ def _change_script(change: Change) -> None:
         return f"{text[:site.at]}{site.text}{text[site.end:]}" if path == script else text
 
     Path.read_text = changed_text  # type: ignore[assignment,method-assign]
-    from lsys_kit.classroom.panel import bundle
-
-    for each in vars(bundle).values():
-        if hasattr(each, "cache_clear"):
-            each.cache_clear()

@@ -16,7 +16,7 @@ from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
-from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.arithmetic import Value, normalised, remainder
 from lsys_kit.notation.model.expressions import Apply, Number, function_of, to_sympy
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import Production
@@ -275,6 +275,11 @@ def test_a_remainder_has_the_sign_of_what_is_divided(left: Value, right: Value, 
     divided = Apply("rem", (Number(left), Number(sign * right)))
     assert function_of(divided, {})(()) == to_sympy(divided) == int(math.fmod(math.trunc(left), math.trunc(sign * right)))
     assert function_of(divided, {}, "float")(()) == math.fmod(math.trunc(left), math.trunc(sign * right))
+
+
+@pytest.mark.parametrize(("left", "right"), [(7.0, 3), (7, 3.0), (7.0, 3.0)])
+def test_what_a_double_leaves_is_a_double(left: Value, right: Value) -> None:
+    assert repr(remainder(left, right)) == "1.0"
 
 
 @pytest.mark.parametrize("text", ["Axiom: A(1/0)", "Axiom: A(0)\nA(x) --> A(1/x)", "Axiom: A(0)\nA(x) --> A(5%x)",
