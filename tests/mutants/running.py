@@ -18,7 +18,7 @@ from tests.mutants.schemata import Switches
 
 MOST_SECONDS = 60.0
 """As long as the tests of one change may take, measured without it."""
-SECONDS_OF_OTHERS = 0.5
+SECONDS_OF_OTHERS = 0.3
 """What a slow test, or one in a browser, is taken to need."""
 SECONDS_OF_A_ROOM = 3600.0
 CHOSEN = "not slow or slow or browser"
@@ -165,7 +165,7 @@ def _near(item: pytest.Item, change: Change) -> bool:
 def _in_pages(items: Iterable[pytest.Item]) -> list[pytest.Item]:
     """Tests that open scripts in a browser, without Jupyter."""
     return [item for item in items if item.path.parent == ROOT / "tests" / "classroom" and item.get_closest_marker("browser")
-            and not item.get_closest_marker("slow") and "lab" not in getattr(item, "fixturenames", ())]
+            and "lab" not in getattr(item, "fixturenames", ())]
 
 
 def _rank(item: pytest.Item, script: str) -> tuple[bool, bool, str]:
