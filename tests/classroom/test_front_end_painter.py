@@ -14,6 +14,7 @@ from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
 from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.rendering.view import far_to_near, project
+from lsys_kit.pictures.style.colour_values import contrast, mixed
 from tests.classroom.front_end import PAINTER, answers, book_of
 from tests.classroom.test_front_end_turtle import MOST_MODULES, scene_by_kit, words
 
@@ -52,6 +53,15 @@ const inked = (look) => {
 @pytest.fixture(scope="module")
 def page(browser):
     return browser.new_page()
+
+
+def test_colours_are_mixed_and_compared_as_in_the_pictures_that_stay(page):
+    colours = ["#000000", "#ffffff", "#0072b2", "#d55e00", "#0a0b0c", THEME["paper"], DARK["paper"]]
+    asked = [[one, other, strength] for one in colours for other in colours for strength in (0, 0.3, 1)]
+    code = "return given.map(([one, other, strength]) => [contrast(one, other), mixed(one, other, strength)]);"
+    for (one, other, strength), (compared, made) in zip(asked, answers(page, code, asked, "colours"), strict=True):
+        assert compared == pytest.approx(contrast(one, other))
+        assert made == mixed(one, other, strength)
 
 
 def painted(page, code, word, theme=THEME, **more):

@@ -48,14 +48,14 @@ def _be_silent() -> None:
 def _end(child: int, seconds: float) -> None:
     """Wait for a process, as long as it may take, and end what it has started."""
     end = time.monotonic() + seconds
-    while os.waitpid(child, os.WNOHANG) == (0, 0):
-        if time.monotonic() > end:
+    try:
+        while os.waitpid(child, os.WNOHANG) == (0, 0) and time.monotonic() < end:
+            time.sleep(0.01)
+    finally:
+        with suppress(ProcessLookupError):
             os.killpg(child, signal.SIGKILL)
+        with suppress(ChildProcessError):
             os.waitpid(child, 0)
-            break
-        time.sleep(0.01)
-    with suppress(ProcessLookupError):
-        os.killpg(child, signal.SIGKILL)
 
 
 def in_parallel(work: Callable[[int], _T], tasks: Sequence[int], jobs: int) -> Iterator[tuple[int, _T]]:
