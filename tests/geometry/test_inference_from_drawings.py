@@ -139,8 +139,8 @@ def test_pictures_and_scenes_are_drawings() -> None:
 
 
 def test_an_angle_of_which_others_are_multiples_may_be_none_of_them() -> None:
-    """Between strokes that lie 60 and 90 degrees apart."""
-    assert angle_between(read_drawings([strokes_of(read("angle: 30\naxiom: F ++ F +++ F"), 0)])) == 30
+    """Here of strokes that lie 45, 60 and 75 degrees apart."""
+    assert angle_between(read_drawings([strokes_of(read("angle: 15\naxiom: F ++++ F +++ F"), 0)])) == 15
 
 
 def test_an_angle_can_be_told() -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import _lru_cache_wrapper, partial
 from itertools import chain, groupby
 from pathlib import Path
@@ -48,6 +51,7 @@ class Runner:
     _quick: list[pytest.Item] = field(default_factory=list)
     _seconds: dict[str, float] = field(default_factory=dict)
     _tests: dict[Change, list[pytest.Item]] = field(default_factory=dict)
+    _imported: set[Change] = field(default_factory=set)
 
     @pytest.hookimpl(trylast=True)
     def pytest_configure(self) -> None:
@@ -65,6 +69,7 @@ class Runner:
         """Run the quick tests once, and those that come to each change with it."""
         self._items = [each for each in session.items if each.path.suffix == ".py"]
         self._quick = [each for each in self._items if not any(map(each.get_closest_marker, ("slow", "browser")))]
+        self._imported = self.switches.reached & set(self.chosen)
         _forget()
         self._find_out()
         for number, outcome in in_parallel(self._outcome, range(len(self.chosen)), self.jobs):
@@ -92,7 +97,7 @@ class Runner:
         """The seconds of each test that passes, and the numbers of the changes to which it comes."""
         found = {}
         for item, following in zip(items, [*items, None][1:], strict=True):
-            self.switches.reached.clear()
+            self.switches.forget()
             begun = time.monotonic()
             if self._passes(item, following):
                 found[item.nodeid] = time.monotonic() - begun, sorted(numbers[each] for each in self.switches.reached)
@@ -112,10 +117,11 @@ class Runner:
         seconds = 60 + 8 * sum(self._cost(item) for item in items)
         while (failed := forked(lambda: self._first_failure(items, change), seconds, browser)) is not None:
             if failed == -1:
-                return False, "", quick
-            alone = items[failed]
-            if forked(partial(self._first_failure, [alone], None), seconds, browser) == -1:
-                return True, alone.nodeid + slow, quick
+                alone = change in self._imported and fails_alone(change)
+                return alone, "the tests of its room, in a process of its own" if alone else "", quick
+            last = items[failed]
+            if forked(partial(self._first_failure, [last], None), seconds, browser) == -1:
+                return True, last.nodeid + slow, quick
             del items[failed]
         ends = forked(lambda: self._first_failure(items, None), seconds, browser) is not None
         return (True, "it runs away", quick) if ends else (False, "the tests do not end without it either", quick)
@@ -154,6 +160,17 @@ def _forget() -> None:
     for value in chain.from_iterable(vars(module).values() for module in modules):
         if isinstance(value, _lru_cache_wrapper):
             value.cache_clear()
+
+
+def fails_alone(change: Change) -> bool:
+    """Whether a quick test of its room fails while a change is on from the beginning, and none without it."""
+    room = Path(change.file).parts[1]
+    tests = ["-q", "-x", "-m", "not slow and not browser", f"tests/{room}", f"lsys_kit/{room}"]
+    with tempfile.TemporaryDirectory() as folder:
+        (file := Path(folder, "on.json")).write_text(json.dumps({"mutants": [asdict(change)]}), "utf-8")
+        passes = [subprocess.run([sys.executable, "-m", module, *of_it, *tests], cwd=ROOT, capture_output=True).returncode == 0
+                  for module, *of_it in (("tests.mutants.alone", file), ("pytest",))]
+    return passes == [False, True]
 
 
 def _near(item: pytest.Item, change: Change) -> bool:

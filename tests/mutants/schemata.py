@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 import copy
+import functools
 import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -12,10 +13,12 @@ from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
 from types import CodeType, ModuleType
+from typing import Any
 
 from tests.mutants.changes import ROOT, Change, changed, changes, expressions
 
 _SWITCH = "__is_on__"
+_LRU_CACHE = functools.lru_cache
 
 
 class Switches:
@@ -34,7 +37,9 @@ class Switches:
         for change in chosen:
             self._of_file[ROOT / change.file].append(change)
         self._numbered = [change for each in self._of_file.values() for change in each]
+        self._holding: set[Any] = set()
         setattr(builtins, _SWITCH, self._is_on)
+        functools.lru_cache = self._watched_cache
         sys.meta_path.insert(0, _Finder(self._changed))
 
     def _is_on(self, number: int) -> bool:
@@ -54,6 +59,34 @@ class Switches:
         conditions = {id(node) for _, node, condition in every if condition}
         _Schemata(wanted, conditions).visit(tree)
         return compile(ast.fix_missing_locations(tree), str(path), "exec", dont_inherit=True)
+
+    def _watched_cache(self, maxsize: Any = 128, typed: bool = False) -> Any:
+        """`functools.lru_cache`, but for functions of the kit, which are known when they have come to a change."""
+        if callable(maxsize):
+            return self._watched_cache()(maxsize)
+        made = _LRU_CACHE(maxsize, typed)
+        return lambda function: self._watched(function, made) if function.__module__.startswith("lsys_kit") else made(function)
+
+    def _watched(self, function: Callable[..., Any], made: Callable[..., Any]) -> Any:
+        @functools.wraps(function)
+        def seen(*given: Any, **named: Any) -> Any:
+            before, self.reached = self.reached, set()
+            try:
+                return function(*given, **named)
+            finally:
+                if self.reached:
+                    self._holding.add(cached)
+                self.reached |= before
+
+        cached = made(seen)
+        return cached
+
+    def forget(self) -> None:
+        """Empty the caches of what was made with any change, and begin to note anew which ones the code comes to."""
+        for cached in self._holding:
+            cached.cache_clear()
+        self._holding.clear()
+        self.reached = set()
 
     def turn_on(self, change: Change) -> None:
         """Do a change; of a script, in all that is read from now on."""
