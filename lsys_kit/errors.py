@@ -230,6 +230,8 @@ def shown(value: object) -> str:
         return quotable(_Beginning().repr(value))
     except ValueError:  # Python refuses to write numbers of thousands of digits
         return f"a very large {type(value).__name__}"
+    except Exception:  # what others have made may raise anything when it is written
+        return f"a value of type {type(value).__name__}"
 
 
 def named(character: str) -> str:

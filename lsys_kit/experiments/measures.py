@@ -61,13 +61,17 @@ def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
 
 def _named(asked: Any) -> Iterator[tuple[str, object]]:
     """Measures with the names of their columns."""
+    for each in asked if isinstance(asked, list | tuple) else (asked,):
+        yield from _with_names(each)
+
+
+def _with_names(asked: Any) -> Iterator[tuple[str, object]]:
+    """One measure, or several by their names."""
     if isinstance(asked, Mapping):
         for name, each in asked.items():
             if not isinstance(name, str):
                 raise ModelValueError(f"The name of a measure is a text, not {shown(name)}")
             yield name, each
-    elif isinstance(asked, list | tuple):
-        yield from (pair for each in asked for pair in _named(each))
     elif isinstance(asked, str):
         yield asked, asked
     elif callable(asked):

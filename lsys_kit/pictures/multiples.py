@@ -89,7 +89,7 @@ class SmallMultiples(SVGPicture):
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
-        with drawn_on(self.theme):
+        with Task("The picture was not drawn"), drawn_on(self.theme):
             return drawing_of(self._written(current().figure, enlarged))
 
     def _written(self, most: int, enlarged: float = 1.0) -> str:

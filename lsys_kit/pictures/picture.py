@@ -122,7 +122,7 @@ class Picture(SVGPicture):
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
-        with drawn_on(self.theme):
+        with Task("The picture was not drawn"), drawn_on(self.theme):
             return drawing_of(self._written(current().figure, enlarged))
 
     def plot_into(self, ax: Axes) -> None:
@@ -134,7 +134,7 @@ class Picture(SVGPicture):
         if len(self.scene.cells):
             super().plot_into(ax)
         else:
-            with supervised(), drawn_on(self.theme):
+            with Task("The figure was not drawn"), supervised(), drawn_on(self.theme):
                 plot_turtle(ax, self.scene, self.colour_of)
                 if self.legend is not None:
                     plot_legend(ax, self.legend)

@@ -68,7 +68,12 @@ def asked(**content: object) -> Callable[[Any], object]:
 
 def put(name: str) -> Callable[[Any], object]:
     """Give a widget a value as a browser does."""
-    return lambda given: setattr(given[0], name, given[1])
+    def give(given: tuple[Any, Any]) -> None:
+        try:
+            setattr(given[0], name, given[1])
+        except (RecursionError, OverflowError) as error:  # JSON has neither such nesting nor such numbers
+            raise kit.LSystemError("No message says this") from error
+    return give
 
 
 MAKERS: Mapping[str, Callable[[Any], Any]] = {

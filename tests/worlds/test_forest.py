@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from lsys_kit import derive, explore, read, system
+from lsys_kit import derive, explore, limits, read, system
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.turtle.space import trace_in_space
@@ -83,6 +83,7 @@ def test_opaque_leaves_shed_more_than_clear_ones() -> None:
 def test_the_panel_shows_the_forest_with_a_slider_for_each_constant() -> None:
     panel = explore("K23")
     assert {"k", "apart", "trees", "life", "rest", "size"} <= set(panel.trait_names())
-    made = book(system("K23"))
+    with limits(seconds=3_600):
+        made = book(system("K23"))
     assert made["steps"] >= 15
     assert len(json.dumps(made)) < 2_000_000

@@ -9,8 +9,10 @@ from typing import Any
 
 from ipywidgets import HTML, HTMLMath, Widget
 
+from lsys_kit.budget import Task
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.supervision import supervised
 
 _IMAGES: Mapping[str, str] = {"image/svg+xml": "svg+xml", "image/png": "png", "image/jpeg": "jpeg"}
 _STYLE = "line-height:1.4;overflow-x:auto;margin:4px 0;white-space:pre-wrap;word-break:normal;overflow-wrap:anywhere"
@@ -28,7 +30,8 @@ def media(what: object) -> dict[str, Any]:
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter if InteractiveShell.initialized() else DisplayFormatter()
-    data, _ = formatter.format(what)
+    with Task("It was not shown"), supervised():
+        data, _ = formatter.format(what)
     found = {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
     return found if _is_the_kits(what) else {kind: value for kind, value in found.items() if kind != "text/html"}
 

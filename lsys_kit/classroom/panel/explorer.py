@@ -174,12 +174,15 @@ class Explorer(KitWidget):
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""
-        for name, value in self._opened.first.items():
-            if not hasattr(self, name):
-                whole = all(isinstance(part, int) for part in self._opened.values[name])
-                kind: Any = traitlets.Int if whole else traitlets.Float
-                self.add_traits(**{name: kind(plain_number(value))})
-                self.observe(self._set_constant, name)
+        offered = {name: self._trait_of(name, value) for name, value in self._opened.first.items() if not hasattr(self, name)}
+        if offered:
+            self.add_traits(**offered)  # all at once: this makes a class anew
+            self.observe(self._set_constant, [*offered])
+
+    def _trait_of(self, name: str, value: Value) -> Any:
+        whole = all(isinstance(part, int) for part in self._opened.values[name])
+        kind: Any = traitlets.Int if whole else traitlets.Float
+        return kind(plain_number(value))
 
     def _set_constant(self, change: Any) -> None:
         self.settings = {**self.settings, change["name"]: change["new"]}

@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, TypeAlias, TypeGuard
 
-from lsys_kit.errors import ModelNameError, ModelValueError, quotable
+from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
@@ -273,7 +273,7 @@ def unknown_constant(name: str) -> Any:
 def _beginning(given: object) -> str:
     """The beginning of a value, as a message quotes it."""
     try:
-        return repr(quotable(str(given)[:40]))
+        return repr(quotable(str(given)[:40])) if isinstance(given, str | numbers.Number) else shown(given)
     except ValueError:  # Python refuses to write a whole number of thousands of digits
         return "one of thousands of digits"
 

@@ -7,7 +7,7 @@ function stands here, as `derive` stands above geometry for systems that look ar
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from typing import overload
+from typing import Any, overload
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import real_from
@@ -108,12 +108,16 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
       axiom: F
       F -> F[+F]F
     """
-    given = [*counted(words, 1)] if isinstance(words, list | tuple) else words
-    if isinstance(given, list) and any(map(is_drawing, given)):
+    with Task("The search for systems was not finished"):
+        return _inferred([*counted(words)] if isinstance(words, list | tuple) else words, constants, erasing, context, angle)
+
+
+def _inferred(given: Iterable[Any], constants: Iterable[str], erasing: bool, context: tuple[int, int],
+              angle: object) -> Fits | DrawingFits:
+    if isinstance(given, list) and any(map(is_drawing, counted(given))):
         if erasing is not False or not (isinstance(context, tuple) and context == (0, 0)):
             raise ModelValueError("Erasing and contexts are for words, and these are pictures", hint="Leave them out.")
-        with Task("The search for systems was not finished"):
-            return _of_drawings(read_drawings(given), angle)
+        return _of_drawings(read_drawings(given), angle)
     if angle is not None:
         raise ModelValueError("An angle is for pictures, and these are words", hint="Leave it out.")
     return words_alone.infer(given, constants, erasing, context)

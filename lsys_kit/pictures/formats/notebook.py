@@ -84,11 +84,12 @@ class SVGPicture(ABC):
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; what of it is pixels has so many in each direction of its own."""
-        return drawing_of(self.svg)
+        with Task("The picture was not drawn"):
+            return drawing_of(self.svg)
 
     def plot_into(self, ax: Axes) -> None:
         """Paint the picture into axes of a matplotlib figure, whose units are pixels then."""
-        with supervised():
+        with Task("The figure was not drawn"), supervised():
             plot_drawing(ax, self.drawing())
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:

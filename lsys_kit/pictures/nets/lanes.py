@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeAlias
 
+from lsys_kit.budget import counted
+
 Stretch: TypeAlias = tuple[tuple[float, int], tuple[float, int]]
 """Two ends: for each its position along the lane and the side to which the line turns off."""
 
@@ -36,11 +38,11 @@ def ordered(stretches: Sequence[Stretch]) -> list[int]:
     [1, 0]
     """
     order = sorted(range(len(stretches)), key=lambda i: (-_stretch_length(stretches[i]), -i))
-    cost = [[crossings(a, b) for b in stretches] for a in stretches]
+    cost = [[crossings(a, b) for b in stretches] for a in counted(stretches, 1)]
     improved = True
     while improved:
         improved = False
-        for number in tuple(order):
+        for number in counted(tuple(order), 1):
             improved |= _moved_to_best_place(order, number, cost)
     return order
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from lsys_kit.budget import Task, counted
 from lsys_kit.classroom.exercises.declared.keys import Problem, Source, exercise_problems, lesson_problems, read_exercise
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.errors import ModelFileError, quotable
@@ -50,7 +51,8 @@ def questions_in(folder: Path) -> Questions:
         raise ModelFileError(f'There are no files of exercises in "{quotable(str(folder))}"', hint="Their names end in .toml.")
     lessons, problems, sources = [], [], []
     for path in files:
-        lesson, exercises, source, wrong = _file(path)
+        with Task("The exercises were not read"):
+            lesson, exercises, source, wrong = _file(path)
         lessons += [lesson] if lesson else []
         sources.append((source, exercises))
         problems += wrong
@@ -97,10 +99,10 @@ def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], 
         )
     except (OSError, UnicodeDecodeError) as fault:
         return None, (), Source(path.name, ""), [Problem(path.name, 1, "", f"It cannot be read: {fault}", "Save it as UTF-8.")]
-    problems = list(lesson_problems(source, declared))
+    problems = [*counted(lesson_problems(source, declared), 1)]
     exercises: list[tuple[int, Exercise]] = []
     for number, each in enumerate(declared.get("exercise", ()) if isinstance(declared.get("exercise", ()), list) else ()):
-        found = list(exercise_problems(source, number, each))
+        found = [*counted(exercise_problems(source, number, each), 1)]
         problems += found
         if not found:
             exercises.append((number, read_exercise(each)))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
 
-from lsys_kit.budget import current
+from lsys_kit.budget import counted, current
 from lsys_kit.errors import LSystemError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import check_expression, value_of
 from lsys_kit.notation.analysis.problems import ProblemFound
@@ -70,7 +70,7 @@ class _Preprocessor:
             self.text = self.text[:arrays.start()] + re.sub(r"[^\n]", " ", arrays.group()) + self.text[arrays.end():]
             self.macros.text = self.text
         first = [Edit(*arrays.span(), "")] if arrays and made is not None else []
-        edits = first + [edit for line in _LINE.finditer(self.text) for edit in self._line(line)]
+        edits = first + [edit for line in counted(_LINE.finditer(self.text)) for edit in self._line(line)]
         if self.open:
             raise self._error('This condition has no "#endif"', self.open[-1][0], "Every #if ends with one.")
         if self.macros.put:
