@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextvars import copy_context
 from types import FrameType
 from typing import Any
 
@@ -24,6 +25,9 @@ class _UsedUp(BaseException):
 class supervised:  # noqa: N801 - used as a function is
     """A `with` block in which another library works, which never looks at the budget: it is looked at whenever a function is
     called there.
+
+    The limits and the task are those of this block. A task of the kit's own within it may have less time, looks for itself, and
+    its refusal can be caught there.
 
     It works in the same thread, since a process of its own would not do everywhere: where one starts, it runs the person's
     program again, unless that is written for it, and in a browser there are none.
@@ -48,10 +52,10 @@ class _Hooks:
     """The hooks of a block that is supervised. They go when its frame ends, also where an interrupt keeps the block from taking
     them away, and when there is no task any more."""
 
-    __slots__ = ("_frame", "_left", "_profiler", "_report", "_tracer")
+    __slots__ = ("_around", "_frame", "_left", "_profiler", "_report", "_tracer")
 
     def __init__(self, frame: FrameType) -> None:
-        self._frame, self._left = frame, CALLS_BETWEEN_CHECKS
+        self._around, self._frame, self._left = copy_context(), frame, CALLS_BETWEEN_CHECKS
         self._profiler, self._tracer, self._report = sys.getprofile(), sys.gettrace(), sys.unraisablehook
 
     def put_in(self) -> None:
@@ -81,7 +85,7 @@ class _Hooks:
 
     def _check(self, frame: FrameType) -> None:
         try:
-            check_budget()
+            self._around.run(check_budget)
         except ModelLimitError as error:
             if not _imports(frame):
                 sys.settrace(self._go_on)

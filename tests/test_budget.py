@@ -110,6 +110,19 @@ def test_what_knows_of_no_budget_is_supervised() -> None:
     assert sys.getprofile() is before
 
 
+def test_what_has_less_time_within_what_is_supervised_can_be_given_up_alone() -> None:
+    """As the later steps of a panel that is being shown: its book ends earlier, and is shown."""
+    given_up = False
+    with limits(seconds=5), Task("It was not shown"), supervised():
+        try:
+            with limits(seconds=0.05), Task("Step 10 was not reached"):
+                for number in counted(range(10**9)):
+                    abs(number)
+        except ModelLimitError:
+            given_up = True
+    assert given_up
+
+
 def test_a_profiler_goes_on_behind_what_is_supervised() -> None:
     """As `%prun` in a notebook."""
     def behind() -> None:

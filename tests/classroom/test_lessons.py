@@ -26,6 +26,7 @@ from lsys_kit import (
     vote,
     worksheet,
 )
+from lsys_kit.budget import in_task
 from lsys_kit.classroom.lessons.answers import is_right, number_of
 from lsys_kit.classroom.lessons.declaration import lesson_from
 from lsys_kit.classroom.lessons.declared import FOLDER, lesson, names, table
@@ -292,6 +293,17 @@ def test_pictures_and_words_are_revealed_as_a_notebook_shows_them():
 
 def test_markup_is_taken_from_the_kit_alone():
     assert "text/html" not in media(Own())
+
+
+@pytest.mark.parametrize("module", ["elsewhere", "lsys_kit.elsewhere"])
+def test_what_the_kit_shows_has_budgets_of_its_own(module):
+    """A page holds many books, each a task; what others show is one task, and supervised."""
+    class Shown:
+        def __repr__(self):
+            return f"in a task: {in_task()}"
+
+    Shown.__module__ = module
+    assert media(Shown())["text/plain"] == f"in a task: {module == 'elsewhere'}"
     shown = revealed(Own())
     assert isinstance(shown, HTMLMath)
     assert shown.value == "<div>$x^2$</div>"

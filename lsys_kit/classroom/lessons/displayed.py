@@ -30,10 +30,13 @@ def media(what: object) -> dict[str, Any]:
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter if InteractiveShell.initialized() else DisplayFormatter()
-    with Task("It was not shown"), supervised():
+    if _is_the_kits(what):  # which looks at budgets of its own
         data, _ = formatter.format(what)
-    found = {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
-    return found if _is_the_kits(what) else {kind: value for kind, value in found.items() if kind != "text/html"}
+    else:
+        with Task("It was not shown"), supervised():
+            data, _ = formatter.format(what)
+        data = {kind: value for kind, value in data.items() if kind != "text/html"}
+    return {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
 
 
 def widget(what: object) -> Any:
