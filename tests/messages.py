@@ -73,7 +73,7 @@ def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
 
 def _in_tables() -> Iterator[tuple[str, str]]:
     yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
-    yield from (("kinds", kind.what) for kind in ANSWER_KINDS.values())
+    yield from (("kinds", text) for kind in ANSWER_KINDS.values() for text in (kind.what, kind.parts_said) if text)
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
     yield from (("widgets", label) for label in LABELS)
     yield from (("panel", label) for label in PANEL_LABELS)

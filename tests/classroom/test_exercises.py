@@ -5,14 +5,15 @@ The exercises are found from the files: those of the kit, and one of each kind i
 
 import re
 import time
+from pathlib import Path
 
 import pytest
 
 from lsys_kit import ModelNameError, ModelValueError, check, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.judging import NEAR, RECOGNISED
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.lint import problems_in
+from lsys_kit.classroom.exercises.verdict import Verdict
 from tests.classroom.answers import EXERCISES, OF_EACH_KIND, WRONG, as_typed, of_each_kind_added, right_answers
 
 IDS = [exercise.id for exercise in EXERCISES]
@@ -57,10 +58,10 @@ def _name(pair):
 
 
 @pytest.mark.parametrize("pair", WRONG, ids=map(_name, WRONG))
-def test_a_misconception_has_its_own_reply(pair):
+def test_a_misconception_has_its_own_reply_and_earns_the_parts_that_are_right(pair):
     exercise, wrong = pair
     verdict = check(exercise.id, as_typed(exercise, wrong.answer))
-    assert float(verdict) == (NEAR if verdict.said == "Almost" else RECOGNISED), str(verdict)
+    assert float(verdict) == mark_said(exercise, verdict) < 1, str(verdict)
     name = wrong.misconception.name if wrong.misconception else ""
     own = [slip.says for slip in exercise.slips if slip.says and name and slip.misconception == name]
     expected = (wrong.says or wrong.misconception.do, *own)
@@ -78,11 +79,39 @@ def test_no_reply_gives_the_solution_away(pair):
     assert not re.search(rf"(?<!\w){re.escape(answer)}(?!\w)", reply)
 
 
+# Marks
+
+
+def mark_said(exercise: Exercise, verdict: Verdict) -> float:
+    """The mark that the first words of a reply to a wrong answer give: the share of the parts that are right, else nothing."""
+    pattern = re.escape(ANSWER_KINDS[exercise.kind].parts_said).replace(r"\{right\}", r"(\d+)").replace(r"\{all\}", r"(\d+)")
+    found = re.match(pattern, verdict.message) if pattern else None
+    return int(found[1]) / int(found[2]) if found else 0
+
+
+IN_PARTS = {"table", "words", "system", "map", "net"}
+
+
+def test_the_guide_says_of_each_kind_which_parts_count_and_in_which_words():
+    guide = (Path(__file__).parents[2] / ".github" / "EXERCISES.md").read_text("utf-8")
+    said = {name: kind.parts_said.format(right=3, all=4) for name, kind in ANSWER_KINDS.items() if kind.parts_said}
+    assert said.keys() == IN_PARTS
+    assert [name for name, words in said.items() if f"| {name} |" not in guide or f'"{words}"' not in guide] == []
+
+
 @each_exercise
-def test_a_right_answer_counts_more_than_a_near_miss_and_that_more_than_nonsense(exercise):
-    scores = [float(check(exercise.id, exercise.solution)), NEAR, RECOGNISED, float(check(exercise.id, _nonsense(exercise))), 0]
-    assert scores == sorted(scores, reverse=True)
-    assert scores[3] < RECOGNISED
+def test_nonsense_earns_nothing(exercise):
+    assert float(check(exercise.id, _nonsense(exercise))) == 0
+
+
+CHOICES = [exercise for exercise in EXERCISES if exercise.kind == "choice" and exercise.id[0].isdigit()]
+
+
+@pytest.mark.parametrize("letter", "ABCD")
+def test_who_always_gives_one_letter_earns_a_fifth_to_a_third_of_the_choices(letter):
+    earned = sum(map(float, (check(exercise.id, letter) for exercise in CHOICES)))
+    assert earned == sum(exercise.solution == letter for exercise in CHOICES)
+    assert len(CHOICES) / 5 <= earned <= len(CHOICES) / 3
 
 
 def _nonsense(exercise: Exercise) -> object:

@@ -10,7 +10,6 @@ import pytest
 
 from lsys_kit import check, score
 from lsys_kit.classroom.exercises.declared.registry import lessons
-from lsys_kit.classroom.exercises.judging import NEAR
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.progress import scores
 
@@ -39,7 +38,7 @@ SUBMISSIONS = {
     "endless": {FIRST.id: "while True: pass", SECOND.id: _right(SECOND)},
 }
 """For each student what stands in the cells of answers."""
-SCORES = {"right": POINTS, "partly": 1, "almost": NEAR, "untouched": 0, "broken": 1, "malicious": 0, "endless": 1}
+SCORES = {"right": POINTS, "partly": 1, "almost": 0, "untouched": 0, "broken": 1, "malicious": 0, "endless": 1}
 
 
 def _submission(release: str, answers: dict[str, str]) -> str:
@@ -96,7 +95,7 @@ def test_a_score_is_that_of_the_last_check(monkeypatch):
     check("1.1", FIRST.solution)
     assert score("1.1") == 1
     check("1.1", ALMOST)
-    assert repr(score("1.1")) == repr(NEAR)
+    assert repr(score("1.1")) == "0.0"
 
 
 def test_cells_for_marks_are_locked_and_each_has_a_name_of_its_own():

@@ -284,6 +284,29 @@ def test_a_misprint_that_the_kit_corrects_is_right():
     assert check("anabaena.22", system("P3")) == 1
 
 
+# Marks
+
+
+@pytest.mark.parametrize(("exercise", "answer", "mark", "said"), [
+    ("2.1", "2, 3, 5, 8, 13, 26", 5 / 6, "Right: 5 of 6 numbers. The first 5"), ("2.1", "1, 2, 3, 5, 8, 13", 0, "Look at number 1"),
+    ("2.1", "2, 3, 5", 3 / 6, "Right: 3 of 6 numbers. You have 3"), ("17.1", "b, cba, cba", 2 / 4, "Right: the first 2 of 4 words. You"),
+    ("5.5", "S -> L\nL -> A\nA -> B\nB -> L", 3 / 4, "Right: 3 of 4 transitions. That is"), ("1.1", "bl ar bl ar al", 0, "Up to"),
+    ("1.2", 64, 0, "That is"), ("7.3", 4, 0, "By itself"), ("8.2", "B", 0, "The system says")])
+def test_a_part_is_given_where_a_part_is_right_and_nothing_for_a_known_mistake(exercise, answer, mark, said):
+    verdict = check(exercise, answer)
+    assert (float(verdict), verdict.message[: len(said)]) == (mark, said)
+
+
+def test_steps_that_are_right_without_an_answer_earn_nothing(asked):
+    given = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)"
+    aged = asked("system", given=given, solution="A(t) : t == 3 -> A(0) B\nB -> B B", steps=8, names="fixed")
+    assert float(said(aged, "B -> B")) == 0
+    verdict = said(aged, "A(t) : t == 3 -> A(0) B")
+    assert (float(verdict), verdict.message[:22]) == (1 / 6, "Passed: 1 of 6 tests. ")  # steps 4 to 8, and all else
+    unused = said(aged, "A(t) : t == 3 -> A(0) B\nB -> B B\nB -> B")
+    assert (float(unused), unused.message[:22]) == (5 / 6, "Passed: 5 of 6 tests. ")
+
+
 # Expressions
 
 

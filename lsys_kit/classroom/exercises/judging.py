@@ -19,8 +19,6 @@ from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError
 from lsys_kit.translation import gettext
 
-NEAR, NEAR_UNKNOWN, RECOGNISED, MOST_UNKNOWN, READABLE = 0.6, 0.5, 0.4, 0.3, 0.05
-"""Scores: nearly right and recognised; right but for one thing; recognised; otherwise by how much is right; and not at all."""
 MOST_ASKED = 3
 """So many misconceptions at most are asked about."""
 MOST_RIGHT = 0.6
@@ -173,11 +171,17 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
-    if fitting:
-        near = found.near or all(wrong.near for wrong in fitting)
-        return Verdict("Almost" if near else "Not yet", _explained(fitting, found), NEAR if near else RECOGNISED), True
-    score = NEAR_UNKNOWN if found.near else READABLE + (MOST_UNKNOWN - READABLE) * min(max(found.likeness, 0), 1)
-    return Verdict("Almost" if found.near else "Not yet", found.message, score), kind.honest(exercise, own, solution)
+    near = found.near or bool(fitting) and all(wrong.near for wrong in fitting)
+    said, mark = _parts_right(exercise, own, solution)
+    message = f"{said} {_explained(fitting, found) if fitting else found.message}".lstrip()
+    return Verdict("Almost" if near else "Not yet", message, mark), bool(fitting) or kind.honest(exercise, own, solution)
+
+
+def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, float]:
+    """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is, or where there are none."""
+    kind = ANSWER_KINDS[exercise.kind]
+    right, all = kind.parts_right(exercise, own, solution) if kind.parts_right else (0, 0)
+    return (gettext(kind.parts_said, right=right, all=all), right / all) if right else ("", 0)
 
 
 def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:

@@ -51,6 +51,10 @@ class AnswerKind:
         What is added to a right answer.
     alike
         Whether an answer is a wrong one that is understood; `same`, where that will do.
+    parts_right
+        Of a wrong answer how many of its parts are right, and how many there are; None where it is right as a whole or not.
+    parts_said
+        That in words; the mark is this share.
     """
 
     what: str
@@ -60,6 +64,8 @@ class AnswerKind:
     honest: Callable[[Exercise, Any, Any], bool]
     praise: Callable[[Exercise, Any, Any], str] = lambda exercise, own, solution: ""
     alike: Callable[[Exercise, Any, Any], bool] | None = None
+    parts_right: Callable[[Exercise, Any, Any], tuple[int, int]] | None = None
+    parts_said: str = ""
 
 
 def first_difference(mine: object, wanted: object) -> int:

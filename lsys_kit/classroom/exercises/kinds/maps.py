@@ -128,6 +128,20 @@ def _first_step_apart(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) ->
     return next((step for step, (one, other) in enumerate(pairs) if not same_maps(one, other)), None)
 
 
+def _steps_right(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> tuple[int, int]:
+    """How many steps are right in a row, of those that are not right without the rules that were typed."""
+    untyped = MapAnswer(MapSystem(wanted.system.axiom, read_map(exercise.given).productions if exercise.given else (),
+                                  sphere=wanted.system.sphere), ())
+    given = _agreeing_steps(exercise, untyped, wanted)
+    return max(_agreeing_steps(exercise, mine, wanted) - given, 0), exercise.steps - given
+
+
+def _agreeing_steps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> int:
+    """Up to which step maps are the same."""
+    apart = _first_step_apart(exercise, mine, wanted)
+    return exercise.steps if apart is None else max(apart - 1, 0)
+
+
 # What to say
 
 
@@ -174,4 +188,5 @@ def _praise(exercise: Exercise, _: MapAnswer, __: MapAnswer) -> str:
     return gettext("The maps of all steps from 0 to {last} agree.", last=exercise.steps)
 
 
-MAP = AnswerKind('rules for walls, as a text between """ and """', _read, _same, _difference, _honest, _praise, _alike)
+MAP = AnswerKind('rules for walls, as a text between """ and """', _read, _same, _difference, _honest, _praise, _alike,
+                 _steps_right, "Right: {right} of {all} steps.")

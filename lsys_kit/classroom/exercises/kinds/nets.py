@@ -174,10 +174,15 @@ def _same(_: Exercise, mine: Net, wanted: Net) -> bool:
     return (wanted.start is None or mine.start is not None) and isomorphic(mine, wanted)
 
 
+def _transitions_right(_: Exercise, mine: Net, wanted: Net) -> tuple[int, int]:
+    """How many transitions are right, where places are called as in the solution; the tokens at the start are a part, too."""
+    right = (Counter(mine.firings) & Counter(wanted.firings)).total() + (wanted.start is not None and mine.start == wanted.start)
+    return right, max(len(mine.firings), len(wanted.firings)) + (wanted.start is not None)
+
+
 def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
-    same = Counter(mine.firings) & Counter(wanted.firings)
-    likeness = sum(same.values()) / max(len(mine.firings), len(wanted.firings), 1)
-    near = len(wanted.firings) > 2 and sum(same.values()) >= len(wanted.firings) - 1
+    right, all = _transitions_right(_, mine, wanted)
+    likeness, near = right / all, len(wanted.firings) > 2 and right >= len(wanted.firings) - 1
     own, other = len(set(_places(mine))), len(set(_places(wanted)))
     if own != other:
         return Difference(
@@ -236,4 +241,6 @@ NET = AnswerKind(
     _same,
     _difference,
     lambda _, own, wanted: 2 * len(own.firings) >= len(wanted.firings),
+    parts_right=_transitions_right,
+    parts_said="Right: {right} of {all} transitions.",
 )

@@ -211,6 +211,11 @@ def _same_table(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value,
     return len(own) == len(wanted) and all(same_number(exercise, a, b) for a, b in zip(own, wanted, strict=True))
 
 
+def _numbers_right(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value, ...]) -> tuple[int, int]:
+    """How many numbers are right in their places."""
+    return sum(same_number(exercise, a, b) for a, b in zip(own, wanted, strict=False)), max(len(own), len(wanted))
+
+
 def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tuple[Value, ...]) -> Difference:
     at = next(
         (i for i, (a, b) in enumerate(zip(own, solution, strict=False)) if not same_number(exercise, a, b)),
@@ -257,4 +262,6 @@ TABLE = AnswerKind(
     lambda exercise, own, solution: (
         (2 * len(own) >= len(solution) and first_difference(own, solution) > 0) or (len(own) == len(solution) and any(own))
     ),
+    parts_right=_numbers_right,
+    parts_said="Right: {right} of {all} numbers.",
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -13,7 +13,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.renaming import Renaming
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.outcomes import all_outcomes, outcomes_of
-from lsys_kit.errors import ModelLimitError
+from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Apply, Number
@@ -162,6 +162,35 @@ def same(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
         and parting(exercise, mine.front, wanted.behind) is None
         and (mine.front is mine.behind or parting(exercise, mine.behind, wanted.behind) is None)
     )
+
+
+def tests_passed(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> tuple[int, int]:
+    """How many tests a wrong answer passes, and how many there are; none where chance has a say.
+
+    A test is a step, with each setting of the constants, whose word is not right without what was typed; it is passed if the
+    words up to it are right. One more test is all else: other axioms, the angle, that no production is unused.
+    """
+    if any(States(each).traits.stochastic for each in (mine.behind, wanted.behind)):
+        return 0, 0
+    untyped = replace(
+        wanted.behind, productions=tuple(rule for rule in wanted.behind.productions if rule not in wanted.own.productions)
+    )
+    passed = asked = 0
+    for setting in ({}, *exercise.settings):
+        given = _agreeing_steps(exercise, untyped, wanted.behind, setting)
+        own = min(_agreeing_steps(exercise, each, wanted.behind, setting) for each in (mine.front, mine.behind))
+        passed, asked = passed + max(own - given, 0), asked + exercise.steps - given
+    return passed, asked + 1
+
+
+def _agreeing_steps(exercise: Exercise, mine: LSystem, wanted: LSystem, setting: Mapping[str, Value]) -> int:
+    """Up to which step words are the same."""
+    try:
+        names, each = renaming(exercise, wanted), [with_constants(system, setting) for system in (mine, wanted)]
+        found = _words_parting(each[0], each[1], names, exercise.steps)
+    except LSystemError:
+        return 0
+    return exercise.steps if found is None else max(found.step - 1, 0)
 
 
 def alike(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:

@@ -23,6 +23,7 @@ from lsys_kit.classroom.exercises.kinds.system_comparison import (
     parting,
     renaming,
     same,
+    tests_passed,
     unused,
     wrongly_replaced,
 )
@@ -233,4 +234,5 @@ def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
     )
 
 
-SYSTEM = AnswerKind('lines of the system, as a text between """ and """', _read, same, _difference, _honest, _praise, alike)
+SYSTEM = AnswerKind('lines of the system, as a text between """ and """', _read, same, _difference, _honest, _praise, alike,
+                    tests_passed, "Passed: {right} of {all} tests.")

@@ -215,4 +215,6 @@ WORDS = AnswerKind(
     lambda _, a, b: bool(a == b),
     _words_difference,
     lambda _, own, solution: 2 * len(own) >= len(solution),
+    parts_right=lambda _, own, solution: (first_difference(own, solution), max(len(own), len(solution))),
+    parts_said="Right: the first {right} of {all} words.",
 )

@@ -27,7 +27,7 @@ def score(exercise: str) -> float:
     Returns
     -------
     float
-        From 0 to 1: 1 if the answer was right, part of it if it was nearly right or a known mistake, 0 if none was checked.
+        From 0 to 1: 1 if the answer was right, the share of its parts that are right if it has parts, 0 if none was checked.
 
     Raises
     ------
@@ -37,8 +37,8 @@ def score(exercise: str) -> float:
     Examples
     --------
     >>> from lsys_kit import check
-    >>> _ = check("1.1", "al al br")
-    >>> score("1.1")
-    0.6
+    >>> _ = check("2.1", "2, 3, 5, 8, 13, 26")
+    >>> round(score("2.1"), 2)
+    0.83
     """
     return _last.get(exercise_of(exercise).id, 0.0)
