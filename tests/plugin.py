@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+from collections import defaultdict
 from collections.abc import Iterator
 
 import pytest
@@ -15,6 +16,8 @@ pytest_plugins = ["tests.browser.fixtures"]
 
 FEW_EXAMPLES = 5
 """How many examples of a law a quick run tries, unless the law sets a number of its own."""
+FEW_VARIANTS = 12
+"""How many variants of a test a quick run tries, spread over all of them."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
@@ -25,7 +28,17 @@ os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`--screenshots FOLDER` keeps what the browser tests see; `--renew-pictures` writes the golden pictures anew."""
     parser.addoption("--screenshots", metavar="FOLDER", help="put pictures of what the browser tests see into this folder")
+    parser.addoption("--every-variant", action="store_true", help="try all variants of a test also without slow tests")
     parser.addoption("--renew-pictures", action="store_true", help="renew the golden pictures of the printed figures")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
+    """The whole suite is run by a process for each core, unless another number is asked for."""
+    alone = hasattr(config, "workerinput") or any(map(config.getoption, ("collectonly", "benchmark_only", "usepdb")))
+    if config.args_source is pytest.Config.ArgsSource.TESTPATHS and config.option.numprocesses is None and not alone:
+        config.option.numprocesses = "auto"
+    return (yield)
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -36,21 +49,40 @@ def pytest_configure(config: pytest.Config) -> None:
 
     settings.register_profile("kit", settings.default, deadline=None)
     settings.register_profile("quick", settings.get_profile("kit"), max_examples=FEW_EXAMPLES)
-    settings.load_profile("quick" if "not slow" in config.option.markexpr else "kit")
+    settings.load_profile("quick" if _is_quick(config) else "kit")
     config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
     if config.option.benchmark_only:
         config.option.dist = "no"  # several processes would measure each other
 
 
+def _is_quick(config: pytest.Config) -> bool:
+    """Whether slow tests are left out."""
+    return "not slow" in config.option.markexpr
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks; of many variants a quick run tries
+    few."""
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
         if "browser" in fixtures or "lab" in fixtures:
             item.add_marker("browser")
         if "benchmark" in fixtures or "benchmarks" in item.path.parts or item.path.suffix == ".ipynb":
             item.add_marker("slow")
+    if _is_quick(config) and not config.option.every_variant:
+        few = _few_variants(items)
+        config.hook.pytest_deselected(items=[item for item in items if item not in few])
+        items[:] = [item for item in items if item in few]
+
+
+def _few_variants(items: list[pytest.Item]) -> set[pytest.Item]:
+    """Of each test at most a few variants."""
+    variants = defaultdict(list)
+    for item in items:
+        variants[item.nodeid.partition("[")[0]].append(item)
+    return {of_one[place * len(of_one) // few] for of_one in variants.values()
+            for few in [min(FEW_VARIANTS, len(of_one))] for place in range(few)}
 
 
 def pytest_collection_finish() -> None:

@@ -308,6 +308,7 @@ def test_matplotlib_reads_no_formula(text):
                 if label.get_text() and label.get_parse_math() and set("$\\") & set(label.get_text())]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [text for text in HOSTILE if "\0" not in text and text != "\ud800"], ids=ascii)
 def test_the_shell_prints_nothing_that_a_terminal_obeys(text, tmp_path, capsys):
     (tmp_path / "model.txt").write_text(f"axiom: A\nA -> {text}\n")

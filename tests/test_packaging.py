@@ -29,6 +29,7 @@ def test_the_wheel_is_pure_python(wheel):
     assert wheel.name.endswith("-py3-none-any.whl")
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_every_file_of_the_package(wheel):
     package = {str(path.relative_to(ROOT)) for ending in ("py", "lark", "toml", "js", "mo")
                for path in (ROOT / "lsys_kit").rglob(f"*.{ending}")}

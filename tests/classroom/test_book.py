@@ -38,6 +38,7 @@ def made_book(name):
         return book(system(name))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", systems())
 def test_a_book_is_small_json_and_always_the_same(name):
     with limits(seconds=AN_HOUR):

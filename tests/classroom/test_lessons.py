@@ -320,6 +320,7 @@ def test_a_picture_of_another_kind_is_an_image_with_its_text():
     assert "data:image/svg+xml;base64," in html({"image/svg+xml": "<svg/>", "text/plain": "a"})
 
 
+@pytest.mark.slow
 def test_a_figure_is_not_seen_before_the_prediction():
     figure, _ = plt.subplots()
     predict("How long?", figure)

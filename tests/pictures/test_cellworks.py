@@ -51,6 +51,7 @@ def test_a_full_turn_changes_nothing_and_half_a_turn_does() -> None:
     assert 2 < front.width < 2.5  # the wall in front is magnified
 
 
+@pytest.mark.slow
 def test_one_cell_or_one_generation_is_lit() -> None:
     assert len(fills(draw(K33, 4, cell=3))) == 6
     assert "<path" in draw(K33, 4, cell=3).svg

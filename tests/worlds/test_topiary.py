@@ -97,6 +97,7 @@ SOLIDS = {
 """How far outside a solid that is 8 high a place is; negative inside."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solid", SOLIDS)
 def test_every_shoot_begins_inside_the_solid(solid: int) -> None:
     ends = scene_of(derive(bare(system("K25")), 100, solid=solid, wakes=4)[-1]).segments.ends
