@@ -297,6 +297,7 @@ def test_a_file_may_have_any_name_or_is_refused(text, tmp_path):
         assert (tmp_path / lines[1].removeprefix("mtllib ")).exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_matplotlib_reads_no_formula(text):
     if refused(lambda: draw(made(text), 2)) is None:

@@ -113,6 +113,7 @@ def test_a_page_without_a_kernel_shows_it() -> None:
     assert bundle["text/plain"].endswith(". Run this cell to play.")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_names_of_any_kind_are_painted(text: str) -> None:
     view = refused(lambda: ViewModel(made(text)).sight(1, {}))

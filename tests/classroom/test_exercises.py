@@ -29,6 +29,7 @@ def test_there_is_an_exercise_of_each_kind():
     assert {exercise.kind for exercise in EXERCISES} == set(ANSWER_KINDS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", [None, OF_EACH_KIND], ids=["the kit's", "one of each kind"])
 def test_nothing_is_wrong_with_the_files(folder):
     assert [str(problem) for problem in (problems_in(folder) if folder else problems_in())] == []
@@ -52,6 +53,7 @@ def test_the_solution_is_right_in_five_forms(exercise):
         assert (verdict.said, float(verdict)) == ("Correct", 1), f"{form!r}: {verdict}"
 
 
+@pytest.mark.slow
 @each_exercise
 def test_a_misconception_has_its_own_reply(exercise):
     for wrong in wrong_answers_to(exercise):

@@ -146,6 +146,7 @@ def test_a_book_says_where_relaxation_ends():
     assert all(page["settled"] for page in book_of("K29")["maps"])
 
 
+@pytest.mark.slow
 def test_no_label_is_left_out_because_a_turtle_knows_it():
     places = {place["letter"] for place in book_of("K32")["net"]["places"]}
     assert {"F", "f", "L", "n"} <= places
@@ -175,6 +176,7 @@ def test_forces_are_the_sliders_of_a_map():
     assert panel.text.startswith("Step 3: 26 vertices, 33 walls, 8 cells. ")
 
 
+@pytest.mark.slow
 def test_the_picture_that_is_kept_is_that_of_the_step():
     panel = explore("K28", 2)
     [points] = panel.sight.picture.places
@@ -185,6 +187,7 @@ def test_the_picture_that_is_kept_is_that_of_the_step():
     assert panel._repr_mimebundle_()["image/svg+xml"] == kept["text"]
 
 
+@pytest.mark.slow
 def test_a_link_keeps_the_forces():
     panel = explore("K30", 5, pressure=0.5)
     again = explore(panel.link)

@@ -166,6 +166,7 @@ def test_what_is_asked_for_is_on_the_page_before_all_else(monkeypatch) -> None:
         assert data["model"]["together"] == (("n", "m") if len(asked) == 1 else ())
 
 
+@pytest.mark.slow
 def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
     found = read("p = 0.5 in 0 .. 1 by 1/2\naxiom: A\nA -> A B : p\nA -> A : 1-p")
     data = page_data(found, seed=12)

@@ -245,6 +245,7 @@ def test_probabilities_that_were_changed_are_told() -> None:
     assert grogra("\\axiom a, a # b ?0.7").notes == ("a stays as it is with the probability that its rules leave: 0.3.",)
 
 
+@pytest.mark.slow
 def test_too_long_a_sum_of_probabilities_is_refused() -> None:
     with pytest.raises(ModelLimitError, match="Write their probabilities as numbers"):
         grogra("\\const p 0.001," + "a # b ?p," * 900)
@@ -472,6 +473,7 @@ def spoilt(draw: st.DrawFn) -> str:
     return text
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(st.one_of(spoilt(), spoilt(), *(st.lists(st.sampled_from(PIECES)).map(glue.join) for glue in ("", " "))))
 def test_any_text_is_a_system_or_an_explained_slip(text: str) -> None:

@@ -209,6 +209,7 @@ LOST = [
 """What a careless writer might make of a system, and what of it does not read back."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("text", "lost"), LOST)
 def test_a_text_that_reads_back_as_another_system_is_never_given(text: str, lost: str) -> None:
     careless = replace(ABOP, write=lambda _: text)
@@ -253,6 +254,7 @@ def test_a_constant_without_a_value_warns_of_nothing() -> None:
     assert warnings(LSystem((Pattern("A", (Name("d"),)),), rules)) == []
 
 
+@pytest.mark.slow
 def test_sums_are_multiplied_out_before_they_are_compared() -> None:
     k = sympy.Symbol("k", real=True)
     assert equal_values(k * (k + 1), k**2 + k)

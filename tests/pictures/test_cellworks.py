@@ -23,6 +23,7 @@ def fills(picture: CellworkPicture) -> list[str]:
     return re.findall(r'<polygon[^>]*fill="([^"]*)"', picture.svg)
 
 
+@pytest.mark.slow
 def test_a_picture_says_how_much_there_is() -> None:
     assert str(draw(K33, 2)) == ("step 2; 18 vertices, 33 edges, 20 walls, 4 cells; walls of one colour have the same label")
     assert str(draw(derive(K33, 0))) == "step 0; 8 vertices, 12 edges, 6 walls, 1 cell; walls of one colour have the same label"

@@ -114,6 +114,7 @@ def test_a_page_is_sound_and_the_same_every_time(picture: Any) -> None:
     assert again == picture.pdf
 
 
+@pytest.mark.slow
 def test_nothing_is_painted_at_the_border(picture: Any) -> None:
     image = np.asarray(Image.open(io.BytesIO(picture.png)).convert("L"))
     for edge in (image[0], image[-1], image[:, 0], image[:, -1]):

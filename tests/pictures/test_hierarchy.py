@@ -23,6 +23,7 @@ def points_of(each: LanguageClass) -> set[tuple[int, int]]:
     return {point for point in POINTS if each.holds(*point)}
 
 
+@pytest.mark.slow
 def test_each_class_of_chomsky_lies_inside_the_one_before() -> None:
     for outer, inner in pairwise(map(points_of, CHOMSKY)):
         assert inner < outer

@@ -156,6 +156,7 @@ def test_a_film_has_the_size_that_was_chosen(what):
 
 # --- the shell --------------------------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 def test_the_shell_draws_steps_and_seeds_from_a_side_in_a_size(tmp_path, capsys):
     main(["draw", "K7", "-n", "3,4", "--seeds", "1,2", "--size", "900", "-o", str(tmp_path / "k7.png")])
     main(["draw", "K19", "-n", "9", "--view", "60,20", "--size", "300,300", "-o", str(tmp_path / "k19.svg")])

@@ -34,6 +34,7 @@ def test_a_leaf_cluster_makes_eight_times_its_light_less_one_and_lives_five_step
     assert leaves(two[2])[0] == (7, 5), "the first cluster stands in full light"
 
 
+@pytest.mark.slow
 def test_a_branch_without_flow_is_cut_off_and_gone_a_step_later(two) -> None:
     shed = [step for step, word in enumerate(two) if count(word, "%")]
     assert shed

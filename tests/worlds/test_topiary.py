@@ -111,6 +111,7 @@ def test_more_buds_live_at_once_where_a_signal_wakes_more() -> None:
     assert living == sorted(set(living))
 
 
+@pytest.mark.slow
 def test_a_plant_of_800_steps_is_more_than_wires() -> None:
     picture = draw(system("K25"), 70, L=10)
     assert len(picture.scene.segments) > 241, "of 800 steps where one bud lives at a time"
@@ -124,6 +125,7 @@ def test_a_signal_goes_on_until_it_has_woken_so_many_buds() -> None:
     assert str(derive(before, 6)[-1]) == "@o F b F b F"
 
 
+@pytest.mark.slow
 def test_the_fir_tree_is_cut_to_its_outline() -> None:
     fir = derive(system("K24b"), 90)
     asked = [module.arguments[0] for word in fir for module in word if module.symbol == "?E"]
