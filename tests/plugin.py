@@ -16,7 +16,7 @@ pytest_plugins = ["tests.browser.fixtures"]
 
 FEW_EXAMPLES = 5
 """How many examples of a law a quick run tries, unless the law sets a number of its own."""
-FEW_VARIANTS = 12
+FEW_VARIANTS = 8
 """How many variants of a test a quick run tries, spread over all of them."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""

@@ -158,7 +158,6 @@ def test_a_mistake_in_a_macro_is_shown_where_it_is_used() -> None:
     assert (named.value.line, named.value.column) == (3, 10)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "\n".join(f"#define A{i} A{i + 1} A{i + 1}" for i in range(40)) + "\nAxiom: F A0",
     "\n".join(f"#define A{i} [A{i + 1}]" for i in range(400)) + "\nAxiom: F A0",

@@ -245,7 +245,6 @@ def test_probabilities_that_were_changed_are_told() -> None:
     assert grogra("\\axiom a, a # b ?0.7").notes == ("a stays as it is with the probability that its rules leave: 0.3.",)
 
 
-@pytest.mark.slow
 def test_too_long_a_sum_of_probabilities_is_refused() -> None:
     with pytest.raises(ModelLimitError, match="Write their probabilities as numbers"):
         grogra("\\const p 0.001," + "a # b ?p," * 900)

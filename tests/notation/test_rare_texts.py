@@ -209,7 +209,6 @@ LOST = [
 """What a careless writer might make of a system, and what of it does not read back."""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("text", "lost"), LOST)
 def test_a_text_that_reads_back_as_another_system_is_never_given(text: str, lost: str) -> None:
     careless = replace(ABOP, write=lambda _: text)
@@ -254,7 +253,6 @@ def test_a_constant_without_a_value_warns_of_nothing() -> None:
     assert warnings(LSystem((Pattern("A", (Name("d"),)),), rules)) == []
 
 
-@pytest.mark.slow
 def test_sums_are_multiplied_out_before_they_are_compared() -> None:
     k = sympy.Symbol("k", real=True)
     assert equal_values(k * (k + 1), k**2 + k)
@@ -270,3 +268,10 @@ def test_the_keyword_alone_is_marked(text: str, marked: str) -> None:
         read(text, "cpfg")
     assert caught.value.column == 1
     assert caught.value.end == 1 + len(marked)
+
+
+@pytest.mark.parametrize("notation", ["abop", "cpfg", "grogra", "mathematica"])
+def test_what_a_limit_refuses_is_not_taken_for_what_a_notation_lacks(notation: str) -> None:
+    system = read("axiom: A(1) B")
+    with limits(line=2), pytest.raises(ModelLimitError, match="This line has 4 characters; the limit is 2"):
+        write(system, notation)
