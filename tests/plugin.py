@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+from collections import defaultdict
 from collections.abc import Iterator
 
 import pytest
@@ -13,8 +14,11 @@ from lsys_kit.budget import limits
 pytest_plugins = ["tests.browser.fixtures"]
 """The browser is for the tests of the lessons and for the benchmarks."""
 
-FEW_EXAMPLES = 5
-"""How many examples of a law a quick run tries, unless the law sets a number of its own."""
+EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
+"""How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with
+`--thorough`, or where `CI` is set, it is thorough."""
+FEW_VARIANTS = 8
+"""How many variants of a test are tried, spread over all of them, unless the run is thorough."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
@@ -25,32 +29,57 @@ os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`--screenshots FOLDER` keeps what the browser tests see; `--renew-pictures` writes the golden pictures anew."""
     parser.addoption("--screenshots", metavar="FOLDER", help="put pictures of what the browser tests see into this folder")
+    parser.addoption("--thorough", action="store_true", default=bool(os.environ.get("CI")),
+                     help="try all variants of each test, and many examples of each law, as where CI is set")
     parser.addoption("--renew-pictures", action="store_true", help="renew the golden pictures of the printed figures")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
+    """The whole suite is run by a process for each core, unless another number is asked for."""
+    alone = hasattr(config, "workerinput") or any(map(config.getoption, ("collectonly", "benchmark_only", "usepdb")))
+    if config.args_source is pytest.Config.ArgsSource.TESTPATHS and config.option.numprocesses is None and not alone:
+        config.option.numprocesses = "auto"
+    return (yield)
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no deadline, and tries fewer
-    examples where slow tests are left out."""
+    """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no deadline."""
     from hypothesis import settings
 
-    settings.register_profile("kit", settings.default, deadline=None)
-    settings.register_profile("quick", settings.get_profile("kit"), max_examples=FEW_EXAMPLES)
-    settings.load_profile("quick" if "not slow" in config.option.markexpr else "kit")
+    quick = "not slow" in config.option.markexpr
+    for name, many in EXAMPLES.items():
+        settings.register_profile(name, settings.default, deadline=None, max_examples=many)
+    settings.load_profile("quick" if quick else "thorough" if config.option.thorough else "usual")
     config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
     if config.option.benchmark_only:
         config.option.dist = "no"  # several processes would measure each other
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks; of many variants only a thorough
+    run tries all."""
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
         if "browser" in fixtures or "lab" in fixtures:
             item.add_marker("browser")
         if "benchmark" in fixtures or "benchmarks" in item.path.parts or item.path.suffix == ".ipynb":
             item.add_marker("slow")
+    if not config.option.thorough:
+        few = _few_variants(items)
+        config.hook.pytest_deselected(items=[item for item in items if item not in few])
+        items[:] = [item for item in items if item in few]
+
+
+def _few_variants(items: list[pytest.Item]) -> set[pytest.Item]:
+    """Of each test at most a few variants."""
+    variants = defaultdict(list)
+    for item in items:
+        variants[item.nodeid.partition("[")[0]].append(item)
+    return {of_one[place * len(of_one) // few] for of_one in variants.values()
+            for few in [min(FEW_VARIANTS, len(of_one))] for place in range(few)}
 
 
 def pytest_collection_finish() -> None:

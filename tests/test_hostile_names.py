@@ -297,6 +297,7 @@ def test_a_file_may_have_any_name_or_is_refused(text, tmp_path):
         assert (tmp_path / lines[1].removeprefix("mtllib ")).exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_matplotlib_reads_no_formula(text):
     if refused(lambda: draw(made(text), 2)) is None:
@@ -308,6 +309,7 @@ def test_matplotlib_reads_no_formula(text):
                 if label.get_text() and label.get_parse_math() and set("$\\") & set(label.get_text())]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [text for text in HOSTILE if "\0" not in text and text != "\ud800"], ids=ascii)
 def test_the_shell_prints_nothing_that_a_terminal_obeys(text, tmp_path, capsys):
     (tmp_path / "model.txt").write_text(f"axiom: A\nA -> {text}\n")

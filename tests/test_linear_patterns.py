@@ -121,11 +121,13 @@ def test_what_a_pattern_repeats_takes_linear_time(patterns: Callable[[], Iterato
     assert {where: each for where, each in times.items() if each[0] > SECONDS} == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pattern", [r"(?:a+)+b", r"\(\s*(?:\w+\s*,?\s*)*\)", r"x[ \t]*y?[ \t]*:", r"(?:a|b|ab)*c"])
 def test_a_run_that_can_be_divided_in_two_ways_is_seen(pattern: str) -> None:
     assert slowest(re.compile(pattern), "match")[0] > SECONDS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pattern", [r"\w+:", r"\w+$", r"\s*axiom", r"(?:ab)+c"])
 def test_a_search_that_tries_each_character_of_a_run_is_seen(pattern: str) -> None:
     assert slowest(re.compile(pattern), "search")[0] > SECONDS

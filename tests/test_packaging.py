@@ -29,6 +29,7 @@ def test_the_wheel_is_pure_python(wheel):
     assert wheel.name.endswith("-py3-none-any.whl")
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_every_file_of_the_package(wheel):
     package = {str(path.relative_to(ROOT)) for ending in ("py", "lark", "toml", "js", "mo")
                for path in (ROOT / "lsys_kit").rglob(f"*.{ending}")}
@@ -36,6 +37,7 @@ def test_the_wheel_holds_every_file_of_the_package(wheel):
     assert package - set(zipfile.ZipFile(wheel).namelist()) == set()
 
 
+@pytest.mark.slow
 def test_the_wheel_brings_the_course_along(wheel):
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {f"lsys_kit/course/{name}" for name in course_files()} - names == set()

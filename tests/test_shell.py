@@ -95,6 +95,7 @@ def test_a_file_is_read_as_any_editor_writes_it(shell, model, text):
     assert shell("derive", model(text), "-n", "2").out == "a\na b\na b a\n"
 
 
+@pytest.mark.slow
 def test_a_dash_reads_the_standard_input():
     done = process("derive", "-", "-n", "2", given=FIBONACCI.encode())
     assert (done.returncode, done.stdout.split(b"\n")) == (0, [b"a", b"a b", b"a b a", b""])
@@ -256,6 +257,7 @@ def test_page_writes_one_file_and_says_what_it_shows(shell, tmp_path):
     assert '"step":9' in text
 
 
+@pytest.mark.slow
 def test_page_takes_models_of_files_and_links_and_says_what_it_holds(shell, model, tmp_path):
     random = model("n = 3 in 1 .. 4\naxiom: A(n)\nA(t) -> A(t+n) B : 0.5\n")
     said = shell("page", random, "--seed", "7", "-o", str(tmp_path / "a.html"))
@@ -269,6 +271,7 @@ def test_page_shows_a_map_too(shell, tmp_path):
     assert said.out == "Step 2: 9 vertices, 12 walls, 4 cells. ABAB | BABA | ABAB | BABA\n"
 
 
+@pytest.mark.slow
 def test_page_fixes_the_forces_of_cells_that_only_the_kernel_lays_out(shell, tmp_path):
     said = shell("page", "K34", "-n", "1", "-o", str(tmp_path / "a.html"))
     assert said.out.startswith("Step ")
@@ -406,6 +409,7 @@ def test_stages_tells_how_long_cells_live(shell, tmp_path):
     refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives cannot be told", "lets time pass")
 
 
+@pytest.mark.slow
 def test_stages_unfolds_all_symbols_or_some(shell, tmp_path):
     path = str(tmp_path / "net.svg")
     assert "5 stages A, I, F" in shell("stages", "K19", "-o", path).out
@@ -516,6 +520,7 @@ def test_a_message_of_a_model_is_no_traceback_in_a_real_process(model):
 
 # --- the process ------------------------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 def test_a_reader_that_goes_away_is_no_fault():
     derive = subprocess.Popen([sys.executable, "-m", "lsys_kit", "derive", "K5", "-n", "8"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -601,6 +606,7 @@ def left_alone(doing: str, **limits: float) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
 @pytest.mark.parametrize(("doing", "limits", "said"), [
     ("while True: pass", {"seconds": 0.1}, "The command was not finished in 1 seconds. Take fewer steps."),

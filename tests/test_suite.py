@@ -51,6 +51,7 @@ FILLED_IN = {"Chance", "Definitions", "Draft", "Effort", "_Shares"}
 """Classes of data that are filled in while a text is read, random numbers are drawn or systems are searched for."""
 
 
+@pytest.mark.slow
 def test_records_are_frozen() -> None:
     files = [path for room in ("notation", "derivation") for path in sorted((ROOT / "lsys_kit" / room).rglob("*.py"))]
     classes = [node for path in files for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from decimal import Decimal
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +40,12 @@ def of_each_kind_added() -> Iterator[None]:
 
 with of_each_kind_added():
     EXERCISES = exercises()
-WRONG: list[tuple[Exercise, WrongAnswer]] = [(exercise, wrong) for exercise in EXERCISES for wrong in wrong_answers(exercise)]
+
+
+@cache
+def wrong_answers_to(exercise: Exercise) -> list[WrongAnswer]:
+    """The wrong answers to an exercise that are understood."""
+    return list(wrong_answers(exercise))
 
 
 def right_answers(exercise: Exercise) -> list[object]:

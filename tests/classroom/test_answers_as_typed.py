@@ -59,6 +59,7 @@ def test_at_most_one_wrong_answer_in_five_gets_only_a_verdict():
     assert shares["names"] >= 0.4 * shares.total()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_answer_is_not_accepted_and_its_reply_does_what_it_did(name):
     exercise = KIT[name]
@@ -95,6 +96,7 @@ SHOWN_BY_QUOTING = "Not readable yet"
 """A reply about the form of an answer may repeat what was typed in the right form."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, exercise in KIT.items() if exercise.kind not in ("choice", "symbol", "line")])
 def test_no_reply_gives_the_solution_away(name):
     solution = " ".join(KIT[name].solution.split())

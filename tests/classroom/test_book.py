@@ -38,6 +38,7 @@ def made_book(name):
         return book(system(name))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", systems())
 def test_a_book_is_small_json_and_always_the_same(name):
     with limits(seconds=AN_HOUR):
@@ -51,6 +52,7 @@ def test_a_book_is_small_json_and_always_the_same(name):
     assert made["end"] or made["steps"] >= 10
 
 
+@pytest.mark.slow
 def test_the_tables_of_settled_systems_are_a_few_hundred_bytes():
     def size(*books):
         return len(zlib.compress(json.dumps([[each["states"], each["successors"]] for each in books]).encode(), 9))
@@ -122,6 +124,7 @@ def test_colours_are_those_of_the_pictures():
     assert GREEN in palette.values()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", systems())
 def test_the_diagram_of_a_book_is_that_of_the_picture(name):
     diagram, picture = made_book(name)["net"], drawn_stages(stages(system(name)))

@@ -68,6 +68,7 @@ def test_the_rows_of_the_lessons_are_all_there():
                                    "K21 K22 K23 K24 K24b K25 K26 K27 L0 L1 L2 L3 L4")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", systems())
 def test_each_system_can_be_explored(id):
     panel = explore(id)
@@ -126,6 +127,7 @@ def test_the_koch_snowflake():
     assert str(derivation[2]) == (3 * side).removesuffix("--")
 
 
+@pytest.mark.slow
 def test_chance_turns_the_bulges_of_a_stochastic_koch_curve_and_not_their_number():
     first = {"outward": "F+F--F+F", "inward": "F-F++F-F"}
     for seed in range(40):

@@ -46,6 +46,7 @@ def found(*pieces: object, together: int = 1, seconds: int = 60) -> list[object]
     return in_child_processes(worked, pieces, seconds, together=together)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("together", [1, 3])
 @pytest.mark.parametrize(("piece", "comes"), [
     ("crash", Failed(CRASHED)), ("leave", Failed(CRASHED)), ("memory", Failed(TOO_MUCH)),

@@ -61,6 +61,7 @@ def test_a_short_word_is_shown_whole() -> None:
     assert shown(ViewModel(read("axiom: A\nA -> ε")).sight(1, {}), 900) == "the empty word"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [200, 640, 1152])
 @pytest.mark.parametrize(("id", "step"), [("K5", 4), ("K12", 5), ("P9", 9), ("J4", 40)])
 def test_of_a_long_word_the_middle_is_left_out(id: str, step: int, width: int) -> None:
@@ -95,6 +96,7 @@ def test_every_token_is_painted() -> None:
     assert dots.max() < 1.5 * dots.min()
 
 
+@pytest.mark.slow
 def test_the_pixels_do_not_depend_on_the_process() -> None:
     code = ("import hashlib; from tests.classroom.test_composite import *\n"
             "print(hashlib.sha256(composite_png(sight('K19', 12))).hexdigest())")
@@ -111,6 +113,7 @@ def test_a_page_without_a_kernel_shows_it() -> None:
     assert bundle["text/plain"].endswith(". Run this cell to play.")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_names_of_any_kind_are_painted(text: str) -> None:
     view = refused(lambda: ViewModel(made(text)).sight(1, {}))

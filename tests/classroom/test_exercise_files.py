@@ -55,6 +55,7 @@ def test_a_good_file_has_no_problems(folder):
     assert problems_in(folder) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("was", "becomes", "line", "says"), [
     ('kind = "number"', 'kind = "nummer"', 9, 'There is no kind "nummer". Did you mean "number"?'),
     ('steps = 6', 'steps = "6"', 14, '"steps" must be a whole number'),

@@ -53,15 +53,18 @@ def german() -> Iterator[None]:
 # The catalogues
 
 
+@pytest.mark.slow
 def test_the_template_has_every_text():
     assert po_text(template()) == TEMPLATE.read_bytes(), _RENEW
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", codes())
 def test_a_catalogue_has_the_texts_of_the_template(code):
     assert po_text(renewed(code)) == po_file(code).read_bytes(), _RENEW
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", codes())
 def test_a_compiled_catalogue_says_what_its_source_says(code):
     with po_file(code).with_suffix(".mo").open("rb") as file:
@@ -76,6 +79,7 @@ def _translations(catalogue: Catalog) -> dict[object, object]:
     return {key(message.id): key(message.string) for message in catalogue if message.id and is_translated(message)}
 
 
+@pytest.mark.slow
 def test_german_lacks_no_text():
     assert [message.id for message in renewed("de") if message.id and not is_translated(message)] == []
 
@@ -87,6 +91,7 @@ def _forms(message) -> list[tuple[str, str]]:
     return [(message.id[1], form) for form in message.string]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", codes())
 def test_a_translation_has_the_placeholders_of_its_text(code):
     in_files = {text for lesson in LESSONS for text in texts(lesson)}
@@ -101,6 +106,7 @@ def test_a_translation_has_the_placeholders_of_its_text(code):
                     assert {*placeholders(text)} - {*placeholders(translation)} <= {"number"}, text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", codes())
 def test_a_translation_has_the_code_and_the_listings_of_its_text(code):
     for message in renewed(code):
@@ -222,6 +228,7 @@ def test_a_country_is_taken_for_its_language():
         language("en")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("variable", "said"), [
     ({"LSYS_KIT_LANGUAGE": "de"}, "Richtig."), ({"LANG": "de_DE.UTF-8"}, "Correct.")])
 def test_the_environment_chooses_by_its_own_variable_alone(variable, said):

@@ -293,6 +293,14 @@ def test_pictures_and_words_are_revealed_as_a_notebook_shows_them():
 
 def test_markup_is_taken_from_the_kit_alone():
     assert "text/html" not in media(Own())
+    shown = revealed(Own())
+    assert isinstance(shown, HTMLMath)
+    assert shown.value == "<div>$x^2$</div>"
+    del Own._repr_latex_
+    shown = revealed(Own())
+    assert isinstance(shown, HTML)
+    assert "&lt;own&gt;" in shown.value
+    assert "script" not in shown.value
 
 
 @pytest.mark.parametrize("module", ["elsewhere", "lsys_kit.elsewhere"])
@@ -304,14 +312,6 @@ def test_what_the_kit_shows_has_budgets_of_its_own(module):
 
     Shown.__module__ = module
     assert media(Shown())["text/plain"] == f"in a task: {module == 'elsewhere'}"
-    shown = revealed(Own())
-    assert isinstance(shown, HTMLMath)
-    assert shown.value == "<div>$x^2$</div>"
-    del Own._repr_latex_
-    shown = revealed(Own())
-    assert isinstance(shown, HTML)
-    assert "&lt;own&gt;" in shown.value
-    assert "script" not in shown.value
 
 
 def test_a_picture_of_another_kind_is_an_image_with_its_text():
@@ -320,6 +320,7 @@ def test_a_picture_of_another_kind_is_an_image_with_its_text():
     assert "data:image/svg+xml;base64," in html({"image/svg+xml": "<svg/>", "text/plain": "a"})
 
 
+@pytest.mark.slow
 def test_a_figure_is_not_seen_before_the_prediction():
     figure, _ = plt.subplots()
     predict("How long?", figure)

@@ -201,6 +201,7 @@ def test_a_heading_that_no_link_has_is_refused(heading: str) -> None:
         linked(forged(f"{heading}\naxiom: A".encode()))
 
 
+@pytest.mark.slow
 def test_a_bomb_is_refused_in_little_memory() -> None:
     bomb = forged(b"abop\naxiom: " + b"A" * 200_000_000)
     assert len(bomb) < 300_000

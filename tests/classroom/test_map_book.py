@@ -48,6 +48,7 @@ def kinds(found):
     return [Edge(wall.label, ">" if wall.directed else "") for wall in found.walls]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", FLAT)
 def test_a_book_holds_the_walls_points_and_cells_that_are_derived(id):
     book = book_of(id)
@@ -63,6 +64,7 @@ def test_a_book_holds_the_walls_points_and_cells_that_are_derived(id):
         assert tuple(counts) == found.counts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", FLAT)
 def test_daughters_lie_on_their_mother_and_walls_without_one_divide_cells(id):
     book = book_of(id)
@@ -114,6 +116,7 @@ def test_walls_with_and_without_a_direction_are_different_states():
     assert kind_of(made.axiom[2]) == made.productions[0].predecessor
 
 
+@pytest.mark.slow
 def test_more_steps_than_can_come_to_rest_end_the_book_with_the_reason():
     made = read_map(DIVIDED.replace("steps: 2", "steps: 30"))
     with limits(seconds=1):
@@ -135,6 +138,7 @@ def test_markers_that_never_match_are_told_in_the_panel():
     assert book_of("K30")["said"] == ""
 
 
+@pytest.mark.slow
 def test_a_book_says_where_relaxation_ends():
     book = map_book(maps_at_rest(map_system("K29"), Forces(rest=1, pressure=0.01, damping=10)), {})
     assert [(page["iterations"], page["settled"]) for page in book["maps"][1:3]] == [(20_000, False)] * 2
@@ -142,11 +146,13 @@ def test_a_book_says_where_relaxation_ends():
     assert all(page["settled"] for page in book_of("K29")["maps"])
 
 
+@pytest.mark.slow
 def test_no_label_is_left_out_because_a_turtle_knows_it():
     places = {place["letter"] for place in book_of("K32")["net"]["places"]}
     assert {"F", "f", "L", "n"} <= places
 
 
+@pytest.mark.slow
 def test_a_diagram_of_very_many_walls_is_a_sentence():
     axiom = "".join(f"A{number}" for number in range(70))
     book = map_book(maps_at_rest(read_map(f"map: {axiom}"), Forces()), {})
@@ -154,10 +160,12 @@ def test_a_diagram_of_very_many_walls_is_a_sentence():
     assert {place for _, _, place, _ in book["states"]} == {-1}
 
 
+@pytest.mark.slow
 def test_books_are_small():
     assert all(len(json.dumps(book_of(id))) < 50_000 for id in map_systems())
 
 
+@pytest.mark.slow
 def test_forces_are_the_sliders_of_a_map():
     panel = explore("map-offset-walls", 3, pressure="3/10")
     assert [each["name"] for each in panel.model["constants"]] == ["stiffness", "rest", "pressure", "damping"]
@@ -168,6 +176,7 @@ def test_forces_are_the_sliders_of_a_map():
     assert panel.text.startswith("Step 3: 26 vertices, 33 walls, 8 cells. ")
 
 
+@pytest.mark.slow
 def test_the_picture_that_is_kept_is_that_of_the_step():
     panel = explore("K28", 2)
     [points] = panel.sight.picture.places
@@ -178,12 +187,14 @@ def test_the_picture_that_is_kept_is_that_of_the_step():
     assert panel._repr_mimebundle_()["image/svg+xml"] == kept["text"]
 
 
+@pytest.mark.slow
 def test_a_link_keeps_the_forces():
     panel = explore("K30", 5, pressure=0.5)
     again = explore(panel.link)
     assert (again.system, again.step, again.settings) == (map_system("K30"), 5, panel.settings)
 
 
+@pytest.mark.slow
 def test_a_map_is_explored_by_its_text_and_its_own_steps_are_shown_first():
     panel = explore(DIVIDED)
     assert (panel.system, panel.step) == (read_map(DIVIDED), 2)
@@ -197,6 +208,7 @@ def test_settings_that_a_map_has_not_are_errors(choices, error, message):
         explore("K28", **choices)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("broken", "told"), [
     (DIVIDED.replace("]B", "B"), "is never closed"), (DIVIDED.replace("map:", "mp:"), "map"),
     (DIVIDED.replace("map: ABAB\n", ""), "There is no first cell"), (DIVIDED.replace("[-A][+A]", "[-A]"), "not|backwards")])

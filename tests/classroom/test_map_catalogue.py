@@ -47,6 +47,7 @@ def test_an_entry_explains_itself(id: str) -> None:
     assert read_map(str(map_system(id))) == map_system(id)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", COUNTS)
 def test_a_first_look_shows_some_steps(id: str) -> None:
     picture = draw(map_system(id))

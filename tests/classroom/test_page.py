@@ -132,6 +132,7 @@ def test_books_that_share_their_parts_are_the_same_books(books: list[dict[str, A
     assert books_of({"books": deflated(shared(books))}) == books
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("setting", ["MOST_BOOKS", "MOST_CHARACTERS", "seconds"])
 def test_a_page_has_room_for_few_books_and_time_for_one_task(monkeypatch, setting: str) -> None:
     found = read("n = 3 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)")
@@ -165,6 +166,7 @@ def test_what_is_asked_for_is_on_the_page_before_all_else(monkeypatch) -> None:
         assert data["model"]["together"] == (("n", "m") if len(asked) == 1 else ())
 
 
+@pytest.mark.slow
 def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
     found = read("p = 0.5 in 0 .. 1 by 1/2\naxiom: A\nA -> A B : p\nA -> A : 1-p")
     data = page_data(found, seed=12)
@@ -180,6 +182,7 @@ def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
     assert page_data(found, seed=12)["model"]["fixed"] == "Fixed on this page: seed = 12."
 
 
+@pytest.mark.slow
 def test_what_is_fixed_is_said() -> None:
     data = page_data(read("n = 3 in 1 .. 1000000\nk = 2\naxiom: A(n)\nA(t) -> A(t+n) B(k)"), {"k": "5/2"}, 7)
     assert data["model"]["fixed"].startswith("Fixed on this page: k = 2.5. It holds ")
@@ -205,6 +208,7 @@ def test_a_language_has_a_name(language: object) -> None:
     assert '<html lang="de-AT">' in page("A", {"mode": "plane"}, "", "de-AT")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_no_text_becomes_markup(text: str) -> None:
     said = f"{text} and {text}"

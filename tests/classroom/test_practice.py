@@ -56,6 +56,7 @@ def test_a_misconception_has_its_own_reply(topic, level):
         assert reply in verdict.message or verdict.message.count(", or ") == 2
 
 
+@pytest.mark.slow
 @each_topic
 def test_no_two_of_the_first_twelve_are_the_same(topic):
     questions = {practice(topic, 2, seed).exercise.question for seed in range(12)}

@@ -169,6 +169,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("broken", BROKEN)
 def test_a_broken_record_stops_no_check_is_left_as_it_is_and_is_named_once(course, broken):
     BROKEN[broken](course / FILE)

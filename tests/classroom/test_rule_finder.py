@@ -55,6 +55,7 @@ def test_words_that_nothing_fits_say_why() -> None:
     assert counts(derive(system("J2"), 3), context=(1, 1))[-1] == "1"
 
 
+@pytest.mark.slow
 def test_more_than_a_thousand_systems_are_not_listed() -> None:
     (step,) = rule_finder(["abcde", "ab" * 14]).found["steps"]
     assert (step["count"], step["systems"]) == ("17,550", [])

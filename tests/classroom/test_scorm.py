@@ -27,7 +27,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.scorm.answers import page_data, rounded_key
 from lsys_kit.classroom.scorm.package import ADL, CONTENT, MANIFEST, lessons_of, manifest, package, page_names, write_package
 from lsys_kit.classroom.scorm.page import exercise_page
-from tests.classroom.answers import EXERCISES, WRONG, as_typed, of_each_kind_added, right_answers
+from tests.classroom.answers import EXERCISES, as_typed, of_each_kind_added, right_answers, wrong_answers_to
 from tests.classroom.front_end import joined
 
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
@@ -216,7 +216,8 @@ def _of_buttons(exercise: Exercise, form: str) -> bool:
 
 
 def test_to_a_wrong_answer_that_is_understood_a_page_says_what_the_kit_says(said):
-    understood = [(exercise, wrong) for exercise, wrong in WRONG if exercise.id in checked_in_pages()]
+    understood = [(exercise, wrong) for exercise in EXERCISES if exercise.id in checked_in_pages()
+                  for wrong in wrong_answers_to(exercise)]
     typed = [(exercise, _text(as_typed(exercise, wrong.answer))) for exercise, wrong in understood]
     replies = said([[checked_in_pages()[exercise.id], text] for exercise, text in typed])
     for (exercise, text), reply in zip(typed, replies, strict=True):

@@ -87,6 +87,7 @@ def test_the_kit_derives_the_words_of_cpfg(name: str) -> None:
         assert hashlib.sha256(printed(word).encode()).hexdigest() == step["sha256"], step["n"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", IN_SINGLES)
 def test_the_kit_derives_the_words_of_cpfg_up_to_single_precision(name: str) -> None:
     for word, step in zip(words(name), CASES[name]["steps"], strict=True):

@@ -94,6 +94,7 @@ def test_a_wall_inside_has_a_cell_on_each_side_and_one_outside_has_one() -> None
     assert Counter(met.values()) == {1: 24, 2: 12}
 
 
+@pytest.mark.slow
 def test_every_box_of_a_cuboid_has_two_walls_of_each_kind() -> None:
     for found in derive(K33, 7):
         assert {tuple(sorted(found.labels(cell))) for cell in found.cells} == {("PQ", "PQ", "PR", "PR", "QR", "QR")}

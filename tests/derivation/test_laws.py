@@ -159,6 +159,7 @@ def ends(system: LSystem) -> bool:
     return closure(States(system), 12) is not None
 
 
+@pytest.mark.slow
 @settings(max_examples=40, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 @given(systems().filter(ends), st.integers(0, 6))
 def test_counts_are_the_axioms_times_a_power_of_the_growth_matrix(system: LSystem, step: int) -> None:
@@ -249,6 +250,7 @@ def defined(system: LSystem, seed: int = 0) -> list[reference.PlainWord]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", MIXED)
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(data=st.data(), seed=seeds)

@@ -155,6 +155,7 @@ class TestOtherCharts:
         assert len(grid.values) == 36
         assert all(grid.values[a, b] == pytest.approx(grid.values[b, a]) for a, b in grid.values)
 
+    @pytest.mark.slow
     def test_numbers_leave_a_grid_that_is_too_fine(self) -> None:
         rows = tuple((a, b, 5, a * b) for a in range(40) for b in range(30))
         svg = Table(("a", "b", "step", "F"), rows, 3).plot().svg

@@ -74,6 +74,7 @@ def budgeted_work() -> None:
         check_budget()
 
 
+@pytest.mark.slow
 def test_a_budget_ends_with_its_frame_whatever_interrupts_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
     assert len(interrupted_everywhere(budgeted_work, BUDGETS, budgeted_work)) > 500

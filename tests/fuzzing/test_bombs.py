@@ -35,6 +35,7 @@ def _at_work_for_two_seconds(_: object) -> None:
         pass
 
 
+@pytest.mark.slow
 @linux
 def test_what_breaks_a_limit_is_found() -> None:
     """What works, allocates and recurses without end is measured as what it is."""

@@ -48,6 +48,7 @@ def test_no_cell_is_turned_inside_out_and_halves_are_alike() -> None:
             assert np.ptp(rooms(found, points)) < 1e-6
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(st.lists(st.floats(-0.2, 0.2), min_size=24, max_size=24))
 def test_wherever_the_corners_begin_they_come_to_rest_in_the_same_cube(shifts: list[float]) -> None:
@@ -63,6 +64,7 @@ def test_a_first_cell_listed_inside_out_is_the_same_cell() -> None:
         assert np.ptp(one, axis=0) == pytest.approx(np.ptp(other, axis=0), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_relaxation_that_blows_up_is_said_and_the_finished_steps_are_kept() -> None:
     wild = Forces(stiffness=100, rest=10, damping=0.1, pressure=8)
     with pytest.raises(ModelValueError, match="The relaxation blows up") as caught:

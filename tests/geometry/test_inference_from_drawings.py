@@ -70,6 +70,7 @@ def found_again(rules: str, steps: int = 3) -> DrawingFits:
     return fits
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*PLANTS, *CURVES])
 def test_a_system_is_found_from_its_strokes(name: str) -> None:
     found_again({**PLANTS, **CURVES}[name])

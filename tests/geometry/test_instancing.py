@@ -100,6 +100,7 @@ def test_interpretation_rules_are_drawn() -> None:
     agree(found, place_path(trace(derive(system, 5)[-1]), 30))
 
 
+@pytest.mark.slow
 def test_many_steps_are_no_deep_recursion() -> None:
     system = read("axiom: A\nA -> F A")
     found = draw_all_instanced(system, 3_000)

@@ -164,6 +164,7 @@ def test_what_takes_too_long_is_stopped() -> None:
         next(place_maps(develop(read_map(K28), 0)))
 
 
+@pytest.mark.slow
 def test_a_relaxation_that_does_not_come_to_rest_says_so() -> None:
     """Long springs in weak, strongly damped walls: they buckle, and go on moving."""
     forces = Forces(stiffness=1, rest=1, pressure=0.01, damping=10)
@@ -172,6 +173,7 @@ def test_a_relaxation_that_does_not_come_to_rest_says_so() -> None:
     assert found[-1].iterations == MOST_ITERATIONS
 
 
+@pytest.mark.slow
 def test_a_relaxation_that_blows_up_keeps_the_steps_before() -> None:
     """By which step it blows up is chaotic: another machine may find another one."""
     maps, forces = [*develop(read_map(K28), 2)], Forces(stiffness=100, rest=1, pressure=0.01, damping=0.1)

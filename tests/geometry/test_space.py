@@ -129,6 +129,7 @@ def test_the_turtles_in_the_plane_and_in_space_agree(found, angle, heading):
     assert flat.unknown == whole.unknown
 
 
+@pytest.mark.slow
 @given(free_words, degrees, st.data())
 def test_a_branch_brings_the_turtle_back(found, angle, data):
     tradition, modules = found

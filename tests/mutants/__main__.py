@@ -99,7 +99,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         os.environ["PYTEST_DEBUG_TEMPROOT"] = folder
         runner = Runner(Switches(sites), list(sites), asked.jobs, tell, log)
-        status = pytest.main(["-q", "-s", "-p", "no:cacheprovider", "-m", CHOSEN, *asked.tests], [runner])
+        status = pytest.main(["-qs", "-n0", "--thorough", "-p", "no:cacheprovider", "-m", CHOSEN, *asked.tests], [runner])
     print(f"\n{table(outcomes)}\n\nSurvivors:\n{_survivors(sites, outcomes)}\n{(time.monotonic() - begun) / 60:.0f} minutes")
     return int(status)
 

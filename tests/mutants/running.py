@@ -165,7 +165,7 @@ def _forget() -> None:
 def fails_alone(change: Change) -> bool:
     """Whether a quick test of its room fails while a change is on from the beginning, and none without it."""
     room = Path(change.file).parts[1]
-    tests = ["-q", "-x", "-m", "not slow and not browser", f"tests/{room}", f"lsys_kit/{room}"]
+    tests = ["-q", "-x", "--thorough", "-m", "not slow and not browser", f"tests/{room}", f"lsys_kit/{room}"]
     with tempfile.TemporaryDirectory() as folder:
         (file := Path(folder, "on.json")).write_text(json.dumps({"mutants": [asdict(change)]}), "utf-8")
         passes = [subprocess.run([sys.executable, "-m", module, *of_it, *tests], cwd=ROOT, capture_output=True).returncode == 0

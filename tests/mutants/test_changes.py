@@ -41,6 +41,7 @@ def test_in_scripts_comments_texts_and_patterns_are_left_alone() -> None:
         ("work", """if (a.every((b) => b)) return a.replace(/x - 1/g, "y < 2") - `${a} > 3`;""")]
 
 
+@pytest.mark.slow
 def test_a_seed_draws_the_same_mutants_again() -> None:
     assert list(drawn(0, 15)) == list(drawn(0, 15)) != list(drawn(1, 15))
     assert len(drawn(0, 15)) == 15

@@ -472,6 +472,7 @@ def spoilt(draw: st.DrawFn) -> str:
     return text
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(st.one_of(spoilt(), spoilt(), *(st.lists(st.sampled_from(PIECES)).map(glue.join) for glue in ("", " "))))
 def test_any_text_is_a_system_or_an_explained_slip(text: str) -> None:

@@ -208,6 +208,7 @@ def test_every_place_of_a_transcript_is_one_of_the_source(text: str) -> None:
     assert places == sorted(places) or "0" in text or "1" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["p1 : ", "n=5, ", "δ=", "∗ ", "’", "∧ ", ".5→ ", "A .5", "  ", "\n ", "* <", "- ", "\\bar{A}",
                                   "0 ", "= ", "\\quad ", "& ", "\\\\ ", "$", "**", "**A", "\\begin{array} ", "\\quad A -> B ",
                                   "\n r l", "A -> B\n r l\n", "Here is ", " und A -> B", "\\[ ", "- A ", "(1) ", "\\bar{"])

@@ -268,3 +268,10 @@ def test_the_keyword_alone_is_marked(text: str, marked: str) -> None:
         read(text, "cpfg")
     assert caught.value.column == 1
     assert caught.value.end == 1 + len(marked)
+
+
+@pytest.mark.parametrize("notation", ["abop", "cpfg", "grogra", "mathematica"])
+def test_what_a_limit_refuses_is_not_taken_for_what_a_notation_lacks(notation: str) -> None:
+    system = read("axiom: A(1) B")
+    with limits(line=2), pytest.raises(ModelLimitError, match="This line has 4 characters; the limit is 2"):
+        write(system, notation)

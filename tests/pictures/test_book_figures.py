@@ -282,6 +282,7 @@ def test_a_leaf_is_the_same_on_both_sides(id: str) -> None:
     assert different(np.concatenate([points, mirrored])) == different(points)
 
 
+@pytest.mark.slow
 def test_a_sunflower_has_as_many_seeds_florets_and_petals_as_its_numbers_say() -> None:
     counts = derive(system("ABOP-4-sunflower"), 630)[-1].counts()
     assert [counts[organ] for organ in "SRMNOP"] == [441, 125, 15, 15, 15, 18]

@@ -23,6 +23,7 @@ def fills(picture: CellworkPicture) -> list[str]:
     return re.findall(r'<polygon[^>]*fill="([^"]*)"', picture.svg)
 
 
+@pytest.mark.slow
 def test_a_picture_says_how_much_there_is() -> None:
     assert str(draw(K33, 2)) == ("step 2; 18 vertices, 33 edges, 20 walls, 4 cells; walls of one colour have the same label")
     assert str(draw(derive(K33, 0))) == "step 0; 8 vertices, 12 edges, 6 walls, 1 cell; walls of one colour have the same label"
@@ -51,6 +52,7 @@ def test_a_full_turn_changes_nothing_and_half_a_turn_does() -> None:
     assert 2 < front.width < 2.5  # the wall in front is magnified
 
 
+@pytest.mark.slow
 def test_one_cell_or_one_generation_is_lit() -> None:
     assert len(fills(draw(K33, 4, cell=3))) == 6
     assert "<path" in draw(K33, 4, cell=3).svg

@@ -194,6 +194,7 @@ def frames(content):
     return [frame.convert("RGB").copy() for frame in ImageSequence.Iterator(Image.open(io.BytesIO(content)))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["gif", "apng"])
 @pytest.mark.parametrize("id", ["T2", "J1", "K14"])
 def test_a_film_has_a_picture_for_each_step(id, form):

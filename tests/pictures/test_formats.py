@@ -87,6 +87,7 @@ def pixels(image: Image.Image, size: tuple[int, int] | None = None) -> np.ndarra
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 def test_each_picture_is_kept_as_svg_png_and_pdf_of_one_size(picture: Any, tmp_path: Path) -> None:
     for ending in ("svg", "png", "pdf"):
         picture.save(tmp_path / f"a.{ending}")
@@ -99,6 +100,7 @@ def test_each_picture_is_kept_as_svg_png_and_pdf_of_one_size(picture: Any, tmp_p
         picture.save(tmp_path / "a.bmp")
 
 
+@pytest.mark.slow
 def test_a_page_is_sound_and_the_same_every_time(picture: Any) -> None:
     with pikepdf.open(io.BytesIO(picture.pdf)) as file:
         assert file.check_pdf_syntax() == []
@@ -112,6 +114,7 @@ def test_a_page_is_sound_and_the_same_every_time(picture: Any) -> None:
     assert again == picture.pdf
 
 
+@pytest.mark.slow
 def test_nothing_is_painted_at_the_border(picture: Any) -> None:
     image = np.asarray(Image.open(io.BytesIO(picture.png)).convert("L"))
     for edge in (image[0], image[-1], image[:, 0], image[:, -1]):
@@ -132,6 +135,7 @@ def test_a_page_and_pixels_show_the_same(picture: Any) -> None:
     assert ours.min() < 250
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_figure_shows_the_same(kind: str) -> None:
     picture = KINDS[kind]()
@@ -190,6 +194,7 @@ def test_rows_keep_their_steps_their_times_and_the_mark_in_every_format(monkeypa
                 assert left == pytest.approx((255, 242, 194), abs=2)  # the mark behind the last row
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [lambda: draw(system("K5"), 4), lambda: draw(GROWING, steps=[3, 4]),
                                   lambda: draw(system("K19"), 9)])
 def test_what_is_too_much_for_a_page_has_three_hundred_dots_per_inch(make: Callable[[], Any]) -> None:
@@ -314,6 +319,7 @@ def test_a_name_of_a_file_is_a_text_or_a_path(path: Any) -> None:
 
 # --- the shell --------------------------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("typed", "name"), [
     (["draw", "K5", "-n", "2", "--dpi", "192"], "k5.png"), (["draw", "K28", "-n", "1"], "k28.gif"),
     (["draw", "K19", "-n", "5", "--turntable", "--size", "60"], "k19.mp4"), (["stages", "J4", "-n", "2"], "j4.apng"),

@@ -23,17 +23,20 @@ def points_of(each: LanguageClass) -> set[tuple[int, int]]:
     return {point for point in POINTS if each.holds(*point)}
 
 
+@pytest.mark.slow
 def test_each_class_of_chomsky_lies_inside_the_one_before() -> None:
     for outer, inner in pairwise(map(points_of, CHOMSKY)):
         assert inner < outer
 
 
+@pytest.mark.slow
 def test_0l_languages_are_context_sensitive_and_cut_across_the_smaller_classes() -> None:
     free, (_, sensitive, *smaller) = points_of(FREE), map(points_of, CHOMSKY)
     assert free < sensitive
     assert all(each & free and each - free and free - each for each in smaller)
 
 
+@pytest.mark.slow
 def test_kl_systems_contain_0l_systems_and_cut_across_all_but_the_greatest_class() -> None:
     context, (enumerable, *smaller) = points_of(CONTEXT), map(points_of, CHOMSKY)
     assert points_of(FREE) < context < enumerable

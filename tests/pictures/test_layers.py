@@ -74,6 +74,7 @@ def layout(name: str) -> Layout | None:
     return clearest_layout(net, rows, Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {}))
 
 
+@pytest.mark.slow
 def test_arcs_cross_seldom() -> None:
     layouts = [found for name in systems() if (found := layout(name))]
     assert sum(map(crossings, layouts)) <= 45
@@ -87,11 +88,13 @@ def smallest_text_on_a_page(svg: str) -> float:
     return min(sizes) * min(1.0, PAGE / width)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["J6", "K12", "K15", "P5", "ABOP-3.2", "ABOP-5.12b"])
 def test_text_is_legible_on_a_page(name: str) -> None:
     assert smallest_text_on_a_page(draw(stages(system(name))).svg) >= LEGIBLE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["K12", "ABOP-3.2"])
 def test_what_would_be_too_wide_stands_in_rows_that_are_narrow_enough(name: str) -> None:
     net = stages(system(name))
@@ -108,6 +111,7 @@ def test_a_row_of_stages_without_crossings_stays_a_row() -> None:
     assert len({y for _, y in found.circles.values()}) == 2
 
 
+@pytest.mark.slow
 def test_a_net_with_very_many_arcs_stands_in_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each of 60 symbols becomes 4 others: to look for layers of so many arcs would take minutes."""
     names = [f"s{number}" for number in range(60)]

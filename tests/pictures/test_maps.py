@@ -70,6 +70,7 @@ def test_labels_can_be_left_out() -> None:
         draw(K30, 1, labels="no")  # type: ignore[call-overload]
 
 
+@pytest.mark.slow
 def test_a_step_that_does_not_settle_is_said_not_to() -> None:
     floppy = draw(read_map("map: ABAB\nA -> B[-A]x[+A]B\nB -> A"), 1, rest=1, pressure="0.01", damping=10)
     assert str(floppy) == "steps 0 to 1; the last: 8 vertices, 9 walls, 2 cells; step 1 does not settle"

@@ -112,6 +112,7 @@ SVG_ONLY = {"net": lambda **size: draw(stages(system("P2")), **size), "map": lam
             "lineage": lambda **size: draw(lineage(system("P6"), 2), **size)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES | SVG_ONLY)
 def test_a_picture_is_enlarged_as_a_whole(name):
     make = (PICTURES | SVG_ONLY)[name]
@@ -124,6 +125,7 @@ def test_a_picture_is_enlarged_as_a_whole(name):
     assert make(size=900).svg.split("</title>")[1] == make().svg.split("</title>")[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_png_has_the_size_that_was_chosen_and_shows_the_same(name):
     usual = Image.open(io.BytesIO(PICTURES[name]().png)).convert("L")
@@ -141,6 +143,7 @@ def test_a_size_that_makes_no_sense_is_told(size):
         draw(GROWING, 1, size=size)
 
 
+@pytest.mark.slow
 def test_a_picture_that_needs_too_much_memory_is_refused():
     with pytest.raises(ModelLimitError):
         _ = draw(GROWING, 3, size=(20_000, 20_000)).png
@@ -153,6 +156,7 @@ def test_a_film_has_the_size_that_was_chosen(what):
 
 # --- the shell --------------------------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 def test_the_shell_draws_steps_and_seeds_from_a_side_in_a_size(tmp_path, capsys):
     main(["draw", "K7", "-n", "3,4", "--seeds", "1,2", "--size", "900", "-o", str(tmp_path / "k7.png")])
     main(["draw", "K19", "-n", "9", "--view", "60,20", "--size", "300,300", "-o", str(tmp_path / "k19.svg")])

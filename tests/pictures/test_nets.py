@@ -272,6 +272,7 @@ def test_a_system_without_stages_is_an_empty_picture() -> None:
     assert "Stage diagram: 0 stages" in drawn_stages(stages(read("axiom: +")), (1,))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("positions", [False, True])
 @pytest.mark.parametrize("name", systems())
 def test_no_text_covers_another(name: str, positions: bool) -> None:

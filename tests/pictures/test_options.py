@@ -145,6 +145,7 @@ def test_on_dark_paper_nothing_is_left_of_light_paper(kind):
     assert not {LIGHT.paper.lower(), LIGHT.ink.lower(), LIGHT.quiet.lower()} & painted(svg)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["the drawing of a turtle", "drawings side by side", "a filament", "a stage diagram"])
 def test_svg_png_and_figures_have_the_same_paper(kind):
     picture = DRAWN[kind](background="dark")
@@ -165,6 +166,7 @@ def test_lines_on_dark_paper_are_those_of_the_theme_in_every_format():
     assert {to_hex(edge) for edge in figure(picture).collections[0].get_edgecolor()} == {seen.lower()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["the drawing of a turtle", "drawings side by side", "a filament", "a stage diagram",
                                   "a cellwork"])
 def test_without_paper_the_page_shines_through(kind):

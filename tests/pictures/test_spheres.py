@@ -27,6 +27,7 @@ def areas(svg: str) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("around", [0, 20, 45, 100, 311])
 @pytest.mark.parametrize("above", [-90, -60, 0, 25, 80, 90])
 def test_the_cells_in_front_cover_the_sphere(around: int, above: int) -> None:
@@ -36,6 +37,7 @@ def test_the_cells_in_front_cover_the_sphere(around: int, above: int) -> None:
         assert sum(areas(last.svg)) == pytest.approx(spheres, rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_picture_says_what_it_shows() -> None:
     picture = draw(K34, 2)
     assert str(picture) == "steps 0 to 2; the last: 26 vertices, 40 walls, 16 cells"

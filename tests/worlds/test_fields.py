@@ -273,6 +273,7 @@ def test_the_steps_asked_for_at_once_are_those_asked_for_one_by_one() -> None:
     assert all(len(a) < len(b) for a, b in pairwise(at_once))
 
 
+@pytest.mark.slow
 def test_every_process_gets_the_same_answers() -> None:
     program = "import sys; from lsys_kit import derive, read; print(derive(read(sys.stdin.read()), 7)[-1])"
     texts = {subprocess.run([sys.executable, "-c", program], input=SHADED, capture_output=True, text=True, check=True,

@@ -28,11 +28,13 @@ def two():
     return derive(system("K23"), 17)
 
 
+@pytest.mark.slow
 def test_a_leaf_cluster_makes_eight_times_its_light_less_one_and_lives_five_steps(two) -> None:
     assert all(0 <= made <= 7 and 1 <= life <= 5 for word in two for made, life in leaves(word))
     assert leaves(two[2])[0] == (7, 5), "the first cluster stands in full light"
 
 
+@pytest.mark.slow
 def test_a_branch_without_flow_is_cut_off_and_gone_a_step_later(two) -> None:
     shed = [step for step, word in enumerate(two) if count(word, "%")]
     assert shed
@@ -48,6 +50,7 @@ def test_two_trees_lean_away_from_one_another(two) -> None:
     assert inner < ((centres <= 0) | (centres >= 4)).sum()
 
 
+@pytest.mark.slow
 def test_a_tree_that_stands_close_has_less_leaves_than_one_that_stands_free() -> None:
     made = [sum(flow for flow, _ in leaves(derive(system("K23"), 14, apart=apart)[-1])) for apart in (2, 4, 12)]
     assert made == sorted(made)
@@ -80,6 +83,7 @@ def test_opaque_leaves_shed_more_than_clear_ones() -> None:
     assert {made for made, _ in leaves(derive(system("K23"), 8, k=1)[-1])} <= {1, 7}, "no light is lost where leaves are clear"
 
 
+@pytest.mark.slow
 def test_the_panel_shows_the_forest_with_a_slider_for_each_constant() -> None:
     panel = explore("K23")
     assert {"k", "apart", "trees", "life", "rest", "size"} <= set(panel.trait_names())

@@ -117,6 +117,7 @@ def test_a_tree_topples_when_its_top_and_its_branches_are_dead(crowded) -> None:
     assert lying[fallen.widths == 5].sum() > 10, "shoots of the two others lie on the ground"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("m", [1, 5])
 def test_a_tree_in_the_open_never_topples(m: int) -> None:
     for tree in NEIGHBOURS:

@@ -97,6 +97,7 @@ SOLIDS = {
 """How far outside a solid that is 8 high a place is; negative inside."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solid", SOLIDS)
 def test_every_shoot_begins_inside_the_solid(solid: int) -> None:
     ends = scene_of(derive(bare(system("K25")), 100, solid=solid, wakes=4)[-1]).segments.ends
@@ -110,6 +111,7 @@ def test_more_buds_live_at_once_where_a_signal_wakes_more() -> None:
     assert living == sorted(set(living))
 
 
+@pytest.mark.slow
 def test_a_plant_of_800_steps_is_more_than_wires() -> None:
     picture = draw(system("K25"), 70, L=10)
     assert len(picture.scene.segments) > 241, "of 800 steps where one bud lives at a time"
@@ -123,6 +125,7 @@ def test_a_signal_goes_on_until_it_has_woken_so_many_buds() -> None:
     assert str(derive(before, 6)[-1]) == "@o F b F b F"
 
 
+@pytest.mark.slow
 def test_the_fir_tree_is_cut_to_its_outline() -> None:
     fir = derive(system("K24b"), 90)
     asked = [module.arguments[0] for word in fir for module in word if module.symbol == "?E"]

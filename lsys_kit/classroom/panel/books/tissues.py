@@ -59,10 +59,10 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
     >>> from lsys_kit.classroom.panel.books.tissue_layout import tissue_at_rest
     >>> from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> three = read_map("sphere: D>D>D>\\nsteps: 1\\nD> -> D>[-e]D>[+e]D>")
+    >>> three = read_map("sphere: D>D>D>\\nD> -> E>")
     >>> made = tissue_book(tissue_at_rest(three, SPHERE_FORCES), {})
     >>> made["sizes"][1]
-    '8 vertices, 12 walls, 6 cells; 8 \u2212 12 + 6 = 2'
+    '2 vertices, 3 walls, 3 cells; 2 \u2212 3 + 3 = 2'
     """
     system = found.system
     kinds = kinds_of_walls(system)
