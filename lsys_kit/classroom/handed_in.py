@@ -14,6 +14,8 @@ from lsys_kit.errors import ModelFileError, quotable
 
 DEPTH, MOST_FILES = 8, 10_000
 """So deep folders are looked into, and so many files are taken at most."""
+_OTHER = "It was not read:"
+"""So begins the problem of a file whose name has another ending."""
 _PASSED_OVER = ("__MACOSX",)
 """Folders that systems put into archives, beside those whose names begin with a dot."""
 
@@ -41,10 +43,10 @@ class HandedIn:
 
 
 def handed_in(folder: str | Path, ending: str = "") -> list[HandedIn]:
-    """The files with this ending in a folder, and what stands there in their place, in the order of their names.
+    """The files in a folder, in the order of their names; those with another ending are listed with that as their problem.
 
-    A folder in it belongs to one student, with all that is in it; one without such files is listed with that as its problem, as
-    are links, which are never followed. Names that begin with a dot are passed over.
+    A folder in it belongs to one student, with all that is in it; one without files of this ending is listed with that as its
+    problem, as are links, which are never followed. Names that begin with a dot are passed over.
 
     Raises
     ------
@@ -56,7 +58,7 @@ def handed_in(folder: str | Path, ending: str = "") -> list[HandedIn]:
         found = list(islice((each for entry in _entries(folder) for each in _of_student(entry, ending)), MOST_FILES + 1))
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(str(folder))}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
-    if not found:
+    if all(each.problem.startswith(_OTHER) for each in found):
         kind = f"whose names end in {ending} " if ending else ""
         raise ModelFileError(f'There are no files {kind}in "{quotable(str(folder))}"')
     if len(found) > MOST_FILES:
@@ -90,29 +92,30 @@ def _of_student(entry: os.DirEntry[str], ending: str) -> Iterator[HandedIn]:
     path = Path(entry.path)
     if entry.is_dir(follow_symlinks=False):
         yield from _in_folder(path, ending)
-    elif _ends(entry.name, ending) or entry.is_symlink():
-        yield HandedIn(path.stem, entry.name, path, _problem(entry))
+    else:
+        problem = _problem(entry, ending)
+        yield HandedIn(entry.name if problem.startswith(_OTHER) else path.stem, entry.name, path, problem)
 
 
 def _in_folder(path: Path, ending: str) -> Iterator[HandedIn]:
     """What the folder of one student holds."""
     try:
-        inside = list(_files(path, ending))
+        inside = list(_files(path))
     except OSError as fault:
         yield HandedIn(path.name, path.name, path, f"Its folder cannot be read: {fault.strerror}")
         return
     for each in inside:
-        yield HandedIn(path.name, os.path.relpath(each.path, path.parent), Path(each.path), _problem(each))
-    if not inside:
+        yield HandedIn(path.name, os.path.relpath(each.path, path.parent), Path(each.path), _problem(each, ending))
+    if not any(_ends(each.name, ending) for each in inside):
         kind = f"whose names end in {ending} " if ending else ""
         yield HandedIn(path.name, path.name, path, f"There are no files {kind}in this folder")
 
 
-def _files(folder: Path, ending: str, depth: int = DEPTH) -> Iterator[os.DirEntry[str]]:
+def _files(folder: Path, depth: int = DEPTH) -> Iterator[os.DirEntry[str]]:
     for entry in _entries(folder):
         if entry.is_dir(follow_symlinks=False):
-            yield from _files(Path(entry.path), ending, depth - 1) if depth > 1 else ()
-        elif _ends(entry.name, ending):
+            yield from _files(Path(entry.path), depth - 1) if depth > 1 else ()
+        else:
             yield entry
 
 
@@ -138,8 +141,10 @@ def _ends(name: str, ending: str) -> bool:
     return name.lower().endswith(ending)
 
 
-def _problem(entry: os.DirEntry[str]) -> str:
+def _problem(entry: os.DirEntry[str], ending: str) -> str:
     """Why an entry cannot be read."""
     if entry.is_symlink():
         return "It is a link, and links are not followed"
+    if not _ends(entry.name, ending):
+        return f'{_OTHER} "{quotable(entry.name)}" does not end in {ending}'
     return "" if entry.is_file(follow_symlinks=False) else "It is no plain file"

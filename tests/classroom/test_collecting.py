@@ -72,6 +72,41 @@ def test_an_answer_is_what_is_written(sources, found):
     assert answers_in(notebook(*sources)).found == found
 
 
+def test_an_answer_without_its_check_is_found_and_said():
+    cells = [{"cell_type": "code", "id": f"exercise-1-{number}-answer", "source": source} for number, source in enumerate(
+        [f"answer = {RIGHT!r}", "answer = ...", 'answer = 1\ncheck("1.3", 2)', "answer = 3", "answer = (("], 1)]
+    answers = answers_in(json.dumps({"cells": [*cells, {"cell_type": "code", "source": 'check("1.4", answer)'},
+                                               {"cell_type": "code", "source": "answer = 5"}]}))
+    assert answers.found == {"1.1": RIGHT, "1.3": 2, "1.4": 3}
+    assert answers.problems == [
+        "1.5: code cell 5 is no Python, line 1",
+        '1.1: the line check("1.1", answer) is missing; it was checked all the same',
+        "code cell 7 has an answer and no line check(...), so that nobody knows to which exercise"]
+
+
+@pytest.mark.parametrize(("content", "said"), [
+    (notebook().encode("utf-16"), "It is written in UTF-16, not in UTF-8"),
+    (json.dumps({"worksheets": [{"cells": []}], "nbformat": 3}).encode(), "It is a notebook of version 3 of the format"),
+    (b"\x89PNG", "It is no notebook"), (b"", "It is no notebook")])
+def test_what_is_no_notebook_of_today_is_named(content, said, tmp_path):
+    path = tmp_path / "ann.ipynb"
+    path.write_bytes(content)
+    [problem] = scores_in((path, None))["problems"]
+    assert problem.startswith(said)
+
+
+def test_every_file_that_was_handed_in_has_a_row_or_is_named(tmp_path):
+    for name in ("ann.ipynb", "bea.zip", "cem.py", "dora/1.ipynb", "dora/photo.docx", "emil/all.zip"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(answered(RIGHT))
+    def unread(name: str) -> str:
+        return f'It was not read: "{name}" does not end in .ipynb'
+
+    assert {marks.student: marks.remarks for marks in collect(tmp_path)} == {
+        "ann": (), "bea.zip": (unread("bea.zip"),), "cem.py": (unread("cem.py"),), "dora": (unread("photo.docx"),),
+        "emil": (unread("all.zip"), "There are no files whose names end in .ipynb in this folder")}
+
+
 @pytest.mark.parametrize("source", [
     "answer = (((", "answer = " + "(" * 9_000, "answer = " + "-" * 15_000 + "1", "answer = 'a\0b'", "answer = 9" + "9" * 9_000,
     "check(" * 3_000, "x=" * 20_001, "answer = 08",

@@ -288,9 +288,10 @@ def test_a_misprint_that_the_kit_corrects_is_right():
 
 
 @pytest.mark.parametrize(("exercise", "answer", "mark", "said"), [
-    ("2.1", "2, 3, 5, 8, 13, 26", 5 / 6, "Right: 5 of 6 numbers. The first 5"), ("2.1", "1, 2, 3, 5, 8, 13", 0, "Look at number 1"),
-    ("2.1", "2, 3, 5", 3 / 6, "Right: 3 of 6 numbers. You have 3"), ("17.1", "b, cba, cba", 2 / 4, "Right: the first 2 of 4 words. You"),
-    ("5.5", "S -> L\nL -> A\nA -> B\nB -> L", 3 / 4, "Right: 3 of 4 transitions. That is"), ("1.1", "bl ar bl ar al", 0, "Did you"),
+    ("2.1", "2, 3, 5, 8, 13, 26", 5 / 6, "Right: 5 of 6 numbers. The first 5"),
+    ("2.1", "1, 2, 3, 5, 8, 13", 0, "Look at number 1"), ("2.1", "2, 3, 5", 3 / 6, "Right: 3 of 6 numbers. You have 3"),
+    ("17.1", "b, cba, cba", 2 / 4, "Right: the first 2 of 4 words. You"), ("1.1", "bl ar bl ar al", 0, "Did you"),
+    ("5.5", "S -> L\nL -> A\nA -> B\nB -> L", 3 / 4, "Right: 3 of 4 transitions. That is"),
     ("1.2", 64, 0, "That is"), ("7.3", 4, 0, "By itself"), ("8.2", "B", 0, "The system says")])
 def test_a_part_is_given_where_a_part_is_right_and_nothing_for_a_known_mistake(exercise, answer, mark, said):
     verdict = check(exercise, answer)

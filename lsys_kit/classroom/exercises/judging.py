@@ -171,14 +171,14 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
-    near = found.near or bool(fitting) and all(wrong.near for wrong in fitting)
+    near = found.near or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)
     message = f"{said} {_explained(fitting, found) if fitting else found.message}".lstrip()
     return Verdict("Almost" if near else "Not yet", message, mark), bool(fitting) or kind.honest(exercise, own, solution)
 
 
 def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, float]:
-    """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is, or where there are none."""
+    """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is."""
     kind = ANSWER_KINDS[exercise.kind]
     right, all = kind.parts_right(exercise, own, solution) if kind.parts_right else (0, 0)
     return (gettext(kind.parts_said, right=right, all=all), right / all) if right else ("", 0)

@@ -7,6 +7,7 @@ is computed once, before the first child begins.
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
 import time
@@ -124,7 +125,7 @@ def scores_in(handed: tuple[Path, str | None]) -> dict[str, object]:
     path, own = handed
     scores, replies, problems = dict[str, float](), dict[str, str](), list[str]()
     try:
-        answers = answers_in(content_of(path, MOST_BYTES).decode("utf-8-sig", errors="replace"))
+        answers = answers_in(_text_of(content_of(path, MOST_BYTES)))
     except ModelFileError as mistake:
         return {"scores": scores, "replies": replies, "problems": [mistake.message]}
     known = {exercise.id for exercise in exercises()}
@@ -142,6 +143,12 @@ def scores_in(handed: tuple[Path, str | None]) -> dict[str, object]:
         elif id in known:
             _check(id, answer, scores, replies)
     return {"scores": scores, "replies": replies, "problems": problems}
+
+
+def _text_of(content: bytes) -> str:
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        raise ModelFileError("It is written in UTF-16, not in UTF-8: open it in Jupyter, and save it again")
+    return content.decode("utf-8-sig", errors="replace")
 
 
 def _check(id: str, answer: object, scores: dict[str, float], replies: dict[str, str]) -> None:

@@ -2,14 +2,15 @@
 
 Of the cells only what somebody has written down is taken: the text, number or list in `answer = ...`, or in `check("1.1", ...)`
 itself. Cells are read from the first to the last; where an exercise is checked several times, the last counts, as in a
-notebook that is run. What would have to be computed is no answer here, except for sums and fractions of numbers, which are
-taken as they are written.
+notebook that is run. Where the line with `check` is missing, the id of the cell says to which exercise its answer belongs.
+What would have to be computed is no answer here, except for sums and fractions of numbers, which are taken as they are written.
 """
 
 from __future__ import annotations
 
 import ast
 import json
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -21,6 +22,8 @@ COMPUTED = object()
 """In place of an answer that would have to be computed."""
 _TEXTS_IN = ("read", "Decimal")
 """Functions of which a text that is their only argument is the answer."""
+_ANSWER_CELL, _CHECK = re.compile(r"exercise-(.{1,60})-([^-]{1,20})-answer"), re.compile(r"""check\(\s*["']([^"']{1,99})["']""")
+"""The id of a cell for an answer, and the line that checks it; both name the exercise."""
 
 
 @dataclass
@@ -45,31 +48,49 @@ def answers_in(notebook: str) -> Answers:
     >>> answers_in(json.dumps({"cells": [cell]})).found
     {'1.1': 'al br'}
     """
-    answers, names = Answers(), dict[str, object]()
-    for number, source in enumerate(_code_cells(notebook), 1):
+    answers, names, unchecked = Answers(), dict[str, object](), list[tuple[str, str, object]]()
+    for number, (exercise, source) in enumerate(_code_cells(notebook), 1):
         if "check" not in source and "=" not in source:
             continue
+        where = f"{exercise}: " * bool(exercise) + f"code cell {number}"
         try:
             statements = ast.parse(_python(source)).body if len(source) <= MOST_CHARACTERS else None
         except (SyntaxError, ValueError, RecursionError, MemoryError) as fault:
             line = f", line {fault.lineno}" if isinstance(fault, SyntaxError) and fault.lineno else ""
-            answers.problems.append(f"code cell {number} is no Python{line}")
+            answers.problems.append(f"{where} is no Python{line}")
             continue
         if statements is None:
-            answers.problems.append(f"code cell {number} has more than {MOST_CHARACTERS:,} characters")
+            answers.problems.append(f"{where} has more than {MOST_CHARACTERS:,} characters")
             continue
-        for statement in statements:
-            answers.found.update(_checked(statement, names))
+        found = {id: answer for statement in statements for id, answer in _checked(statement, names)}
+        answers.found.update(found)
+        if found:  # which may be what a cell before has written
+            unchecked = [each for each in unchecked if each[0] not in ("", *found)]
+        elif any(map(_is_answer, statements)) and names["answer"] is not ...:
+            unchecked.append((exercise, where, names["answer"]))
+    for exercise, where, answer in unchecked:
+        if exercise and exercise not in answers.found:
+            answers.found[exercise] = answer
+            answers.problems.append(f'{exercise}: the line check("{exercise}", answer) is missing; it was checked all the same')
+        elif not exercise:
+            answers.problems.append(f"{where} has an answer and no line check(...), so that nobody knows to which exercise")
     return answers
 
 
-def _code_cells(notebook: str) -> Iterator[str]:
-    """The texts of the code cells."""
+def _is_answer(statement: ast.stmt) -> bool:
+    """Whether a statement is `answer = ...`."""
+    return isinstance(statement, ast.Assign) and [ast.unparse(target) for target in statement.targets] == ["answer"]
+
+
+def _code_cells(notebook: str) -> Iterator[tuple[str, str]]:
+    """The texts of the code cells, each with its exercise, as far as it is known."""
     try:
         content = json.loads(notebook)
     except (ValueError, RecursionError):
         raise ModelFileError("It is no notebook, or was cut off") from None
     cells = content.get("cells") if isinstance(content, dict) else None
+    if isinstance(content, dict) and "worksheets" in content:
+        raise ModelFileError("It is a notebook of version 3 of the format: open it in Jupyter, and save it again")
     if not isinstance(cells, list):
         raise ModelFileError("It is no notebook: it has no cells")
     if len(cells) > MOST_CELLS:
@@ -77,7 +98,16 @@ def _code_cells(notebook: str) -> Iterator[str]:
     for cell in cells:
         if isinstance(cell, dict) and cell.get("cell_type") == "code":
             source = cell.get("source", "")
-            yield source if isinstance(source, str) else "".join(map(str, source)) if isinstance(source, list) else ""
+            text = source if isinstance(source, str) else "".join(map(str, source)) if isinstance(source, list) else ""
+            yield _exercise_of(cell.get("id"), text), text
+
+
+def _exercise_of(id: object, source: str) -> str:
+    """The exercise to which a cell belongs, by its id or by what it checks; "" where neither says so."""
+    if isinstance(id, str) and (cell := _ANSWER_CELL.fullmatch(id)):
+        return f"{cell[1]}.{cell[2]}"
+    checked = _CHECK.search(source[:MOST_CHARACTERS])
+    return checked[1].strip() if checked else ""
 
 
 def _python(source: str) -> str:

@@ -175,9 +175,10 @@ def _same(_: Exercise, mine: Net, wanted: Net) -> bool:
 
 
 def _transitions_right(_: Exercise, mine: Net, wanted: Net) -> tuple[int, int]:
-    """How many transitions are right, where places are called as in the solution; the tokens at the start are a part, too."""
-    right = (Counter(mine.firings) & Counter(wanted.firings)).total() + (wanted.start is not None and mine.start == wanted.start)
-    return right, max(len(mine.firings), len(wanted.firings)) + (wanted.start is not None)
+    """How many transitions are right, with places called as in the solution; the tokens at the start are a part, too."""
+    asked = wanted.start is not None
+    right = (Counter(mine.firings) & Counter(wanted.firings)).total() + (asked and mine.start == wanted.start)
+    return right, max(len(mine.firings), len(wanted.firings)) + asked
 
 
 def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
