@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 import pytest
@@ -105,7 +106,7 @@ def test_a_range_may_be_calculated_from_constants_before_it() -> None:
 
 
 @pytest.mark.parametrize(("text", "axiom"), [
-    ("FFF", "F F F"), ("FX", "F X"), ("al br", "al br"), ("F(1)FF(2)", "F(1)F F(2)"), ("XFX", "XFX"), ("Ff", "F f"),
+    ("FFF", "F F F"), ("FX", "F X"), ("al br", "al br"), ("F(1)FF(2)", "F(1)F F(2)"), ("XFX", "X F X"), ("Ff", "F f"),
     ("X1", "X1"),
 ])
 def test_letters_written_together_are_parted_where_there_is_one_way(text: str, axiom: str) -> None:
@@ -113,10 +114,26 @@ def test_letters_written_together_are_parted_where_there_is_one_way(text: str, a
     assert write(read(f"axiom: {text}{extra}")).split("\n")[0] == f"axiom: {axiom}"
 
 
+@pytest.mark.parametrize(("rules", "said"), [
+    ("A -> aAA", "aAA=a A A"), ("F -> F[-F]cF[+F][F]", "cF=c F"), ("a -> cRb", "cRb"), ("X -> XtF", "XtF=X t F"),
+    ("A -> FX", "FX=F X"), ("A -> AB", "AB=A B"), ("A -> Bud A", ""), ("A -> Bud A\nB -> A", "Bud"), ("a -> leaf a", "leaf"),
+    ("A -> Flower(2) A", "Flower"), ("A -> Apex(2)", "Apex"), ("a -> abc", "abc"), ("A -> Bb", ""), ("A -> bBb", "bBb"),
+    ("A -> [+AxA]A", "AxA=A x A"), ("a -> FaF\nF -> FF", "FaF=F a F FF=F F"), ("X -> F+X\nF -> FXf", "FXf=F X f"),
+    ("Al(t) -> Al(t+1) Br(0)", ""), ("ar -> al br\nal -> aRal", ""), ("S -> aSb", "aSb=a S b"), ("A -> newA", "newA=n e w A"),
+    ("alphabet: aAA\nA -> aAA", ""), ("A -> a A A", ""), ("A -> f(A)", "")])
+def test_letters_that_run_together_are_parted_or_it_is_said(rules: str, said: str) -> None:
+    first = rules.split("\n")[-1].partition(" ->")[0].partition("(")
+    notes = read(f"axiom: {first[0]}{'(0)' * bool(first[1])}\n{rules}").notes
+    found = [f"{name}={' '.join(parts)}" for note in notes if (match := re.match(r'"(\w+)" is read as (.*)\.', note))
+             for name, parts in [(match[1], match[2].split())] if "one symbol" not in note]
+    whole = [note.split('"')[1] for note in notes if "is read as one symbol" in note]
+    assert " ".join([*found, *whole]) == said
+
+
 def test_a_name_that_is_rewritten_stays_whole() -> None:
     system = read("axiom: ab\nab -> a b ab\na -> aab")
     assert [str(rule) for rule in system.productions] == ["ab -> a b ab", "a -> aab"]
-    assert system.notes == ()
+    assert system.notes == ('"aab" is read as one symbol; for several put blanks between them: a ab.',)
 
 
 def test_a_name_in_the_alphabet_stays_whole() -> None:

@@ -30,6 +30,8 @@ class TurtleDialect:
         system does not say.
     any_sign
         Whether any sign may be a symbol without a meaning, like a letter.
+    names
+        Whether commands have names of several letters.
     """
 
     name: str
@@ -39,6 +41,7 @@ class TurtleDialect:
     width: float = 0.1
     pixels: bool = False
     any_sign: bool = False
+    names: bool = False
 
     @property
     def column(self) -> str:
@@ -52,7 +55,7 @@ class TurtleDialect:
 
 TURTLE_DIALECTS: Mapping[str, TurtleDialect] = {dialect.name: dialect for dialect in (
     TurtleDialect("abop", "The Algorithmic Beauty of Plants", width=2.4, pixels=True),
-    TurtleDialect("grogra", "GROGRA", length=100.0, left=-1),
+    TurtleDialect("grogra", "GROGRA", length=100.0, left=-1, names=True),
     TurtleDialect("plant-string", "plant strings"),
     TurtleDialect("fractint", "Fractint", any_sign=True),
 )}

@@ -1,25 +1,36 @@
 """Letters written together: `F -> FF` means two segments, `ar -> al br` means two cells of two letters each.
 
 Books glue one-letter symbols together; the kit's notation has symbols of several letters. A name of several letters that
-no production rewrites, and that can be divided in just one way into symbols that the system has, is read as those symbols; so
-is a row of capital letters, one of which a production rewrites: in `A -> BA` the B is new. An `alphabet:` line keeps a name
-whole.
+no production rewrites, and that can be divided in just one way into symbols that the system has, is read as those symbols.
+Where productions rewrite single letters alone, so is a row of letters with capitals behind the first, one of which the system
+knows: in `A -> BA` the B is new, in `A -> aAA` the a. A word, as `Bud` beside `B`, stays whole. Both ways are noted wherever
+the other could be meant, with what to type for it: an `alphabet:` line keeps a name whole, blanks divide it.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
-_NAME = re.compile(r"[A-Za-z_]\w+")
+_NAME, _ROW = re.compile(r"[A-Za-z_]\w+"), re.compile(r"[A-Za-z]+[A-Z][A-Za-z]*")
+"""A name of several signs; and one that is a row of letters rather than a word."""
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
+
+
+class _Known(NamedTuple):
+    """The symbols of a system: those that stay whole, those of which a name may be made, and whether all are single letters."""
+
+    whole: frozenset[str]
+    parts: frozenset[str]
+    letters: bool
 
 
 def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
@@ -30,7 +41,7 @@ def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
     ['b', 'a']
     """
     word = tuple(word)
-    return _segmented(word, _glued(flat(word), *_whole_and_parts(system)))
+    return _segmented(word, _glued(flat(word), _known(system)))
 
 
 def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
@@ -43,7 +54,7 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
     {'JF': ['J', 'F']}
     """
     made: dict[str, list[str]] = {}
-    while found := _glued(_divisible_modules(system), *_whole_and_parts(system)):
+    while found := _glued(_divisible_modules(system), _known(system)):
         made |= found
         system = replace(system, axiom=_segmented(system.axiom, found), productions=_segmented_rules(system.productions, found),
                          decomposition=_segmented_rules(system.decomposition, found),
@@ -55,8 +66,21 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
 def segment_with_notes(system: LSystem) -> LSystem:
     """What `segment_system` makes of a system, with a note for each name that was divided."""
     segmented, made = segment_system(system)
-    notes = (f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items())
-    return replace(segmented, notes=(*system.notes, *notes)) if made else system
+    notes = [f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items()]
+    notes += [f'"{name}" is read as one symbol; for several put blanks between them: {" ".join(pieces)}.'
+              for name, pieces in _words(segmented)]
+    return replace(segmented, notes=(*system.notes, *notes)) if notes else system
+
+
+def _words(system: LSystem) -> Iterator[tuple[str, list[str]]]:
+    """The names that stay whole and may be meant otherwise, each with the symbols that it would be."""
+    known = _known(system)
+    for name in dict.fromkeys(module.symbol for module in _divisible_modules(system)):
+        if name not in known.whole and len(name) > 1 and name.isascii() and name.isalpha():
+            if ways := _ways(name, known.parts):
+                yield name, ways[0]
+            elif known.letters and (_ROW.fullmatch(name) or not known.parts.isdisjoint(name)):
+                yield name, list(name)
 
 
 def check_digits(word: Iterable[Pattern], alphabet: Collection[str]) -> None:
@@ -94,32 +118,36 @@ def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, .
     return tuple(result)
 
 
-def _glued(modules: Iterable[Pattern], whole: frozenset[str], parts: frozenset[str]) -> dict[str, list[str]]:
+def _glued(modules: Iterable[Pattern], known: _Known) -> dict[str, list[str]]:
     """The glued names among some modules, and the symbols of which each is made."""
-    names = dict.fromkeys(module.symbol for module in modules if module.symbol not in whole and _NAME.fullmatch(module.symbol))
-    return {name: pieces for name in names if (pieces := _symbols_of_name(name, whole, parts))}
+    names = dict.fromkeys(each.symbol for each in modules if each.symbol not in known.whole and _NAME.fullmatch(each.symbol))
+    return {name: pieces for name in names if (pieces := _symbols_of_name(name, known))}
 
 
-def _whole_and_parts(system: LSystem) -> tuple[frozenset[str], frozenset[str]]:
-    """The names that stay whole, and the symbols of which a name may be made."""
+def _known(system: LSystem) -> _Known:
     rewritten = {module.symbol for rule in system.rules for module in rule.predecessors}
     rewritten |= {module.symbol for rule in system.meta for module in rule.predecessors}
     shown = [m.symbol for m in (*system.axiom, *(m for rule in system.rules for m in rule.modules))]
     whole = rewritten | set(system.alphabet) | {surface.name for surface in system.surfaces}
-    return frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS)
+    letters = not TURTLE_DIALECTS[system.turtle].names and all(len(symbol) == 1 for symbol in whole)
+    return _Known(frozenset(whole), frozenset(whole | {symbol for symbol in shown if len(symbol) == 1} | _ALWAYS), letters)
 
 
-def _symbols_of_name(name: str, whole: frozenset[str], parts: frozenset[str]) -> list[str]:
+def _symbols_of_name(name: str, known: _Known) -> list[str]:
     """The symbols that make a name; none where it is a symbol of its own."""
-    capitals = name.isalpha() and name.isupper() and not whole.isdisjoint(name)
-    return _unique_split(name, parts) or (list(name) if capitals else [])
+    if known.letters:
+        row = _ROW.fullmatch(name) and not known.parts.isdisjoint(name)
+    else:
+        row = name.isalpha() and name.isupper() and not known.whole.isdisjoint(name)
+    ways = _ways(name, known.parts)
+    return ways[0] if len(ways) == 1 else list(name) if row and not ways else []
 
 
-def _unique_split(name: str, parts: frozenset[str]) -> list[str]:
-    """The one way to divide a name into symbols; nothing where there is none or more than one."""
+def _ways(name: str, parts: frozenset[str]) -> list[list[str]]:
+    """The ways to divide a name into symbols, two at most."""
     ways: list[list[list[str]]] = [[[]]]
     for end in range(1, len(name) + 1):
         found = [[*way, name[start:end]] for start in range(max(0, end - 64), end) if name[start:end] in parts
                  for way in ways[start][:2]]
         ways.append(found[:2])
-    return ways[-1][0] if len(ways[-1]) == 1 else []
+    return ways[-1]
