@@ -101,7 +101,7 @@ _XL = ForeignFormat(
     [".rgg"])
 _L_PY = ForeignFormat(
     "a model of L-Py",
-    [r"#{4,} INITIALISATION\b", r"__\w+__ =", r"(?:[^\s:][^:\n]*+: )?n?produce\b(?![^\n]*;)",
+    [r"#{4,} INITIALISATION\b", r"__\w+__ =", r"(?:[^\s:][^:\n]*+: )?n?produce\b(?![^\n]*; (?:/[/*][^\n]*)?$)",
      rf"module\b \w+ (?:{_VALUES})? (?:[:#][^;\n]*)?$", r"extern \(", r"context \( \)\.", rf"def\b \w+ {_VALUES} :",
      r"from\b [\w.]+ import\b [\w*]", r"import\b \w"],
     "The kit has no Python code",
@@ -128,7 +128,7 @@ FORMATS: Sequence[ForeignFormat] = (
     ForeignFormat(
         "a model of lpfg, in the language L+C",
         [r'# include [<"]lpfgall\b', r"module\b \w+ (?:\([^()\n;]*\))? ;", r"derivation\b length :[^;/\n]*;",
-         r"(?:\{ )?n?produce\b[^;\n]*;"],
+         r"(?:\{ )?n?produce\b[^\n]*; (?:/[/*][^\n]*|\})?$"],
         "The kit has no code in C++",
         "Write a module, its condition and its successor as one rule: A(x) : x < 5 -> F(1) A(x+1)."),
     _L_PY,
@@ -233,7 +233,7 @@ def name_hint(name: str) -> str | None:
 
 def _claim(formats: Sequence[ForeignFormat], text: str) -> ModelSyntaxError | None:
     """The error at the first sign of the first format that has one in a text."""
-    plain = _without_comments(text[:GLANCE]) if formats else ""
+    plain = _without_comments(text[:GLANCE].replace("\r\n", " \n")) if formats else ""
     for row in formats:
         sign = row.sign_in(plain)
         if sign:

@@ -70,6 +70,8 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ("module S(struct_data);\nignore: Right Left;\ninterpretation:\nS(d) :\n{\n  nproduce F(d.l);\n}\n", 1),
     ],
     L_PY: [
+        ("Axiom: A\nderivation length: 3\nproduction:\nA :\n  produce ;(2) F(1) A\nendlsystem\n", 5),
+        ("Axiom: A\nproduction:\nA :\n  if True: produce F ; F(1)[+;(3)A]A\n", 4),
         ("Axiom: A\nderivation length: 3\nproduction:\nA --> F[+A]A\nendlsystem\n", 3),
         ("Axiom: -(90)U(1)\nproduction:\nU(x) < U(y) > U(z) --> U(x+y)\ninterpretation:\nU(x) --> f(1)\n", 2),
         ("n = 20\nAxiom: A(0)\nderivation length: n\nproduction:\nA(i) :\n    if i < n:\n        produce B(0)A(i+1)\n", 7),

@@ -237,6 +237,8 @@ def test_a_timed_system_lives_in_continuous_time() -> None:
 
 
 def test_the_letter_d_is_the_length_beside_the_angle_alone() -> None:
+    assert read("ω → F\nF → F+F") == read("ω: F\nF → F+F")
+    assert read("ω -> F\nF -> F+F\nδ = 60°").notes == ()
     assert read("ω: F\nδ = 60°\nd = 2").notes == ('"d" is read as the length of a segment.',)
     assert read("ω: F\nd = 2").constants[0].name == "d"
     assert read("angle: 60\naxiom: F\nd = 2").constants[0].name == "d"

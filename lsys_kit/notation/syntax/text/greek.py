@@ -9,12 +9,14 @@ import re
 import unicodedata
 from collections.abc import Iterator
 
+from lsys_kit.notation.syntax.text.statements import ARROW, OMEGA
 from lsys_kit.notation.syntax.text.transcript import Edit
 
 GREEK = re.compile(r"[Α-ΡΣ-Ωα-δζ-ωϑϕϱµ]|\\(?:[Aa]lpha|[Bb]eta|[Gg]amma|[Dd]elta|theta|lambda|mu|phi|psi|rho|sigma|tau|omega)\b")
 """A letter, or its macro in LaTeX."""
 _SETTING = re.compile(
-    r"(?:^|[,;])[ \t]*+(?:(?P<axiom>ω|\\omega)[ \t]*+[:=]|(?P<angle>δ|\\delta)[ \t]*+[:=](?:[ \t]*+(?P<value>\d[\d.]*+))?)")
+    rf"(?:^|[,;])[ \t]*+(?:(?P<axiom>{OMEGA})[ \t]*+(?:[:=]|{ARROW.pattern})"
+    r"|(?P<angle>δ|\\delta)[ \t]*+[:=](?:[ \t]*+(?P<value>\d[\d.]*+))?)")
 """Where a letter has its own meaning: before the axiom or the angle, at the beginning of a line or after a comma."""
 
 

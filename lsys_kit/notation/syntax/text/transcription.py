@@ -27,7 +27,8 @@ _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
 _WEDGES = str.maketrans("∧⋀", "^^")
 """Before an arrow a wedge joins two conditions; behind it, it is a turn."""
 _LABEL = re.compile(rf"[ \t]*+{LABEL}[ \t]*+:")
-_OMEGA = re.compile(rf"[ \t]*+{OMEGA}[ \t]*+[:=]")
+_OMEGA = re.compile(rf"[ \t]*+{OMEGA}[ \t]*+(?:[:=]|({_ARROW}))")
+"""The axiom; some lists on the web put an arrow behind its name."""
 _LABELLED = re.compile(rf"^(?:{_LABEL.pattern}|{_OMEGA.pattern})", re.MULTILINE)
 _DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
 _ASSIGNED = r"(?:[A-Za-z]\w*|δ|\\delta)[ \t]*+=[ \t]*+[\d.]+[ \t]*+(?:°|\^?\{?\\circ\}?)?"
@@ -127,7 +128,8 @@ class _Listing:
     def __init__(self, plain: str) -> None:
         self.plain = plain
         longest = current().line  # longer ones will be refused
-        self.lines = [_Line(match.start(), line, ARROW.search(line)) for match in re.finditer(r"[^\n]+", plain)
+        self.lines = [_Line(match.start(), line, None if _OMEGA.match(line) else ARROW.search(line))
+                      for match in re.finditer(r"[^\n]+", plain)
                       if len(line := match.group()) <= longest and not line.isspace()]
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
@@ -143,6 +145,8 @@ class _Listing:
                 yield from self._directive(line)
             elif start := _START.match(line.text):
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
+            elif (omega := _OMEGA.match(line.text)) and omega[1]:
+                yield Edit(line.start + omega.start(1), line.start + omega.end(1), ":")
             if _NAMED_AXIOM.match(line.text) and line.text[:line.end - line.start].endswith(","):
                 yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
