@@ -118,9 +118,11 @@ def _font_of(face: Font) -> TTFont:
 @contextmanager
 def opened_font(face: Font) -> Iterator[TTFont]:
     """A font, to be read only. Its tables are read when they are first needed; where that is broken off, it is opened anew."""
+    font = _font_of(face)
     try:
-        yield _font_of(face)
+        yield font
     except BaseException:
+        font.close()
         _font_of.cache_clear()
         raise
 
