@@ -317,7 +317,7 @@ def test_a_platform_is_told_score_and_status_after_a_wrong_and_a_right_answer(pl
     frame = page.frame_locator("iframe")
     expect(frame.locator("#told")).to_have_text("0 of 3 solved. The learning platform knows: score 0 of 100, incomplete.")
     expect(typed(frame, "1.1", "al al br")).to_contain_text("Almost. That is what comes out if you stop one step too early")
-    assert told(page) == ("0", "incomplete")
+    assert told(page) == (None, "not attempted")
     expect(typed(frame, "1.1", "bl ar bl ar ar")).to_contain_text("Correct. Step by step")
     assert told(page) == ("33", "incomplete")
     expect(typed(frame, "1.2", "21 letters")).to_contain_text("Correct.")
@@ -349,13 +349,65 @@ def test_what_was_solved_on_another_day_is_solved_still(platform):
     page = platform({"cmi.suspend_data": '["1.1", "gone", 3]', "cmi.core.lesson_status": "incomplete"})
     frame = page.frame_locator("iframe")
     expect(frame.locator('[data-exercise="1.1"] [role=status]')).to_contain_text("You solved this before.")
-    assert told(page) == ("33", "incomplete")
+    assert told(page) == (None, "incomplete")
+    expect(typed(frame, "1.2", "21")).to_contain_text("Correct.")
+    assert told(page) == ("67", "incomplete")
 
 
-@pytest.mark.parametrize("kept", ["", "{", "null", '{"1.1": true}', "<script>"])
+@pytest.mark.parametrize("kept", ["", "{", "null", '{"1.1": true}', "<script>", '{"solved": 3, "typed": [4]}'])
 def test_what_a_platform_kept_wrongly_does_no_harm(platform, kept):
-    page = platform({"cmi.suspend_data": kept})
-    expect(page.frame_locator("iframe").locator("#told")).to_contain_text("0 of 3 solved.")
+    stored = {"cmi.suspend_data": kept, "cmi.core.score.raw": "100", "cmi.core.lesson_status": "completed"}
+    page = platform(stored)
+    frame = page.frame_locator("iframe")
+    expect(frame.locator("#told")).to_have_text("0 of 3 solved. The learning platform knows: score 100 of 100, completed.")
+    assert {name: page.evaluate("name => values[name]", name) for name in stored} == stored
+    expect(typed(frame, "1.2", "21")).to_contain_text("Correct.")
+    assert told(page) == ("100", "completed")
+
+
+@pytest.mark.parametrize("fault", [
+    'window.API.LMSGetValue = () => ""; window.API.LMSGetLastError = () => "101";',
+    'window.API.LMSGetValue = () => { throw new Error("gone"); };', 'delete window.API.LMSGetValue;'])
+def test_a_platform_that_cannot_be_read_loses_nothing(platform, fault):
+    stored = {"cmi.suspend_data": '["1.1"]', "cmi.core.score.raw": "33", "cmi.core.lesson_status": "incomplete"}
+    page = platform(stored, shell=PLATFORM.replace("</script>", f"{fault}</script>"))
+    frame = page.frame_locator("iframe")
+    expect(typed(frame, "1.2", "21")).to_contain_text("Correct.")
+    expect(frame.locator("#told")).to_have_text(
+        "1 of 3 solved. The learning platform cannot be read, so that nothing is written there.")
+    assert {name: page.evaluate("name => values[name]", name) for name in stored} == stored
+
+
+def test_a_platform_that_throws_is_named(platform):
+    shell = PLATFORM.replace("</script>", 'for (const name in window.API) window.API[name] = () => { throw new Error("no"); };</script>')
+    frame = platform(shell=shell).frame_locator("iframe")
+    expect(typed(frame, "1.2", "21")).to_contain_text("Correct.")
+    expect(frame.locator("#told")).to_have_text("1 of 3 solved. The learning platform did not take the score.")
+
+
+def test_what_was_typed_is_there_again(platform):
+    page = platform()
+    frame = page.frame_locator("iframe")
+    typed(frame, "1.1", "al al br")
+    frame.locator('[data-exercise="1.5"] [data-key="B"]').click()
+    kept = page.evaluate("values['cmi.suspend_data']")
+    assert json.loads(kept) == {"solved": [], "typed": {"1.1": "al al br", "1.5": "B"}}
+    again = platform({"cmi.suspend_data": kept}).frame_locator("iframe")
+    expect(again.locator('[data-exercise="1.1"] input')).to_have_value("al al br")
+    expect(again.locator('[data-exercise="1.5"] [data-key="B"]')).to_have_attribute("aria-pressed", "true")
+
+
+def test_what_is_kept_has_room(platform):
+    page = platform()
+    for exercise, text in (("1.1", "a" * 1_900), ("1.2", "7" * 1_900), ("1.1", "b" * 1_900)):
+        typed(page.frame_locator("iframe"), exercise, text)
+    assert len(page.evaluate("values['cmi.suspend_data']")) <= 4_096
+
+
+def test_each_package_has_an_identifier_of_its_own():
+    names = {re.search('identifier="(lsys-kit-[^"]*)"', manifest(told, page_names(told)))[1]
+             for told in (lessons()[:1], lessons()[1:2], lessons())}
+    assert len(names) == 3
 
 
 def test_a_platform_that_takes_nothing_is_named_and_stops_no_answer(platform):

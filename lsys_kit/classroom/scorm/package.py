@@ -6,6 +6,7 @@ of the SCORM Run-Time Environment 1.2 (section 3).
 
 from __future__ import annotations
 
+import hashlib
 import io
 import re
 import zipfile
@@ -113,7 +114,9 @@ def manifest(told: Sequence[Lesson], names: Sequence[str]) -> str:
     >>> "<title>Algae &amp; more</title>" in manifest([lesson], ["01.html"])
     True
     """
-    root = ElementTree.Element("manifest", {"xmlns": CONTENT, "xmlns:adlcp": ADL, "identifier": "lsys-kit-exercises",
+    ids = " ".join(exercise.id for lesson in told for exercise in lesson.exercises)
+    own = hashlib.sha256(f"{ids} {' '.join(lesson.name for lesson in told)}".encode()).hexdigest()[:12]
+    root = ElementTree.Element("manifest", {"xmlns": CONTENT, "xmlns:adlcp": ADL, "identifier": f"lsys-kit-exercises-{own}",
                                             "version": "1.0"})
     metadata = _added(root, "metadata")
     _added(metadata, "schema", "ADL SCORM")

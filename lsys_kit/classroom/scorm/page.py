@@ -19,6 +19,7 @@ WORDS = (
     "Correct", "Almost", "Not yet", "Not readable yet", "Not answered yet", "{number} of {total} solved.",
     "The learning platform knows: score {score} of 100, completed.",
     "The learning platform knows: score {score} of 100, incomplete.", "The learning platform did not take the score.",
+    "The learning platform cannot be read, so that nothing is written there.",
     "No learning platform is there: nobody is told.", "You solved this before.", "Hint {number} of {total}",
     "That is longer than {most} characters.", "A number is needed here, such as 21, 0.5 or 3/4.", "Its unit is: {unit}.",
     "Write the number alone.", '"{text}" is no number.', "Numbers are needed here, such as 1, 2, 3.",
@@ -26,8 +27,8 @@ WORDS = (
     "A word is needed here.")
 """What the scripts of a page say by themselves."""
 _TOLD = ("This is practice, not an examination. What is right is in this page, hidden only so that nobody reads it by chance. "
-         "The learning platform is told how many of these exercises are solved, and when all of them are; how often something "
-         "was tried it is not told.")
+         "The learning platform is told how many of these exercises are solved, and when all of them are, and keeps what was "
+         "typed last; how often something was tried it is not told.")
 ASKED = {"number": "Your answer, a number", "table": "Your answer, numbers in order", "word": "Your answer, a word"}
 
 

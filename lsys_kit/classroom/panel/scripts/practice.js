@@ -2,7 +2,7 @@
 
 import { made } from "./views/controls.js";
 import { worded, speak } from "./views/language.js";
-import { connected, platformOf, scoreOf } from "./practice/platform.js";
+import { connected, platformOf } from "./practice/platform.js";
 import { replyTo } from "./practice/sealed.js";
 import { read } from "./practice/typed.js";
 
@@ -12,47 +12,54 @@ const SIGNS = { Correct: "✓", Almost: "≈", "Not yet": "✗", "Not readable y
 export function openPracticePage() {
   const { exercises, words } = JSON.parse(document.getElementById("lsys-data").textContent);
   speak(words);
-  const platform = connected(platformOf(window)), solved = new Set(platform.solved());
-  const ids = exercises.map(({ id }) => id);
-  const report = () => show(platform, ids.filter((id) => solved.has(id)), ids.length);
+  const platform = connected(platformOf(window)), before = platform.known() ?? { solved: [], typed: {} };
+  const ids = exercises.map(({ id }) => id), solved = new Set(before.solved);
   document.querySelectorAll("[data-exercise]").forEach((place, number) => {
     const data = exercises[number];
-    openExercise(place, data, solved.has(data.id), () => {
-      solved.add(data.id);
-      report();
+    openExercise(place, data, solved.has(data.id), before.typed[data.id] ?? "", (text, isRight) => {
+      const isNew = isRight && !solved.has(data.id);
+      if (isNew) solved.add(data.id);
+      const known = ids.filter((id) => solved.has(id)), told = platform.tell({ [data.id]: text }, known, isNew ? ids.length : 0);
+      show(platform, known, ids.length, told);
     });
   });
   window.addEventListener("pagehide", platform.finish);
   window.addEventListener("pageshow", (event) => event.persisted && window.location.reload());
-  report();
+  show(platform, ids.filter((id) => solved.has(id)), ids.length, platform.known() !== null);
 }
 
-// Say how many exercises are solved, here and to the platform.
-function show(platform, solved, total) {
-  const told = platform.tell(solved, total), score = scoreOf(solved.length, total);
-  const known = solved.length === total ? "The learning platform knows: score {score} of 100, completed."
+// Say how many exercises are solved, and what the platform knows of them.
+function show(platform, solved, total, told) {
+  const { score, completed } = platform.known() ?? {};
+  const known = completed ? "The learning platform knows: score {score} of 100, completed."
     : "The learning platform knows: score {score} of 100, incomplete.";
-  const whom = told ? worded(known, { score })
-    : worded(platform.there ? "The learning platform did not take the score." : "No learning platform is there: nobody is told.");
+  const unknown = !platform.there ? "No learning platform is there: nobody is told."
+    : platform.isOpen() && !platform.known() ? "The learning platform cannot be read, so that nothing is written there."
+      : "The learning platform did not take the score.";
+  const whom = told ? worded(known, { score }) : worded(unknown);
   const count = worded("{number} of {total} solved.", { number: solved.length, total });
   document.getElementById("told").replaceChildren(made("b", {}, count), ` ${whom}`);
 }
 
-function openExercise(place, data, before, solved) {
+// `typed` is what was typed before; `tried` is called with what is typed now, and whether it is right.
+function openExercise(place, data, before, typed, tried) {
   const status = place.querySelector("[role=status]"), more = hints(place.querySelector("[data-hints]"), data.hints);
   const answer = (text) => {
     const verdict = verdictOn(data, text);
     showVerdict(status, verdict);
-    if (verdict.said === "Correct") solved();
+    tried(text, verdict.said === "Correct");
     if (["Not yet", "Almost"].includes(verdict.said)) more();
   };
   if (before) showVerdict(status, { said: "Correct", message: worded("You solved this before.") });
+  const press = (key) => place.querySelectorAll("[data-key]").forEach((each) => each.setAttribute("aria-pressed", String(each.dataset.key === key)));
   for (const button of place.querySelectorAll("[data-key]")) {
     button.addEventListener("click", () => {
-      for (const each of place.querySelectorAll("[data-key]")) each.setAttribute("aria-pressed", String(each === button));
+      press(button.dataset.key);
       answer(button.dataset.key);
     });
   }
+  if (typed) press(typed);
+  if (place.querySelector("input")) place.querySelector("input").value = typed;
   place.querySelector("form")?.addEventListener("submit", (event) => {
     event.preventDefault();
     answer(place.querySelector("input").value);

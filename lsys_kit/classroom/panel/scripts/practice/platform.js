@@ -3,6 +3,7 @@
 
 const MOST_WINDOWS = 50;
 const [LEAST, GREATEST] = ["0", "100"];
+const MOST_CHARACTERS = 4096; // of what is kept
 
 // The platform's API; null where there is none.
 export function platformOf(own) {
@@ -40,21 +41,51 @@ function openerOf(each) {
   }
 }
 
-// What the platform is told, and asked at the beginning. Without a platform nothing is told to anybody.
+// What the platform has kept, and what it is told. Without a platform nothing is told to anybody. What it has is never made less:
+// nothing is written before something new was typed or solved, nor where it cannot be read.
 export function connected(api) {
   const started = Date.now();
-  let open = Boolean(api) && said(api.LMSInitialize(""));
-  const get = (name) => (open ? String(api.LMSGetValue(name) ?? "") : "");
-  const set = (name, value) => said(api.LMSSetValue(name, value));
+  let open = Boolean(api) && said(call("Initialize", "")), kept = null;
 
-  function tell(solved, total) {
-    if (!open) return false;
-    const told = [
-      set("cmi.core.score.min", LEAST), set("cmi.core.score.max", GREATEST),
-      set("cmi.core.score.raw", String(scoreOf(solved.length, total))),
-      set("cmi.core.lesson_status", solved.length === total ? "completed" : "incomplete"),
-      set("cmi.suspend_data", JSON.stringify(solved)), said(api.LMSCommit("")),
-    ];
+  // A platform that throws, or lacks a function, answers nothing.
+  function call(name, ...given) {
+    try {
+      return api[`LMS${name}`](...given);
+    } catch {
+      return null;
+    }
+  }
+
+  function get(name) {
+    const value = call("GetValue", name), fault = String(call("GetLastError") ?? "");
+    return value === null || !["", "0"].includes(fault) ? null : String(value ?? "");
+  }
+
+  const set = (name, value) => said(call("SetValue", name, value));
+
+  // What there is: { solved, typed, score, completed }; null where it cannot be read.
+  function known() {
+    if (!open || kept) return kept;
+    const found = ["cmi.suspend_data", "cmi.core.score.raw", "cmi.core.lesson_status"].map(get);
+    if (found.includes(null)) return null;
+    const [data, score, status] = found;
+    return (kept = { ...answersIn(data), score: Number(score) || 0, completed: ["completed", "passed"].includes(status) });
+  }
+
+  // Keep what was typed, by exercise, and what was solved; `total` is the number of exercises, where one more was solved.
+  function tell(typed, solved, total) {
+    if (!known()) return false;
+    const others = Object.entries(kept.typed).filter(([id]) => !(id in typed));
+    const next = { ...kept, typed: { ...Object.fromEntries(others), ...typed }, solved: [...new Set([...kept.solved, ...solved])] };
+    const told = [set("cmi.suspend_data", packed(next))];
+    if (total) {
+      next.score = Math.max(kept.score, scoreOf(solved.length, total));
+      next.completed ||= solved.length === total;
+      told.push(set("cmi.core.score.min", LEAST), set("cmi.core.score.max", GREATEST), set("cmi.core.score.raw", String(next.score)));
+      if (!kept.completed) told.push(set("cmi.core.lesson_status", next.completed ? "completed" : "incomplete"));
+    }
+    told.push(said(call("Commit", "")));
+    if (told.every(Boolean)) kept = next;
     return told.every(Boolean);
   }
 
@@ -62,26 +93,37 @@ export function connected(api) {
     if (!open) return;
     set("cmi.core.session_time", spanOf(Date.now() - started));
     set("cmi.core.exit", "suspend");
-    said(api.LMSCommit(""));
-    api.LMSFinish("");
+    call("Commit", "");
+    call("Finish", "");
     open = false;
   }
 
-  return { there: Boolean(api), solved: () => solvedBefore(get("cmi.suspend_data")), tell, finish };
+  return { there: Boolean(api), isOpen: () => open, known, tell, finish };
 }
 
 const said = (answer) => String(answer) === "true";
 
 export const scoreOf = (solved, total) => Math.round((100 * solved) / total);
 
-// The ids of the exercises that were solved on another day.
-function solvedBefore(kept) {
+// What was typed and solved on another day; older pages have kept the ids of what was solved alone.
+function answersIn(data) {
   try {
-    const found = JSON.parse(kept);
-    return Array.isArray(found) ? found.filter((each) => typeof each === "string") : [];
+    const found = JSON.parse(data), { solved, typed } = Array.isArray(found) ? { solved: found } : found;
+    const texts = Object.entries(typed ?? {}).filter(([, text]) => typeof text === "string");
+    return { solved: (Array.isArray(solved) ? solved : []).filter((each) => typeof each === "string"), typed: Object.fromEntries(texts) };
   } catch {
-    return [];
+    return { solved: [], typed: {} };
   }
+}
+
+// Both as a text for which the platform has room: what was typed longest ago is left out first.
+function packed({ solved, typed }) {
+  const texts = Object.entries(typed);
+  let text;
+  do {
+    text = JSON.stringify({ solved, typed: Object.fromEntries(texts) });
+  } while (text.length > MOST_CHARACTERS && texts.shift());
+  return text;
 }
 
 // A span of time as SCORM writes it: 0000:05:12.
