@@ -379,8 +379,8 @@ def test_a_platform_that_cannot_be_read_loses_nothing(platform, fault):
 
 
 def test_a_platform_that_throws_is_named(platform):
-    shell = PLATFORM.replace("</script>", 'for (const name in window.API) window.API[name] = () => { throw new Error("no"); };</script>')
-    frame = platform(shell=shell).frame_locator("iframe")
+    throws = 'for (const name in window.API) window.API[name] = () => { throw new Error("no"); };'
+    frame = platform(shell=PLATFORM.replace("</script>", f"{throws}</script>")).frame_locator("iframe")
     expect(typed(frame, "1.2", "21")).to_contain_text("Correct.")
     expect(frame.locator("#told")).to_have_text("1 of 3 solved. The learning platform did not take the score.")
 
