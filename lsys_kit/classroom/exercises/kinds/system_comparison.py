@@ -73,7 +73,7 @@ def parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | Non
         named = ", ".join(f"{name} = {value}" for name, value in setting.items())
         found = _parting(exercise, with_constants(mine, setting), with_constants(wanted, setting))
         if found is not None:
-            return replace(found, setting=named)
+            return replace(found, setting=", ".join(filter(None, (named, found.setting))))
     return None
 
 
