@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from itertools import islice
 from typing import Any
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.maps.development import Development
@@ -33,7 +35,7 @@ from lsys_kit.worlds.derive import derive
 MOST_CURVES, DEFAULT_STEPS, MOST_STEPS = 6, 10, 5_000
 """The most kinds of modules that have curves of their own; the steps of a system that does not say how many; the most steps."""
 MOMENTS = 360
-"""At so many moments a timed system is measured."""
+"""At so many moments a timed system is measured, and just before and after so many divisions."""
 
 
 def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = False, **choices: Any) -> Plot:
@@ -185,8 +187,10 @@ def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tupl
         places: list[Any] = [*range(len(run))]
         seen = [run.to(step) for step in counted(places, 1)]
     else:
-        places = [run.end * place / MOMENTS for place in map(number_from, range(MOMENTS + 1))]
-        seen = [run.system.word(place) for place in counted(places, 1)]  # type: ignore[misc]
+        timed, grid = run.system, [run.end * Fraction(place, MOMENTS) for place in range(MOMENTS + 1)]
+        words: dict[Any, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}
+        words |= {moment: timed.around(moment) for moment in counted(islice(timed.divisions(run.end), MOMENTS), 1)}
+        places, seen = map(list, zip(*((place, word) for place in sorted(words) for word in words[place]), strict=True))
     found = [finite([each.value(one) for one in counted(seen, 1)], f'The measure "{each.name}"') for each in measures]
     return [tuple(zip(map(float, places), values, strict=True)) for values in found]
 

@@ -8,6 +8,8 @@ import pytest
 from lsys_kit import derive, draw, explore, read, stages, timed, write
 from lsys_kit.classroom.catalogue import entry, system, systems
 from lsys_kit.classroom.catalogue_entry import WORKS, Entry
+from lsys_kit.classroom.lessons.declared import lesson
+from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 
 STAGES = {"S": 1, "L": 2, "A": 3, "B": 4, "C": 5}
@@ -252,18 +254,47 @@ def test_three_productions_are_drawn_alike():
     assert all(240 <= made.count(word) <= 360 for word in successors)
 
 
-@pytest.mark.parametrize(("id", "lowest", "main"), [("K17a", 19, 24), ("K17b", 31, 24)])
-def test_flowers_open_upward_or_downward(id, lowest, main):
+def opened_in(id, steps, **constants):
+    """The step at which each branch, counted from below, has its flower; the main axis as `main`."""
     opened = {}
-    for step, word in enumerate(derive(system(id), 31)):
+    for step, word in enumerate(derive(system(id), steps, **constants)):
         branch = depth = 0
         for module in word:
             depth += {"[": 1, "]": -1}.get(module.symbol, 0)
             branch += module.symbol == "[" and depth == 1
             if module.symbol == "C":
                 opened.setdefault(branch if depth else "main", step)
+    return opened
+
+
+@pytest.mark.parametrize(("id", "lowest", "main"), [("K17a", 19, 24), ("K17b", 31, 24)])
+def test_flowers_open_upward_or_downward(id, lowest, main):
+    opened = opened_in(id, 31)
     assert (opened[1], opened["main"]) == (lowest, main)
     assert {lowest, main} == {min(opened.values()), max(opened.values())}
+
+
+def test_the_plant_of_the_mystery_flowers_strictly_from_the_top_down_and_that_of_the_catalogue_on_the_whole():
+    picture = lesson("10").vote.picture
+    strictly = opened_in(picture["system"], 57, **picture["constants"])
+    assert [strictly.pop("main"), *(strictly[branch] for branch in sorted(strictly, reverse=True))] == [24, *range(27, 58, 3)]
+    on_the_whole = opened_in("K17b", 31)
+    assert (on_the_whole[4], on_the_whole[5]) == (28, 29)
+
+
+def test_two_branches_bear_the_first_flowers_of_the_plant_that_flowers_upward():
+    opened = opened_in("K17a", 24)
+    assert {place for place, step in opened.items() if step == 19} == {1, 2}
+    assert {place for place, step in opened.items() if step == 24} == {11, "main"}
+
+
+@pytest.mark.parametrize("id", ["K17a", "K17b"])
+def test_signals_and_flowers_are_broad_and_nothing_else_is(id):
+    word = derive(system(id), 24)[-1]
+    widths = [*scene_of(word).segments.widths]
+    assert (widths.count(4), widths.count(2)) == (2 * word.counts()["S"], 3 * word.counts()["C"])
+    assert min(word.counts()["S"], word.counts()["C"]) > 0
+    assert set(widths) == {-1, 2, 4}
 
 
 def test_flowers_of_lychnis_are_fibonacci_numbers_less_one():

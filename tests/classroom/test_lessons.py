@@ -80,6 +80,7 @@ def test_every_lesson_can_be_read(name):
     (("vote", "picture"), {"step": 3}, 'a picture needs the id of its "system"'),
     (("vote", "picture"), {"system": "K5", "rules": "axiom: F"}, 'or its "rules"'),
     (("vote", "picture"), {"system": "K5", "colour": "red"}, 'a picture has no "colour"'),
+    (("vote", "picture"), {"system": "K17b", "constants": 4}, 'picture, "constants" must be a table of entries'),
     (("tables",), {}, '"tables" must be a list'),
     (("tables",), DECLARED["tables"] * 2, "two tables have the same id"),
     (("tables", 0, "id"), "Steps!", '"id" must have small letters, digits and hyphens only'),
@@ -237,7 +238,8 @@ def test_only_true_and_false_say_whether_a_vote_is_the_second():
 
 
 @pytest.mark.parametrize("picture", [{"system": "K5", "step": 3}, {"system": "K28"}, {"system": "K33", "step": 1},
-                                     {"rules": "axiom: F\nF -> F+F", "step": 2, "angle": 60}])
+                                     {"rules": "axiom: F\nF -> F+F", "step": 2, "angle": 60},
+                                     {"system": "P5", "step": 2, "constants": {"dt": "1.4"}}])
 def test_a_vote_may_have_a_picture_with_its_text(picture):
     box = VoteBox(Vote("Which?", OPTIONS, picture), Ballot(), False)
     assert box.asked["picture"].startswith("data:image/svg+xml;base64,")

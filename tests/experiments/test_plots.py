@@ -233,3 +233,18 @@ class TestFormats:
         assert isinstance(shown.chart, CurveChart)
         assert shown.chart.up == Axis("modules", True, True)
         ElementTree.fromstring(shown.svg)
+
+
+@pytest.mark.parametrize("a", [2, 3])
+@pytest.mark.parametrize("end", ["2", "1.999", "2.1"])
+def test_a_curve_over_time_jumps_upright_at_each_division_by_the_whole_jump(a, end):
+    """Before it the mother is a long, and after it the daughters are 1 and a^0.2 long; the second division is at 1.8."""
+    points = plot(timed(system("P7"), a=a), end).chart.curves[0].points
+    for time, others in ((1, 0), (1.8, a ** 0.8)):
+        assert [y for x, y in points if x == time] == pytest.approx([others + a, others + 1 + a ** 0.2])
+    assert [x for x, _ in points] == sorted(x for x, _ in points)
+
+
+@pytest.mark.parametrize(("end", "largest"), [(2, 3 + 3 ** 0.2 + 3 ** 0.4), (1, 3)])
+def test_the_largest_value_of_a_curve_over_time_is_that_just_before_a_division(end, largest):
+    assert repr(plot({"a = 3": timed(system("P7"), a=3)}, end)).endswith(f"largest {largest:.6g}")

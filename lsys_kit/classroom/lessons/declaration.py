@@ -15,7 +15,7 @@ OPTIONS = 4
 """How many options a vote has."""
 _NAME = re.compile(r"\d\d_[a-z0-9_]+")
 _ID = re.compile(r"[a-z0-9-]+")
-_PICTURE = ("system", "rules", "step", "angle", "cells", "view")
+_PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
 
 
 def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
@@ -57,6 +57,7 @@ def _vote(where: str, entries: Mapping[str, Any]) -> Vote:
         raise ModelFileError(f'{where}: a picture has no "{unknown[0]}"', hint=f"It may have: {', '.join(_PICTURE)}.")
     if found["picture"] and ("system" in found["picture"]) == ("rules" in found["picture"]):
         raise ModelFileError(f'{where}: a picture needs the id of its "system", or its "rules"')
+    _entries(f'{where}, picture, "constants"', found["picture"].get("constants", {}))
     return Vote(found["question"], options, found["picture"])
 
 

@@ -15,7 +15,7 @@ TRACKS: Mapping[str, str] = {"F": "the fast track of 90 minutes", "C": "the core
 
 @dataclass(frozen=True)
 class Option:
-    """One of the four answers of a vote, and the reply to whoever chose it in the end."""
+    """One of the four answers of a vote, and the reply to those who choose it in the end."""
 
     text: str
     reply: str
@@ -25,7 +25,7 @@ class Option:
 @dataclass(frozen=True)
 class Vote:
     """The question of a vote, its four options, and how its picture is drawn: the arguments of `draw`, with the id of a system
-    as `system` or its text as `rules`, and the step as `step`; empty for no picture."""
+    as `system` or its text as `rules`, the step as `step`, and new values of constants as `constants`; empty for no picture."""
 
     question: str
     options: tuple[Option, ...]

@@ -138,7 +138,7 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
     """The picture of a vote, by media types."""
     if not choices:
         return {}
-    drawn = draw(_pictured(choices), choices.get("step"),
+    drawn = draw(_pictured(choices), choices.get("step"), **choices.get("constants", {}),
                  **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")})
     with limits(segments=min(MOST_SHAPES, current().segments)):
         return svg_bundle(drawn.svg, repr(drawn))

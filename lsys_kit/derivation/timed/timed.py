@@ -12,8 +12,10 @@ At its terminal age a cell is not yet divided. The lengths of cells are the subj
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import repeat
+from heapq import heappop, heappush
+from itertools import count, repeat
 
 from lsys_kit.budget import Task, check_budget, current
 from lsys_kit.derivation.core.closure import check_d0l
@@ -76,15 +78,49 @@ class Timed:
         with Task("The word was not reached"):
             return self.later([self.states.modules[state] for state in self.states.axiom], given)
 
-    def later(self, word: list[Module], passed: Value) -> Word:
-        """What a row of modules becomes in a time: D(word, passed)."""
+    def around(self, at: Value) -> tuple[Word, Word]:
+        """The words just before and just after what happens at a time: in the first no module divides at this very time.
+
+        >>> from lsys_kit.notation.read import read
+        >>> fibonacci = timed(read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)"))
+        >>> print(*fibonacci.around(1))
+        a(1) a(0)b(0)
+        """
+        axiom = [self.states.modules[state] for state in self.states.axiom]
+        return self.later(axiom, at, already=False), self.later(axiom, at, already=True)
+
+    def divisions(self, until: Value) -> Iterator[Value]:
+        """The times at which modules divide, each once, the earliest first, up to a time.
+
+        >>> from lsys_kit.notation.read import read
+        >>> [*timed(read("axiom: a(0)\\na(1) -> a(0.5) b(0)\\nb(2) -> a(0)")).divisions(3)]
+        [1, Fraction(3, 2), 2, Fraction(5, 2), 3]
+        """
+        order, told = count(), None
+        born: Value = 0
+        todo: list[tuple[Value, int, list[Module]]] = []
+        modules = [self.states.modules[state] for state in self.states.axiom]
+        while True:
+            for module in modules:
+                rest, daughters = self.division(module, until - born, already=True)
+                if daughters is not None:
+                    heappush(todo, (normalised(until - rest), next(order), daughters))
+            if not todo:
+                return
+            born, _, modules = heappop(todo)
+            if born != told:
+                yield born
+            told = born
+
+    def later(self, word: list[Module], passed: Value, already: bool | None = None) -> Word:
+        """What a row of modules becomes in a time: D(word, passed); `already` as for `division`."""
         found: list[int] = []
         most, deepest = current().modules, current().brackets
         todo = [(module, passed, 0) for module in reversed(word)]
         visited = 0
         while todo:
             module, left, instant = todo.pop()
-            rest, daughters = self.division(module, left)
+            rest, daughters = self.division(module, left, already)
             if daughters is None:
                 found.append(self.states.number(*self._older(module, left)))
             elif instant > deepest:
@@ -101,15 +137,18 @@ class Timed:
                 check_budget()
         return Word(self.states, found)
 
-    def division(self, module: Module, left: Value) -> tuple[Value, list[Module] | None]:
-        """The time that is left after a module's division, and its daughters; None where it does not divide in that time."""
+    def division(self, module: Module, left: Value, already: bool | None = None) -> tuple[Value, list[Module] | None]:
+        """The time that is left after a module's division, and its daughters; None where it does not divide in that time.
+
+        Whether it has divided already where no time is left is said by its rule, unless `already` says it.
+        """
         end = self.ages.end(module)
         if end is None or end.rule is None:
             return left, None
         self.ages.check_birth(module)
         rest: Value = normalised(left - (end.age - (self.ages.age(module) or 0)))
         try:
-            divides = rest > 0 or (end.already and rest == 0)
+            divides = rest > 0 or (rest == 0 and (end.already if already is None else already))
         except TypeError:
             raise undecided_age(self.states, module, end.rule.production) from None
         return (rest, self.ages.daughters(module)) if divides else (left, None)
