@@ -19,7 +19,7 @@ from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
-_NAME, _ROW = re.compile(r"[A-Za-z_]\w+"), re.compile(r"[A-Za-z]+[A-Z][A-Za-z]*")
+_NAME, _ROW = re.compile(r"[A-Za-z_]\w+"), re.compile(r"[A-Za-z][a-z]*+[A-Z][A-Za-z]*+")
 """A name of several signs; and one that is a row of letters rather than a word."""
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
