@@ -46,6 +46,17 @@ def test_the_slider_of_the_step_changes_word_tokens_and_drawing(explored):
     expect(panel.at("canvas")).to_have_attribute("data-step", "4")
 
 
+def test_a_step_that_changes_nothing_is_said_to_do_so(explored):
+    panel = explored("K24", 18, L=2)
+    words = derive(system("K24"), 20, L=2)
+    assert [str(words[step]) == str(words[step - 1]) for step in (17, 18, 19, 20)] == [False, False, True, True]
+    for step in (18, 19, 20):
+        said = "^(?!.*changes nothing)" if step == 18 else "; this step changes nothing;"
+        expect(panel.at(".lsys-status")).to_contain_text(f"step {step}: ")
+        expect(panel.at(".lsys-status")).to_have_text(re.compile(said))
+        panel.control("step").press("ArrowRight")
+
+
 @pytest.mark.parametrize(("id", "step", "length"), [("J1", 6, "34"), ("P7", 4, "8.72"), ("P8", 6, "25.76")])
 def test_the_length_of_a_filament_is_said(explored, id, step, length):
     panel = explored(id, step)

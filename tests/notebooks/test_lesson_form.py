@@ -27,6 +27,8 @@ POINTS = tomllib.loads((ROOT / "tests" / "classroom" / "points.toml").read_text(
 """What the works teach, and the lessons that owe it."""
 SECTIONS = ("Minutes", "On the board", "Misconceptions", "Answers", "Rubric", "Going on", "Sources")
 """The sections of a teacher's page."""
+OPTIONAL = "Optional: "
+"""What the heading of a section begins with that is homework, or another hour: it comes after the second vote."""
 MOST_LINES = 6
 MOST_CONTROLS = 3
 """The sliders of a panel beside that of the step."""
@@ -115,7 +117,29 @@ def test_the_vote_comes_first_and_again_after_all_else(name: str) -> None:
     assert [(given(call), [each.arg for each in call.keywords]) for _, call in votes] == [([number], []), ([number], ["again"])]
     others = [place for function in ("predict", "worksheet", "explore", "compare") for place, _ in calls(name, function)]
     assert votes[0][0] < min(others)
-    assert votes[1][0] > max(others)
+    assert votes[1][0] > max(place for place in others if place not in optional(name))
+    assert votes[1][0] < min(optional(name), default=len(code(name))), "who leaves out what is optional has voted again"
+
+
+def optional(name: str) -> list[int]:
+    """The numbers of the code cells in the optional sections of a lesson, which are homework or another hour."""
+    found, number, within = [], 0, False
+    for cell in notebook(name).cells:
+        if cell.cell_type == "code":
+            found += [number] if within else []
+            number += 1
+        elif cell.source.startswith("## "):
+            within = OPTIONAL in cell.source.partition("\n")[0]
+    return found
+
+
+@every_lesson
+def test_what_is_optional_is_marked_where_it_begins_and_where_it_is_announced(name: str) -> None:
+    contents = one_line(prose(name).partition("\n## ")[0])
+    for heading in re.findall(rf"^## (.*{OPTIONAL}.*)$", prose(name), re.MULTILINE):
+        assert re.fullmatch(rf"\d+ {OPTIONAL}[^:].*", heading)
+        assert f"(#{heading.replace(' ', '-')})" in contents
+        assert "optional" in page(name)
 
 
 @every_lesson

@@ -43,6 +43,19 @@ def test_a_branch_without_flow_is_cut_off_and_gone_a_step_later(two) -> None:
         assert (count(after, "%") > 0) == any(flow <= 0 and shoots < 25 for shoots, flow in flows), step
 
 
+def test_a_shoot_that_goes_on_takes_the_other_side_and_one_alone_turns_by_five_degrees(two) -> None:
+    turns = {(module.symbol, abs(module.arguments[0]), module.arguments[0] > 0)
+             for word in two for module in word if module.symbol in "+-" and module.arguments}
+    assert turns == {("-", angle, left) for angle in (5, 20) for left in (True, False)} | {("+", 32, True), ("+", 32, False)}
+
+
+def test_a_branch_without_flow_that_stays_takes_nothing_from_the_one_that_bears_it() -> None:
+    grown = read(str(system("K23")).replace("axiom: S", "axiom: !(1,1) L(2,0,1) ?E(1) [!(30,-4) L(0,0,1)] [!(5,3) L(0,0,1)]"))
+    shoots, flow = next(module.arguments for module in derive(grown, 1)[-1] if module.symbol == "!")
+    assert shoots == 35
+    assert flow == pytest.approx(2 + 0 + 3 - 0.32 * 35**0.75)
+
+
 def test_two_trees_lean_away_from_one_another(two) -> None:
     centres = trace_in_space(two[15]).discs.centres[:, 0]
     assert centres.min() < -4 < 4 + 4 < centres.max(), "crowns are wider on the outer sides"

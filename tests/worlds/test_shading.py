@@ -11,6 +11,7 @@ from lsys_kit import derive, draw, explain, read, system
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
+from tests.worlds.shading_by_hand import LONG, SHORT, WHERE, numbers_of_shoots
 
 NEIGHBOURS = {"[T t(-later,0)]": 0, "[RU(90) f(apart) RU(-90) T t(0,0)]": 1, "[RU(-90) f(apart) RU(90) T t(-2*later,0)]": 2}
 
@@ -38,6 +39,28 @@ def alone(tree: str) -> LSystem:
 def test_the_trees_have_the_shoots_of_the_table_of_systems() -> None:
     words = derive(system("K22"), 8)
     assert (trees(words[4]), trees(words[8])) == ([0, 16, 0], [16, 64, 0])
+
+
+@pytest.fixture(scope="module")
+def of_mean_lengths() -> LSystem:
+    text = system("K22").source
+    for drawn, mean in (("uniform(80,120)", LONG), ("uniform(60,90)", SHORT), ("uniform(0.5,0.9)", WHERE)):
+        assert drawn in text
+        text = text.replace(drawn, str(mean))
+    return read(text)
+
+
+@pytest.mark.parametrize("m", [1, 2, 3, 4])
+@pytest.mark.parametrize("apart", [600, 350])
+def test_trees_of_mean_lengths_have_the_shoots_that_an_interpreter_without_the_kit_counts(
+        of_mean_lengths: LSystem, m: int, apart: int) -> None:
+    words = derive(of_mean_lengths, 18, m=m, apart=apart)
+    assert [trees(word) for word in words] == numbers_of_shoots(18, m, apart)
+
+
+def test_the_numbers_of_the_note_are_those_of_mean_lengths() -> None:
+    counted = numbers_of_shoots(16)
+    assert (counted[12], counted[16]) == ([54, 120, 16], [87, 124, 54])
 
 
 @pytest.mark.parametrize("tree", NEIGHBOURS)

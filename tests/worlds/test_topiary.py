@@ -14,6 +14,7 @@ from lsys_kit import derive, draw, explain, explore, growth, read, stages, syste
 from lsys_kit.__main__ import main
 from lsys_kit.derivation.derive import derive as words_alone
 from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.scene import CIRCLE, DISC
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 
@@ -199,3 +200,20 @@ def test_the_shell_and_the_explorer_look_around(capsys: pytest.CaptureFixture[st
     panel.step = 6
     assert panel.sight.word.counts()["S"] == 1
     assert str(draw(system("K24"), 6)) == "9 segments, 5 discs, width 4, height 4.2"
+
+
+LEGEND = "small open circle is a sleeping bud, a cross is a cut, and a large filled circle is a signal"
+
+
+@pytest.mark.parametrize("where", ["15_hedges_and_movement.ipynb", "teacher/15_hedges_and_movement.md"])
+def test_the_legend_of_the_lesson_is_what_is_drawn(where: str) -> None:
+    """Of K24 step 4 has buds alone, step 5 a cut at its end, and step 6 a signal."""
+    assert LEGEND in (Path(__file__).parents[2] / "notebooks" / where).read_text("utf-8")
+    words = derive(system("K24"), 6)
+    buds, cut, signal = (scene_of(word) for word in words[4:7])
+    assert set(zip(buds.discs.kinds, buds.discs.radii, strict=True)) == {(CIRCLE, 0.125)}
+    first, second = cut.segments.ends[-2:]
+    assert (first[:2] + first[2:]) == pytest.approx(second[:2] + second[2:]), "two strokes with the same middle"
+    assert (first[2:] - first[:2]) @ (second[2:] - second[:2]) == pytest.approx(0)
+    assert [(kind, radius) for kind, radius in zip(signal.discs.kinds, signal.discs.radii, strict=True) if radius > 0.125] == [
+        (DISC, 0.2)]

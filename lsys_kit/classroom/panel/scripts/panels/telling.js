@@ -9,11 +9,19 @@ const rounded = (size) => Number((size + 1e-9).toFixed(2));
 export function caption(book, now, tokens, measured) {
   const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
   const parts = [`step ${now}: ${sizeOf(book, now)}`, `${occupied} of ${counted(stages, "stage")} occupied`];
+  if (changesNothing(book, now)) parts.push("this step changes nothing");
   if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now))}`);
   if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
   if (book.data.said) parts.push(book.data.said);
   if (now === book.steps && book.data.end) parts.push(book.data.end);
   return parts.join("; ");
+}
+
+// Whether the word of a step is that of the step before.
+function changesNothing(book, now) {
+  if (!now || ["map", "tissue"].includes(book.data.mode) || book.length(now) !== book.length(now - 1)) return false;
+  const before = book.word(now - 1);
+  return book.word(now).every((state, position) => state === before[position]);
 }
 
 // The line of code that makes a panel as it stands; `turns` says whether its angle has a slider.
