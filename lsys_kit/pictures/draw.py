@@ -120,8 +120,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
         For a map system `iterations`, after which its last step is shown on the way to rest, or `phases`: whether it is shown
         how the last step comes about, from the walls that are replaced to the markers that match; and new values of the forces
-        that shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has all of these, too; and `cell`, a number, or
-        `generation`, the number of divisions behind cells, to light these alone.
+        that shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has all but the phases, too; and `cell`, a
+        number, or `generation`, the number of divisions behind cells, to light these alone.
 
     Raises
     ------
