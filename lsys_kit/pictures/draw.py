@@ -65,8 +65,8 @@ def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, obj
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
          view: object = None, steps: Sequence[int] = (), seeds: Sequence[int] = (), size: object = None,
-         labels: bool | None = None, colours: object = None, widths: object = None, legend: bool | None = None,
-         background: object = None, **constants: object) -> Picture: ...
+         labels: bool | None = None, colours: object = None, widths: object = None, turtle: bool | None = None,
+         legend: bool | None = None, background: object = None, **constants: object) -> Picture: ...
 @overload
 def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
          phases: Literal[False] = False, labels: bool | None = None,
@@ -110,6 +110,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
     widths
         A factor by which strokes are broader; "order", by which each is as broad as its branch order says, whatever the model
         says; or "constant". By default strokes are as broad as the model says, and by branch order where it says nothing.
+    turtle
+        Whether an arrow marks where the turtle starts, pointing where it looks then.
     legend
         Whether there is a legend below: which colour stands for which symbol, and which commands the turtle passed over.
     background
