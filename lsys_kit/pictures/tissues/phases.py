@@ -145,13 +145,13 @@ class PhasesPicture(SVGPicture):
         for stub in self.stubs:
             here = self.places[stub.vertex]
             out = self._out(stub)
-            (x, y), (to_x, to_y), at = frame.points(np.array([here, here + REACH * out, here + WRITTEN * out])).tolist()
+            (x, y), (to_x, to_y), (at_x, at_y) = frame.points(np.array([here, here + REACH * out, here + WRITTEN * out])).tolist()
             alone = matched and stub.partner is None
             (pale if alone else lines).append(f"M{x} {y}L{to_x} {to_y}")
             if matched and stub.partner is not None:
                 broken.append("M{} {}L{} {}".format(x, y, *frame.points(self.places[stub.partner]).tolist()))
             if self.labels and not alone:
-                letters.append(wall_label(stub.edge.label, *at, stub.edge.arrow))
+                letters.append(wall_label(stub.edge.label, at_x, at_y, stub.edge.arrow))
         dashed = f'stroke-dasharray="{BROKEN}"'
         return (f'<path d="{"".join(broken)}" fill="none" stroke="{line(BLUE)}" stroke-width="16" {dashed}/>'
                 f'<path d="{"".join(pale)}" fill="none" stroke="{theme().quiet}" stroke-width="10" {dashed}/>'
