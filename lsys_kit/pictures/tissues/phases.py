@@ -143,9 +143,9 @@ class PhasesPicture(SVGPicture):
         """The markers: all alike, or those that match with the walls to come, and the others pale."""
         lines, pale, broken, letters = list[str](), list[str](), list[str](), list[str]()
         for stub in self.stubs:
-            here = self.places[stub.vertex]
-            out = self._out(stub)
-            (x, y), (to_x, to_y), (at_x, at_y) = frame.points(np.array([here, here + REACH * out, here + WRITTEN * out])).tolist()
+            here, out = self.places[stub.vertex], self._out(stub)
+            placed = frame.points(np.array([here, here + REACH * out, here + WRITTEN * out]))
+            (x, y), (to_x, to_y), (at_x, at_y) = placed.tolist()
             alone = matched and stub.partner is None
             (pale if alone else lines).append(f"M{x} {y}L{to_x} {to_y}")
             if matched and stub.partner is not None:
