@@ -202,6 +202,7 @@ def _add_looks(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--colours", type=_colours, metavar="KIND",
                         help="natural, symbols, or colours of symbols, as in A=seagreen,B=#cc79a7")
     parser.add_argument("--widths", metavar="KIND", help="order, constant, or a factor of the widths of strokes")
+    parser.add_argument("--turtle", action=argparse.BooleanOptionalAction, help="whether an arrow marks the turtle's start")
     parser.add_argument("--legend", action=argparse.BooleanOptionalAction, help="whether a legend stands below")
     parser.add_argument("--background", metavar="COLOUR", help="light, dark, none or a colour (default: light)")
 

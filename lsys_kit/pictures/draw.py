@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
@@ -43,13 +42,14 @@ from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
 from lsys_kit.pictures.tissues.maps import MapPicture, map_picture
+from lsys_kit.pictures.tissues.phases import PhasesPicture, phases_picture
 from lsys_kit.pictures.tissues.spheres import sphere_picture
 from lsys_kit.worlds.fields import Field
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-AnyPicture: TypeAlias = "MapPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
+AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
 MOST_ROWS = 24
 """The greatest number of rows of a developmental sequence, which shows the last steps."""
 
@@ -65,11 +65,15 @@ def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, obj
 def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
          arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
          view: object = None, steps: Sequence[int] = (), seeds: Sequence[int] = (), size: object = None,
-         labels: bool | None = None, colours: object = None, widths: object = None, legend: bool | None = None,
-         background: object = None, **constants: object) -> Picture: ...
+         labels: bool | None = None, colours: object = None, widths: object = None, turtle: bool | None = None,
+         legend: bool | None = None, background: object = None, **constants: object) -> Picture: ...
 @overload
-def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (), labels: bool | None = None,
+def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
+         phases: Literal[False] = False, labels: bool | None = None,
          size: object = None, background: object = None, **forces: object) -> MapPicture: ...
+@overload
+def draw(what: MapSystem | Development, n: int | None = None, *, phases: Literal[True], labels: bool | None = None,
+         size: object = None, background: object = None, **forces: object) -> PhasesPicture: ...
 @overload
 def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = ..., cell: int | None = None,
          generation: int | None = None, size: object = None, colours: object = None, legend: bool | None = None,
@@ -106,6 +110,8 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
     widths
         A factor by which strokes are broader; "order", by which each is as broad as its branch order says, whatever the model
         says; or "constant". By default strokes are as broad as the model says, and by branch order where it says nothing.
+    turtle
+        Whether an arrow marks where the turtle starts, pointing where it looks then.
     legend
         Whether there is a legend below: which colour stands for which symbol, and which commands the turtle passed over.
     background
@@ -114,9 +120,10 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
         For a system `seed`, `arithmetic`, `field` and new values of constants, as for `derive`; `marked`, the states whose
         modules are marked. For a stage diagram `tokens`, a word whose modules are its tokens, and `positions`, whether arcs say
         where in the successor a module stands. For a lineage `intervals`, stretches of time that are marked beside it.
-        For a map system `iterations`, after which its last step is shown on the way to rest; and new values of the forces that
-        shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has all of these, too; and `cell`, a number, or
-        `generation`, the number of divisions behind cells, to light these alone.
+        For a map system `iterations`, after which its last step is shown on the way to rest, or `phases`: whether it is shown
+        how the last step comes about, from the walls that are replaced to the markers that match; and new values of the forces
+        that shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has all but the phases, too; and `cell`, a
+        number, or `generation`, the number of divisions behind cells, to light these alone.
 
     Raises
     ------
@@ -150,8 +157,10 @@ def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -
         check_choices(choices, ("tokens", "positions"), STAGES)
         return _net_picture(what, options.labels is not False, **choices)
     if isinstance(what, MapSystem | Development):
-        draws = sphere_picture if kind_of(what, choices) == SPHERE else partial(map_picture, labels=options.labels is not False)
-        return draws(what, n, **choices)
+        if kind_of(what, choices) == SPHERE:
+            return sphere_picture(what, n, **choices)
+        draws = phases_picture if _yes(choices, "phases") else map_picture
+        return draws(what, n, labels=options.labels is not False, **choices)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
         return cellwork_picture(what, n, legend=bool(options.legend), **choices)
     if isinstance(what, Lineage):
@@ -161,6 +170,13 @@ def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -
         names = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
         check_choices(choices, names, kind_of(what, choices), [each.name for each in what.constants])
     return _drawing(what, n, options, **choices)
+
+
+def _yes(choices: dict[str, Any], name: str) -> bool:
+    """Whether a choice is made, which is taken out of the others."""
+    chosen = choices.pop(name, False)
+    require(chosen, bool, f'True or False for "{name}"')
+    return bool(chosen)
 
 
 def check_choices(given: Iterable[str], options: Sequence[str], kind: str, constants: Sequence[str] = ()) -> None:

@@ -70,8 +70,8 @@ def animate(what: Any, n: int | None = None, *, seconds: object = None, turntabl
     turntable
         Whether the last step is shown from all sides, rather than the steps from one.
     view, size, **choices
-        As for `draw`, with `labels`, `colours`, `widths`, `legend` and `background`, but a film has a background. On a
-        turntable the first picture has this view.
+        As for `draw`, with `labels`, `colours`, `widths`, `turtle`, `legend` and `background`, but a film has a background. On
+        a turntable the first picture has this view.
 
     Raises
     ------

@@ -13,19 +13,19 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quota
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.pictures.rendering.chosen_looks import with_colours_of_symbols, with_widths
+from lsys_kit.pictures.rendering.chosen_looks import with_colours_of_symbols, with_start, with_widths
 from lsys_kit.pictures.style.colour_values import colour_from
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
 
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
-OPTIONS = ("labels", "colours", "widths", "legend", "background")
+OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "background")
 """All of them."""
 DRAWING, STEPS, FILAMENT = "the drawing of a turtle", "drawings side by side", "a filament"
 STAGES, LINEAGE = "a stage diagram", "a lineage"
 MAP, SPHERE, CELLWORK = "a map", "a map on a sphere", "a cellwork"
 KINDS: Mapping[str, tuple[str, ...]] = {
-    DRAWING: ("colours", "widths", "legend", "background"), STEPS: OPTIONS,
+    DRAWING: ("colours", "widths", "turtle", "legend", "background"), STEPS: OPTIONS,
     FILAMENT: ("labels", "colours", "legend", "background"),
     STAGES: ("labels", "colours", "background"), LINEAGE: ("labels", "colours", "legend", "background"),
     MAP: ("labels", "background"), SPHERE: ("background",), CELLWORK: ("colours", "legend", "background")}
@@ -51,6 +51,8 @@ class Options:
         Whether there is a legend; None where that is left to the kind of picture.
     theme
         The colours of the picture, and how bold its strokes are.
+    turtle
+        Whether it is marked where the turtle starts and looks.
     """
 
     labels: bool | None = None
@@ -58,6 +60,7 @@ class Options:
     widths: str = ""
     legend: bool | None = None
     theme: Theme = LIGHT
+    turtle: bool = False
 
 
 def options_from(given: Mapping[str, object], kind: str, symbols: Symbols) -> Options:
@@ -95,6 +98,11 @@ def _with_labels(found: Options, value: object, kind: str, symbols: Symbols) -> 
 def _with_legend(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
     require(value, bool, 'True or False for "legend"')
     return replace(found, legend=value)  # type: ignore[arg-type]
+
+
+def _with_turtle(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+    require(value, bool, 'True or False for "turtle"')
+    return replace(found, turtle=value)  # type: ignore[arg-type]
 
 
 def _with_background(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
@@ -137,7 +145,7 @@ def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> 
 
 
 _SETTERS: Mapping[str, Callable[[Options, object, str, Symbols], Options]] = {
-    "labels": _with_labels, "colours": _with_colours, "widths": _with_widths, "legend": _with_legend,
+    "labels": _with_labels, "colours": _with_colours, "widths": _with_widths, "turtle": _with_turtle, "legend": _with_legend,
     "background": _with_background}
 
 
@@ -149,7 +157,8 @@ def seen_as(what: Derivation | Word, angle: float, options: Options) -> Scene:
     elif chosen:
         states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
         scene = with_colours_of_symbols(scene, states)
-    return with_widths(scene, options.widths, options.theme.boldness)
+    scene = with_widths(scene, options.widths, options.theme.boldness)
+    return with_start(scene, what.states.system) if options.turtle else scene
 
 
 def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

@@ -131,9 +131,10 @@ class OpenNotebook:
         return self.cell(number).locator(".jp-Cell-outputWrapper")
 
     def cells_showing(self, text: str) -> list[int]:
-        """The numbers of the cells whose source holds a text."""
+        """The numbers of the cells of code whose source holds a text."""
         return [int(n) for n in self._ask(
-            "return panel.content.model.sharedModel.cells.map((cell, n) => cell.getSource().includes(given) ? n : -1)"
+            "return panel.content.model.sharedModel.cells.map((cell, n) => "
+            "cell.cell_type === 'code' && cell.getSource().includes(given) ? n : -1)"
             ".filter(n => n >= 0);", text)]
 
     def hide_file_browser(self) -> None:

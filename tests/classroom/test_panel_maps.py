@@ -72,8 +72,8 @@ def test_the_browser_has_the_maps_that_are_derived(page, id):
         assert tuple(here["counts"]) == found.counts
         assert sum(here["tokens"]) == len(found.walls)
         assert np.allclose(np.array(here["points"]) / UNIT, places[step], atol=1e-4)
-        words = ("point", "wall", "cell")
-        assert here["size"] == ", ".join(f"{n} {word}{'s' * (n != 1)}" for n, word in zip(found.counts, words, strict=True))
+        vertices, walls, cells = found.counts
+        assert here["size"] == f"{vertices} vertices, {walls} wall{'s' * (walls != 1)}, {cells} cell{'s' * (cells != 1)}"
         if step:
             assert np.allclose(np.array(here["first"]) / UNIT, initial_vertices(found, places[step - 1]), atol=1e-4)
             assert np.allclose(here["moved"], here["points"], atol=1e-9)
@@ -107,7 +107,7 @@ def test_whoever_points_at_the_middle_of_a_wall_finds_it(page, id):
 
 def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(explored):
     panel = explored("K30", 2)
-    expect(panel.at(".lsys-status")).to_have_text("step 2: 8 points, 10 walls, 3 cells; 4 of 4 stages occupied")
+    expect(panel.at(".lsys-status")).to_have_text("step 2: 8 vertices, 10 walls, 3 cells; 4 of 4 stages occupied")
     assert panel.at(".lsys-module").all_inner_texts() == [f"{wall.label}>" for wall in derive(map_system("K30"), 2)[-1].walls]
     assert [panel.at(f"[data-place='{place}']").get_attribute("aria-label") for place in range(4)] == [
         "stage A, 1 token", "stage B, 7 tokens", "stage C, 1 token", "stage D, 1 token"]
@@ -115,7 +115,7 @@ def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(explored):
     expect(panel.at(".lsys-counts")).to_have_attribute("aria-label", "Walls a step: " + "; ".join(
         f"step {step}, {4 + 3 * step}" for step in range(12)))
     panel.page.get_by_role("button", name="one step on").click()
-    expect(panel.at(".lsys-status")).to_contain_text("10 points, 13 walls, 4 cells")
+    expect(panel.at(".lsys-status")).to_contain_text("10 vertices, 13 walls, 4 cells")
     assert "book" not in panel.asked
 
 
@@ -192,12 +192,12 @@ def test_rules_of_a_map_are_broken_and_mended_in_the_editor(explored):
     editor.fill(text.replace("[+A]B", "[+A B"))
     expect(panel.at(".lsys-mistake")).to_contain_text("A marker has one letter")
     expect(editor).to_have_attribute("aria-invalid", "true")
-    expect(panel.at(".lsys-status")).to_contain_text("step 2: 9 points, 12 walls, 4 cells")
+    expect(panel.at(".lsys-status")).to_contain_text("step 2: 9 vertices, 12 walls, 4 cells")
     mended = text.replace("[-A][+A]", "x[-A][+A]x")
     editor.fill(mended)
-    points, walls, cells = derive(read_map(mended), 2)[-1].counts
+    vertices, walls, cells = derive(read_map(mended), 2)[-1].counts
     assert walls > 12
-    expect(panel.at(".lsys-status")).to_contain_text(f"step 2: {points} points, {walls} walls, {cells} cells")
+    expect(panel.at(".lsys-status")).to_contain_text(f"step 2: {vertices} vertices, {walls} walls, {cells} cells")
     expect(panel.at(".lsys-mistake")).to_be_empty()
     expect(editor).not_to_have_attribute("aria-invalid", "true")
     assert str(panel.explorer.system.productions[0]) == "A -> Bx[-A][+A]xB"
@@ -215,7 +215,7 @@ def test_marked_walls_are_marked_in_word_and_drawing(explored, dark):
 def test_playing_ends_at_the_last_step(explored):
     panel = explored("K30", 10)
     panel.page.get_by_role("button", name="play", exact=True).click()
-    expect(panel.at(".lsys-status")).to_contain_text("step 12: 28 points, 40 walls, 13 cells")
+    expect(panel.at(".lsys-status")).to_contain_text("step 12: 28 vertices, 40 walls, 13 cells")
     expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-step", "12")
 
 
@@ -228,7 +228,7 @@ def test_a_page_without_a_kernel_shows_a_map(explored, browser, tmp_path):
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(file.as_uri())
-    expect(page.locator(".lsys-status")).to_contain_text("step 2: 14 points, 17 walls, 4 cells")
+    expect(page.locator(".lsys-status")).to_contain_text("step 2: 14 vertices, 17 walls, 4 cells")
     box = page.get_by_role("textbox", name="pressure")
     expect(box).to_have_value("0.5")
     before = page.evaluate(PIXELS)
@@ -338,7 +338,7 @@ def test_the_relaxation_goes_on_iteration_by_iteration_by_keyboard(explored):
     forward.focus()
     for iteration in range(1, 4):
         panel.page.keyboard.press("Enter")
-        expect(said).to_contain_text(f"iteration {iteration}: a point moved by 0.0")
+        expect(said).to_contain_text(f"iteration {iteration}: a vertex moved by 0.0")
         panel.page.wait_for_timeout(100)
         seen.append(panel.page.evaluate(PIXELS))
     assert len({*seen}) == 4

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.maps.development import Development, develop
-from lsys_kit.derivation.maps.divisions import map_step
+from lsys_kit.derivation.maps.development import Development, develop, productions_of
+from lsys_kit.derivation.maps.divisions import dividing_walls, map_step, replaced_map
 from lsys_kit.derivation.maps.map import Map, cell_words, least_rotation
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
@@ -274,3 +274,23 @@ def test_the_remarks_of_the_rules_are_those_of_the_maps() -> None:
     maps = derive(read_map("map: AAA\nA> -> A>[-x>]A>\nA -> A"), 2)
     assert maps.notes == maps.system.notes
     assert any("markers of x<" in note for note in maps.notes)
+
+
+@given(map_systems())
+def test_the_walls_that_divide_cells_join_the_markers_that_match(system: MapSystem) -> None:
+    maps = maps_of(system)
+    productions = productions_of(system)
+    for before, after in pairwise(maps):
+        replaced, stubs = replaced_map(before, productions)
+        joined = sorted(sorted((stub.vertex, stub.partner)) for stub in stubs if stub.partner is not None)
+        assert joined[::2] == joined[1::2] == sorted(sorted(wall[1:3]) for wall in dividing_walls(before, after, productions))
+        assert replaced.vertices == after.vertices
+        assert replaced.walls == after.walls[:len(replaced.walls)]
+        assert [before.counts[2], replaced.boundary] == [replaced.counts[2], after.boundary]
+
+
+def test_markers_without_a_partner_are_known() -> None:
+    [square] = develop(read_map(K28), 0)
+    _, stubs = replaced_map(square, productions_of(read_map(K28)))
+    found = [(stub.wall, stub.side, stub.partner) for stub in stubs]
+    assert found == [(0, "-", 5), (0, "+", None), (2, "-", 4), (2, "+", None)]

@@ -83,7 +83,7 @@ def _pictures(row: Row) -> Iterator[NotebookNode]:
         for symbol in symbols:
             notation, text = example_of(turtle, symbol)
             yield new_code_cell(f"# {EXAMPLES['turtles'][turtle]['title']}: {symbol}\n"
-                                f'draw(read({_quoted(text)}, "{notation}"), 0)')
+                                f'draw(read({_quoted(text)}, "{notation}"), 0, turtle=True)')
 
 
 def _notation_cells() -> Iterator[NotebookNode]:

@@ -36,6 +36,16 @@ def test_an_example_uses_its_command_and_draws_something(turtle: str, symbol: st
     assert "segment" in str(draw(system, 0)) or "polygon" in str(draw(system, 0))
 
 
+def test_commands_that_do_different_things_have_different_pictures() -> None:
+    does: dict[tuple[str, str], set[str]] = {}
+    for row in COMMAND_TABLE:
+        for turtle, symbols in symbols_of(row).items() if row.commands else ():
+            for symbol in symbols:
+                notation, text = example_of(turtle, symbol)
+                does.setdefault((turtle, draw(read(text, notation), 0).svg), set()).add(row.words)
+    assert [words for words in does.values() if len(words) > 1] == []
+
+
 @pytest.mark.parametrize("name", DIALECTS)
 def test_every_notation_has_an_example_that_is_recognised(name: str) -> None:
     example = EXAMPLES["notations"][name]

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, derive, draw, limits
+from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, animate, derive, draw, limits
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.pictures.style.palette import SERIES
 from lsys_kit.pictures.tissues.maps import FILLS, MOST_MAPS, MapPicture, cell_colour
@@ -157,3 +157,28 @@ def test_a_picture_is_kept_as_svg(tmp_path) -> None:  # type: ignore[no-untyped-
 def test_a_picture_with_too_many_walls_is_refused() -> None:
     with limits(segments=20), pytest.raises(ModelLimitError, match="The picture would have 23 walls; the limit is 20"):
         draw(K28, 2)
+
+
+def test_a_step_is_shown_in_its_phases_on_the_cells_before_it() -> None:
+    picture = draw(K28, 1, phases=True)
+    assert str(picture) == "step 1 in 4 pictures: 2 of 4 markers match; at the end 2 cells"
+    drawn = ET.fromstring(picture.svg)
+    captions = [found.text for found in drawn.findall(f"{SVG}text")]
+    assert captions == ["step 0", "walls replaced", "markers matched", "step 1"]
+    assert len(drawn.findall(f".//{SVG}polygon")) == 1 + 1 + 1 + 2
+    assert len(animate(K28, 1, phases=True).images) == 4
+    assert str(draw(K30, 2, phases=True)) == "step 2 in 4 pictures: 2 of 2 markers match; at the end 3 cells"
+    assert "&gt;" in draw(K30, 1, phases=True).svg
+    assert "&gt;" not in draw(K30, 1, phases=True, labels=False).svg
+
+
+def test_a_step_without_markers_has_phases_too() -> None:
+    plain = read_map("map: ABC\nA -> B")
+    assert str(draw(plain, 1, phases=True)) == "step 1 in 4 pictures: 0 of 0 markers match; at the end 1 cell"
+
+
+@pytest.mark.parametrize(("steps", "phases", "says"), [(0, True, "Phases are those of a step"), (1, "yes", "True or False"),
+                                                       (1, 1, "True or False")])
+def test_phases_are_those_of_a_step(steps: int, phases: object, says: str) -> None:
+    with pytest.raises(ModelValueError, match=says):
+        draw(K28, steps, phases=phases)  # type: ignore[call-overload]

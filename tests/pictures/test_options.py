@@ -44,7 +44,7 @@ DRAWN = {
     "a map": lambda **choices: draw(map_system("K28"), 1, **choices),
     "a map on a sphere": lambda **choices: draw(map_system("K34"), 1, **choices),
     "a cellwork": lambda **choices: draw(cellwork_system("K33"), 1, **choices)}
-VALUES = {"labels": False, "colours": "symbols", "widths": 2, "legend": True, "background": "dark"}
+VALUES = {"labels": False, "colours": "symbols", "widths": 2, "turtle": True, "legend": True, "background": "dark"}
 
 every_kind = pytest.mark.parametrize("kind", DRAWN)
 
@@ -282,5 +282,32 @@ def test_the_shell_knows_the_same_options(tmp_path):
     assert (tmp_path / "j4.svg").read_text().count(expected.svg[200:]) == 1
     main(["draw", "K5", "-n", "3", "--widths", "order", "--colours", "natural", "-o", str(tmp_path / "k5.svg")])
     assert RAMP[0] in (tmp_path / "k5.svg").read_text()
+    main(["draw", "K5", "-n", "1", "--turtle", "-o", str(tmp_path / "k5.svg")])
+    assert (tmp_path / "k5.svg").read_text().count("<polygon") == 1
     main(["stages", "J4", "--background", "none", "-o", str(tmp_path / "net.svg")])
     assert draw(stages(system("J4")), background="none").svg[200:] in (tmp_path / "net.svg").read_text()
+
+
+@pytest.mark.parametrize(("rules", "corners"), [
+    ("axiom: F(10)", [[0, 0], [-0.48, -1.2], [0.48, -1.2]]),
+    ("heading: 0\naxiom: F(10)", [[0, 0], [-1.2, 0.48], [-1.2, -0.48]]),
+    ("turtle: grogra\naxiom: F(10)", [[0, 0], [0.48, -1.2], [-0.48, -1.2]]),
+])
+def test_an_arrow_points_where_the_turtle_looks_at_its_start(rules: str, corners: list[list[float]]) -> None:
+    picture = draw(read(rules), 0, turtle=True)
+    assert np.allclose(picture.scene.polygons.points, corners)
+    assert len(draw(read(rules), 0).scene.polygons) == 0
+
+
+@pytest.mark.parametrize("axiom", ["F(10) /(90) &(60) F", "{ . f . -(120) f . }", "@PS(1) F", "[+F] L", ""])
+def test_the_arrow_stands_beside_whatever_is_drawn(axiom: str) -> None:
+    plant = read(f"axiom: {axiom} A")
+    with_arrow, without = draw(plant, 0, turtle=True), draw(plant, 0)
+    assert len(with_arrow.scene.polygons) == len(without.scene.polygons) + 1
+    assert with_arrow.svg != without.svg
+    assert with_arrow.mesh
+
+
+def test_whether_the_start_is_marked_is_true_or_false() -> None:
+    with pytest.raises(ModelValueError, match="True or False"):
+        draw(PLANT, 1, turtle="yes")

@@ -90,7 +90,7 @@ def develop(system: MapSystem, steps: int) -> Development:
     """
     steps = whole_number(steps, "The number of steps")
     maps = [first_map(system)]
-    productions = {production.predecessor: production for production in system.productions}
+    productions = productions_of(system)
     with Task():
         for step in range(1, steps + 1):
             try:
@@ -102,9 +102,14 @@ def develop(system: MapSystem, steps: int) -> Development:
     return Development(system, maps)
 
 
+def productions_of(system: MapSystem) -> Mapping[Edge, EdgeProduction]:
+    """The production of each wall that has one."""
+    return {production.predecessor: production for production in system.productions}
+
+
 def unmatched_markers(system: MapSystem, maps: Sequence[Map]) -> Iterator[str]:
     """A remark on the letters of which both halves of walls are made in a step, but never on the sides of one cell."""
-    productions = {production.predecessor: production for production in system.productions}
+    productions = productions_of(system)
     halved, joined = dict[str, None](), set[str]()
     for before, after in pairwise(maps):
         kinds = dict.fromkeys(map(predecessor_of, counted(before.walls)))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from itertools import permutations
 from typing import NamedTuple
 
 from lsys_kit.budget import check_step, counted
@@ -39,9 +40,7 @@ class Mark(NamedTuple):
 def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) -> Map:
     """The map of the next step."""
     check_step(step, sum(len(_successor(wall, productions)) for wall in counted(found.walls)), "walls", WALL_BYTES)
-    vertices, walls = [*found.vertices], list[Wall]()
-    partings = [_parted(number, wall, productions.get(predecessor_of(wall)), vertices, walls)
-                for number, wall in enumerate(counted(found.walls))]
+    vertices, walls, partings = _all_parted(found, productions)
     cells, mothers = [], []
     for number, cell in enumerate(counted(found.cells)):
         daughters = _divided(*_replaced(cell, partings), walls)
@@ -49,6 +48,35 @@ def map_step(found: Map, productions: Mapping[Edge, EdgeProduction], step: int) 
         mothers += [number] * len(daughters)
     check_step(step, len(walls), "walls", WALL_BYTES)
     return Map(tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]), tuple(mothers))
+
+
+class Stub(NamedTuple):
+    """A marker on a wall that has just been replaced: on which wall of the map before, at which vertex, to which side of that
+    wall, what it begins, and at which vertex it finds a partner, if it does.
+    """
+
+    wall: int
+    vertex: int
+    side: str
+    edge: Edge
+    partner: int | None
+
+
+def replaced_map(found: Map, productions: Mapping[Edge, EdgeProduction]) -> tuple[Map, Sequence[Stub]]:
+    """The map after the first phase of a step, whose walls are replaced and whose cells are not divided, and its markers."""
+    vertices, walls, partings = _all_parted(found, productions)
+    cells, partners = [], dict[tuple[int, int, str, Edge], int]()
+    for cell in counted(found.cells):
+        sides, marks = _replaced(cell, partings)
+        cells.append(tuple(sides))
+        inside = {wall: RIGHT if forward else LEFT for wall, forward in cell}
+        for one, other in permutations(matching(marks) or (), 2):
+            partners[one.wall, one.vertex, inside[one.wall], one.edge] = other.vertex
+    made = ((number, vertex, marker.side, marker.edge) for number, parting in enumerate(partings)
+            for vertex, markers in zip(parting.vertices, parting.marked, strict=False) for marker in markers)
+    stubs = [Stub(*marker, partners.get(marker)) for marker in made]
+    return Map(tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]),
+               tuple(range(len(cells)))), stubs
 
 
 def predecessor_of(wall: Wall) -> Edge:
@@ -65,6 +93,13 @@ def _successor(wall: Wall, productions: Mapping[Edge, EdgeProduction]) -> tuple[
 def dividing_walls(before: Map, after: Map, productions: Mapping[Edge, EdgeProduction]) -> Sequence[Wall]:
     """The walls of a map that divide a cell of the map before it."""
     return after.walls[sum(len(_successor(wall, productions)) for wall in counted(before.walls)):]
+
+
+def _all_parted(found: Map, productions: Mapping[Edge, EdgeProduction]) -> tuple[list[Vertex], list[Wall], list[DividedWall]]:
+    """The vertices and walls of a map whose walls are replaced, and what has become of each."""
+    vertices, walls = [*found.vertices], list[Wall]()
+    return vertices, walls, [_parted(number, wall, productions.get(predecessor_of(wall)), vertices, walls)
+                             for number, wall in enumerate(counted(found.walls))]
 
 
 def _parted(number: int, wall: Wall, production: EdgeProduction | None, vertices: list[Vertex],

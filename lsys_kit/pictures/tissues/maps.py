@@ -139,19 +139,16 @@ def _unsettled_text(steps: Sequence[int]) -> str:
 def map_picture(what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (), labels: bool = True,
                 **forces: object) -> MapPicture:
     """The picture of a map system after `n` steps, or of a development; or of the relaxation of its last step."""
-    if isinstance(what, MapSystem):
-        what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
-    elif n is not None:
-        raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
+    what = developed(what, n)
     require(iterations, Sequence, "A list of iterations")
     if iterations:
         iterations = _checked_iterations(iterations)
         shown: Sequence[Map] = [what[-1]] * len(iterations)
-        _check_walls(shown)
+        check_walls(shown)
         places = [*relaxation_steps(what, iterations, forces_of(forces))]
         return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps, labels=labels)
     first = max(0, len(what) - MOST_MAPS)
-    _check_walls(what[first:])
+    check_walls(what[first:])
     reached = [*equilibria(what, forces_of(forces))]
     places = [each.points for each in reached]
     unsettled = [step for step, each in enumerate(reached) if not each.settled and step >= first]
@@ -172,7 +169,17 @@ def _checked_iterations(given: Sequence[int]) -> list[int]:
     return iterations
 
 
-def _check_walls(maps: Sequence[Map]) -> None:
+def developed(what: MapSystem | Development, n: int | None) -> Development:
+    """A development as it is; that of a map system up to a step, by default its own."""
+    if isinstance(what, MapSystem):
+        return develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
+    if n is not None:
+        raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
+    return what
+
+
+def check_walls(maps: Sequence[Map]) -> None:
+    """A picture can have as many walls as some maps."""
     walls = sum(len(found.walls) for found in maps)
     if walls > current().segments:
         raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
@@ -233,8 +240,13 @@ def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
 def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: int, labels: bool = True) -> str:
     """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
     return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame, labels)}"
-            f'<text x="{panel.x}" y="{panel.y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
-            f'fill="{theme().quiet}">{number}</text>')
+            f"{caption_svg(str(number), panel.x, panel.y)}")
+
+
+def caption_svg(text: str, x: int, y: int) -> str:
+    """What stands below a map."""
+    return (f'<text x="{x}" y="{y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
+            f'fill="{theme().quiet}">{text}</text>')
 
 
 def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
@@ -262,10 +274,14 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = Tru
         if wall.directed and length > LEAST_POINTED * 10:
             arrows.append(_wall_arrow(x, y, to_x, to_y, length))
         if labelled and length > LEAST_LABELLED * 10:
-            labels.append(_wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
+            labels.append(wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
     return (f'<path d="{"".join(strokes)}" fill="none" stroke="{theme().ink}" stroke-width="16" stroke-linecap="round"/>'
-            f'<path d="{"".join(arrows)}" fill="{theme().ink}"/>'
-            f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{theme().ink}" '
+            f'<path d="{"".join(arrows)}" fill="{theme().ink}"/>{labels_svg(labels)}')
+
+
+def labels_svg(labels: Sequence[str]) -> str:
+    """The letters of walls."""
+    return (f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{theme().ink}" '
             f'stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
 
 
@@ -279,6 +295,7 @@ def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
     return f"M{'L'.join(at)}Z"
 
 
-def _wall_label(label: str, x: int, y: int) -> str:
+def wall_label(label: str, x: int, y: int, arrow: str = "") -> str:
+    """The letter of a wall, with its number as an index, in the middle of a place; behind that of a marker its arrow."""
     letter, number = re.fullmatch(r"(\D)(\d*)", label).groups()  # type: ignore[union-attr]
-    return f'<text x="{x}" y="{y + round(3.4 * LABEL)}">{letter_svg(letter, number)}</text>'
+    return f'<text x="{x}" y="{y + round(3.4 * LABEL)}">{letter_svg(letter, number, arrow)}</text>'

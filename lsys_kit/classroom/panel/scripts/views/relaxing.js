@@ -112,10 +112,10 @@ export function relaxing(changed) {
 }
 
 const SAID = {
-  "": (iteration, farthest) => `iteration ${iteration.toLocaleString("en")}${Number.isFinite(farthest) ? `: a point moved by ${farthest.toPrecision(2)}` : ""}`,
+  "": (iteration, farthest) => `iteration ${iteration.toLocaleString("en")}${Number.isFinite(farthest) ? `: a vertex moved by ${farthest.toPrecision(2)}` : ""}`,
   rest: (iteration) => `at rest after ${counted(iteration, "iteration")}`,
   unsettled: (iteration) => `does not settle: still moving after ${counted(iteration, "iteration")}`,
-  "blown up": (iteration) => `blows up after ${counted(iteration, "iteration")}: the points fly apart`,
+  "blown up": (iteration) => `blows up after ${counted(iteration, "iteration")}: the vertices fly apart`,
 };
 
 const split = (points) => ({ x: points.filter((_, i) => i % 2 === 0), y: points.filter((_, i) => i % 2) });

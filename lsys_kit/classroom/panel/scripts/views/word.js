@@ -92,13 +92,13 @@ function wallOf(label, colour, edges) {
 }
 
 // A number with its noun: "1 module", "2 modules".
-export function counted(number, noun) {
-  return `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
+export function counted(number, noun, several = `${noun}s`) {
+  return `${number.toLocaleString("en")} ${number === 1 ? noun : several}`;
 }
 
-// The size of a step in words: of cells as the kit says it, of a map its points, walls and cells, of a word its modules.
+// The size of a step in words: of cells as the kit says it, of a map its vertices, walls and cells, of a word its modules.
 export function sizeOf(book, step) {
   if (book.data.sizes) return book.data.sizes[step];
   if (book.data.mode !== "map") return counted(book.length(step), book.data.noun);
-  return ["point", "wall", "cell"].map((noun, i) => counted(book.data.counts[step][i], noun)).join(", ");
+  return [["vertex", "vertices"], ["wall"], ["cell"]].map((nouns, i) => counted(book.data.counts[step][i], ...nouns)).join(", ");
 }
