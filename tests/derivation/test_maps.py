@@ -282,8 +282,8 @@ def test_the_walls_that_divide_cells_join_the_markers_that_match(system: MapSyst
     productions = productions_of(system)
     for before, after in pairwise(maps):
         replaced, stubs = replaced_map(before, productions)
-        joined = sorted(sorted((stub.vertex, stub.partner)) for stub in stubs if stub.partner is not None)
-        assert joined[::2] == joined[1::2] == sorted(sorted(wall[1:3]) for wall in dividing_walls(before, after, productions))
+        joined = {frozenset((stub.vertex, stub.partner)) for stub in stubs if stub.partner is not None}  # some are typed twice
+        assert joined == {frozenset(wall[1:3]) for wall in dividing_walls(before, after, productions)}
         assert replaced.vertices == after.vertices
         assert replaced.walls == after.walls[:len(replaced.walls)]
         assert [before.counts[2], replaced.boundary] == [replaced.counts[2], after.boundary]
