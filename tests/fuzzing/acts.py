@@ -99,7 +99,7 @@ MAKERS: Mapping[str, Callable[[Any], Any]] = {
 """How each result is made of an L-system."""
 MAP_MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "Development": longest, "Map": lambda system: longest(system)[-1], "MapPicture": lambda system: kit.draw(system, 5),
-    "MapSystem": lambda system: system}
+    "PhasesPicture": lambda system: kit.draw(system, 5, phases=True), "MapSystem": lambda system: system}
 CELLWORK_MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "CellworkDevelopment": longest, "Cellwork": lambda system: longest(system)[-1], "CellworkSystem": lambda system: system}
 """The same of a map system and of a cellwork system."""
