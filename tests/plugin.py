@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import gc
 import os
-from collections import defaultdict
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -59,27 +59,28 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks; of many variants only a thorough
-    run tries all."""
+    """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks."""
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
         if "browser" in fixtures or "lab" in fixtures:
             item.add_marker("browser")
         if "benchmark" in fixtures or "benchmarks" in item.path.parts or item.path.suffix == ".ipynb":
             item.add_marker("slow")
-    if not config.option.thorough:
-        few = _few_variants(items)
-        config.hook.pytest_deselected(items=[item for item in items if item not in few])
-        items[:] = [item for item in items if item in few]
 
 
-def _few_variants(items: list[pytest.Item]) -> set[pytest.Item]:
-    """Of each test at most a few variants."""
-    variants = defaultdict(list)
-    for item in items:
-        variants[item.nodeid.partition("[")[0]].append(item)
-    return {of_one[place * len(of_one) // few] for of_one in variants.values()
-            for few in [min(FEW_VARIANTS, len(of_one))] for place in range(few)}
+@pytest.hookimpl(wrapper=True)
+def pytest_pycollect_makeitem(collector: pytest.Collector) -> Iterator[object]:
+    """Of each test at most a few variants, spread over all of them, unless the run is thorough."""
+    made = yield
+    if collector.config.option.thorough or not isinstance(made, list) or len(made) <= FEW_VARIANTS:
+        return made
+    return [made[place * len(made) // FEW_VARIANTS] for place in range(FEW_VARIANTS)]
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """A run without slow tests does not even open the folders that hold nothing else."""
+    slow = collection_path.name == "benchmarks" or collection_path.suffix == ".ipynb"
+    return True if slow and "not slow" in config.option.markexpr else None
 
 
 def pytest_collection_finish() -> None:

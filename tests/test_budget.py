@@ -110,6 +110,7 @@ def test_what_knows_of_no_budget_is_supervised() -> None:
     assert sys.getprofile() is before
 
 
+@pytest.mark.slow
 def test_what_has_less_time_within_what_is_supervised_can_be_given_up_alone() -> None:
     """As the later steps of a panel that is being shown: its book ends earlier, and is shown."""
     given_up = False

@@ -43,6 +43,7 @@ def test_the_wheel_brings_the_course_along(wheel):
     assert {f"lsys_kit/course/{name}" for name in course_files()} - names == set()
 
 
+@pytest.mark.slow
 def test_an_installed_wheel_copies_its_own_course(wheel, tmp_path):
     zipfile.ZipFile(wheel).extractall(tmp_path / "site")
     code = ("import lsys_kit.classroom.course as c; found = c.course_files(); c.copy_course('mine')\n"

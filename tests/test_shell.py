@@ -138,6 +138,7 @@ def test_counts_may_have_more_digits_than_python_likes_to_print(shell, model):
     assert last.startswith("3980276840")  # 2^20000
 
 
+@pytest.mark.slow
 def test_counts_of_ever_new_modules_end(shell, model):
     from lsys_kit.budget import limits
 

@@ -179,6 +179,7 @@ def texts_in(entry):
 
 # -- the growth rate ------------------------------------------------------------------------------------------------------
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SETTLED)
 def test_the_growth_rate_is_the_greatest_root(name):
     told = made_book(name)["growth"]

@@ -95,6 +95,7 @@ def test_what_is_no_notebook_of_today_is_named(content, said, tmp_path):
     assert problem.startswith(said)
 
 
+@pytest.mark.slow
 def test_every_file_that_was_handed_in_has_a_row_or_is_named(tmp_path):
     for name in ("ann.ipynb", "bea.zip", "cem.py", "dora/1.ipynb", "dora/photo.docx", "emil/all.zip"):
         (tmp_path / name).parent.mkdir(exist_ok=True)

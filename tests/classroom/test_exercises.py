@@ -66,6 +66,7 @@ def test_a_misconception_has_its_own_reply_and_earns_the_parts_that_are_right(ex
         assert any(says in verdict.message for says in expected) or verdict.message.count(", or ") == 2, f"{name}: {verdict}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exercise", [each for each in EXERCISES if each.kind not in ("choice", "symbol", "line")],
                          ids=lambda each: each.id)
 def test_no_reply_gives_the_solution_away(exercise):

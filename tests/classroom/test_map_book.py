@@ -228,6 +228,7 @@ def test_rules_typed_in_the_editor_may_be_of_the_other_kind():
     assert answered(panel, {"kind": "variants"})["variants"]
 
 
+@pytest.mark.slow
 def test_a_link_of_a_map_may_be_put_in_place_of_rules():
     panel = explore("J1", 4)
     answered(panel, {"kind": "rules", "text": explore(DIVIDED).link})

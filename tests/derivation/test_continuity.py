@@ -197,6 +197,7 @@ def test_only_the_first_parameter_is_an_age() -> None:
 # R1: growth functions are continuous on the life spans
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lengths", ["1/(t-1)", "A/(t-1)", "1/t", "log(t)", "sqrt(t - 1/2)", "(t - 1/2)^(1/3)", "tan(90*t)",
                                      "1 + 1/(2*t-1)^2", "(-2)^t", "asin(2*t)", "1/0 + t", "exp(1/(t-1/3))"])
 def test_a_growth_function_is_continuous_while_its_cell_lives(lengths: str) -> None:
@@ -253,6 +254,7 @@ def test_a_solution_is_none_where_a_growth_function_breaks() -> None:
 # Solving
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("lengths", "limits", "value"), [
     ("(t+x)^2", (0, None), (2 + 10**0.5) / 5 * 2), ("(t+x)^2", (None, 0), -0.464911), ("exp(c*t) - c", (0.1, 5), 0.481954),
     ("1/(1+exp(-k*(t-1/2)))", (None, None), 1.608094), ("2^(c*t)", (None, None), math.log2(2.167303978)),

@@ -58,6 +58,7 @@ def test_a_depth_without_end_has_one() -> None:
         derive(system, 1)
 
 
+@pytest.mark.slow
 @given(systems_with(DECOMPOSITION, CHANCE), st.integers(0, 3))
 def test_any_depth_is_as_defined(system: LSystem, depth: int) -> None:
     system = replace(system, decomposition_depth=depth)

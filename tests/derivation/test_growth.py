@@ -172,6 +172,7 @@ def test_the_rule_of_lychnis_flowers() -> None:
     assert found.rate**4 == pytest.approx((1 + 5**0.5) / 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ["J1", "J4", "J5", "T2", "P2", "P4", "P5", "P9w", "K2", "K5", "K11", "K19", "K27", "L1"])
 def test_a_closed_form_gives_every_length(id: str) -> None:
     found = growth(system(id))

@@ -43,6 +43,7 @@ def test_more_fits_than_can_soon_be_counted_are_refused_with_what_is_known(monke
         infer(["x", "abcdefg", "abcdefgabcdefg"])
 
 
+@pytest.mark.slow
 def test_of_modules_with_values_it_is_said_that_laws_are_looked_for_without_contexts() -> None:
     ages = derive(read("axiom: a(0) b(7)\na(t) -> a(t+1) a(t+1)\nb(t) -> b(t+1)"), 4)
     with pytest.raises(ModelLimitError, match=r"systems fit these 5 words. With contexts, a module with other values, or other "
@@ -130,6 +131,7 @@ def test_what_a_search_asks_of_the_budget_names_the_search() -> None:
         infer(["ab" * 50, "ab" * 99])
 
 
+@pytest.mark.slow
 def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.MonkeyPatch) -> None:
     words = ["abcab", "aabbcabcabcaab", "aabbcabcaabbcabcaabbcabcaabbcaabbcabcaabbcaabbcabca"]
     monkeypatch.setattr(infer_module, "MOST_SUCCESSORS_TRIED", 10)

@@ -373,6 +373,7 @@ def test_a_shortened_word_cannot_be_shortened(system: LSystem) -> None:
         assert reference.shortened(system, word, {}) == word
 
 
+@pytest.mark.slow
 @given(systems(), systems())
 def test_what_stands_behind_a_cut_makes_no_difference(system: LSystem, other: LSystem) -> None:
     known = {constant.name for constant in system.constants}

@@ -57,6 +57,7 @@ def test_so_they_are_in_random_systems(model: object) -> None:
     assert words(lineage(derivation)) == named(derivation)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.one_of(systems(), systems_with("context"), systems_with("decomposition")))
 def test_a_cell_is_born_when_its_mother_ends_and_never_ends_before(model: object) -> None:

@@ -116,6 +116,7 @@ def test_durations_and_conditions_are_told() -> None:
     assert only_texts(root, ".//p:toolspecific/p:besides") == ["meta: f(x,y)f(u,v) : short == 1 -> f(x + u,y + v)"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_name_is_text(name: str) -> None:
     hostile = LSystem((Pattern(name),), (Production((Pattern(name),), (Pattern(name), *[Pattern(f"{name}2")] * 2)),))

@@ -55,6 +55,7 @@ def test_a_production_gives_an_age(text: str) -> None:
         timed(read(f"axiom: A(0) B\n{text}"))
 
 
+@pytest.mark.slow
 def test_no_time_before_the_axiom_and_no_division_without_end() -> None:
     with pytest.raises(ModelValueError, match="before the axiom"):
         ANABAENA.word(-1)

@@ -55,6 +55,7 @@ def test_a_bomb_is_refused_before_it_is_built(name: str, call: str) -> None:
     assert what in ("ModelLimitError", "ModelValueError") or call == "lineage(derive(s, 0))"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["a timed division", "a decomposition", "a production"])
 def test_the_division_is_named(name: str) -> None:
     with pytest.raises(ModelLimitError, match="A\\(1\\) becomes more than 100,000 modules at once") as caught:
@@ -62,6 +63,7 @@ def test_the_division_is_named(name: str) -> None:
     assert caught.value.line is not None
 
 
+@pytest.mark.slow
 def test_a_life_of_many_steps_is_one_cell() -> None:
     for text in ("axiom: A\nA -> A", "axiom: A(0)\nA(t) -> A(t+1)"):
         (cell,) = lineage(read(text), 5_000).cells
@@ -70,6 +72,7 @@ def test_a_life_of_many_steps_is_one_cell() -> None:
         lineage(read("axiom: A\nA -> A"), 100_000)
 
 
+@pytest.mark.slow
 def test_a_mother_may_have_many_daughters() -> None:
     tree = lineage(timed(read("axiom: A(0)\nA(1) -> repeat(20000)<B(0)>")), 2)
     assert len(tree.daughters(0)) == 20_000

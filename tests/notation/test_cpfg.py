@@ -165,6 +165,7 @@ def test_a_mistake_in_a_macro_is_shown_where_it_is_used() -> None:
     "#if 1\n" * 5000 + "Axiom: A", "#define X [F]\nAxiom: " + "X(" * 20_000, "#if 0\n" + "F\n" * 100_000,
     "#define g(x) [x]\nAxiom: " + "g(" * 20_000, "Axiom: F\nF --> F " + "// " * 15_000,
 ])
+@pytest.mark.slow
 def test_macros_that_grow_or_nest_without_end_are_refused(text: str) -> None:
     begun = time.process_time()
     with suppress(LSystemError):

@@ -49,6 +49,7 @@ def test_the_message_says_whose_format_it_is_and_where_that_is_seen(name: str, t
     assert not text.split("\n")[line - 1][(found.column or 1) - 1].isspace()
 
 
+@pytest.mark.slow
 def test_the_ends_of_lines_change_nothing() -> None:
     told = [claim(text.replace("\n", "\r\n")) for _, text, _ in TEXTS]
     assert [(f"This is {name}, which the kit does not read", line) for name, _, line in TEXTS] == [

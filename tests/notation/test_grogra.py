@@ -352,6 +352,7 @@ def test_an_l_that_may_be_meant_stays(text: str) -> None:
     assert not [note for note in grogra(text).notes if "is read as" in note]
 
 
+@pytest.mark.slow
 def test_the_plant_of_seed_003_grows_as_printed() -> None:
     text = (LISTINGS / "003-meristems.grogra.txt").read_text(encoding="utf-8")
     printed = text.replace("P5 u1'", "P5 ul'").replace("P15 u1 ]", "P15 ul ]").replace("P15 u1' ]", "P15 ul' ]")

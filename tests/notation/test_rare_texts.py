@@ -253,6 +253,7 @@ def test_a_constant_without_a_value_warns_of_nothing() -> None:
     assert warnings(LSystem((Pattern("A", (Name("d"),)),), rules)) == []
 
 
+@pytest.mark.slow
 def test_sums_are_multiplied_out_before_they_are_compared() -> None:
     k = sympy.Symbol("k", real=True)
     assert equal_values(k * (k + 1), k**2 + k)

@@ -56,6 +56,7 @@ def test_surfaces_are_written_back() -> None:
     assert write(read(text)) == text
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(st.lists(shapes, max_size=2))
 def test_what_is_written_reads_back(found: list[dict[str, object]]) -> None:

@@ -43,6 +43,7 @@ def test_a_branch_without_flow_is_cut_off_and_gone_a_step_later(two) -> None:
         assert (count(after, "%") > 0) == any(flow <= 0 and shoots < 25 for shoots, flow in flows), step
 
 
+@pytest.mark.slow
 def test_a_shoot_that_goes_on_takes_the_other_side_and_one_alone_turns_by_five_degrees(two) -> None:
     turns = {(module.symbol, abs(module.arguments[0]), module.arguments[0] > 0)
              for word in two for module in word if module.symbol in "+-" and module.arguments}

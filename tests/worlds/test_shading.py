@@ -50,6 +50,7 @@ def of_mean_lengths() -> LSystem:
     return read(text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("m", [1, 2, 3, 4])
 @pytest.mark.parametrize("apart", [600, 350])
 def test_trees_of_mean_lengths_have_the_shoots_that_an_interpreter_without_the_kit_counts(
