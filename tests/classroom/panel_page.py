@@ -27,9 +27,12 @@ const host = {
   },
   save: () => { window.asked.push("save"); },
   book: (settings) => ask({ kind: "book", ...settings }),
-  async rules(text) {
-    const answer = await ask({ kind: "rules", text });
-    for (const [name, value] of Object.entries(answer.state ?? {})) host.set(name, value);
+  async rules(text, constants) {
+    const answer = await ask({ kind: "rules", text, constants });
+    const same = ([name, value]) => JSON.stringify(data[name]) === JSON.stringify(value);
+    const changed = Object.entries(answer.state ?? {}).filter((each) => !same(each));
+    Object.assign(data, Object.fromEntries(changed)); // all at once, as in Jupyter; who listens is told in any order
+    for (const [name, value] of window.inOrder(changed)) for (const handler of [...(handlers[name] ?? [])]) handler(value);
     return answer;
   },
   variants: () => ask({ kind: "variants" }),
@@ -38,10 +41,15 @@ const host = {
 };
 window.asked = [];
 window.answered = [];
-const ask = async (content) => {
+window.inOrder = (changed) => changed;
+window.delay = () => 0;
+let answering = Promise.resolve();
+const ask = (content) => {
   window.asked.push(content.kind);
-  const answer = await window.kernel(content);
-  setTimeout(() => window.answered.push(content.kind)); // when the panel has shown it
+  const answer = answering.then(() => window.kernel(content)) // one after another, as a kernel answers
+    .then((found) => new Promise((resolve) => { setTimeout(() => resolve(found), window.delay()); }));
+  answer.then(() => setTimeout(() => window.answered.push(content.kind))); // when the panel has shown it
+  answering = answer;
   return answer;
 };
 const openOne = () => openPanel(document.getElementById("here"), host);

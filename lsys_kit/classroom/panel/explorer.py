@@ -69,7 +69,7 @@ class Explorer(KitWidget):
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
-        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened), around=opened.side[0],
+        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened.first), around=opened.side[0],
                          above=opened.side[1])
         try:
             self._begin(first, step is None)
@@ -80,7 +80,7 @@ class Explorer(KitWidget):
     def _begin(self, first: int, may_be_less: bool) -> None:
         """Show a step, or one before it where that may be, and from now on answer."""
         with self._limited(), Task("The step was not shown"):
-            self.model = self._model_of(self._opened, first)
+            self.model = self._model_of(self._opened, first, self._opened.first)
         if may_be_less:
             self.step = self.model["step"]
         self._check_step(self.step)
@@ -163,11 +163,12 @@ class Explorer(KitWidget):
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
-    def _model_of(self, what: Opened, first: int) -> dict[str, Any]:
-        """What the browser needs of a system: its sliders and its first book."""
+    def _model_of(self, what: Opened, first: int, values: Mapping[str, Value]) -> dict[str, Any]:
+        """What the browser needs of a system: its sliders, and its book for some values of them."""
         sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
-        made = what.book(what.first, self.seed, first)
-        return {"book": made, "constants": sliders, "chance": made["chance"] and "seed" not in self._without,
+        made = what.book(values, self.seed, first)
+        return {"book": made, "asked": {"constants": _texts(values), "seed": self.seed}, "constants": sliders,
+                "chance": made["chance"] and "seed" not in self._without,
                 "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
                 "unfold": self._unfold, "step": min(first, made["steps"]), "angle": self.angle, "around": self.around,
                 "above": self.above, "seed": self.seed, **translated_labels()}
@@ -216,14 +217,18 @@ class Explorer(KitWidget):
         return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
 
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        """Show the system of a text that was typed; its sliders start anew, the step and the angle stay where they can."""
+        """Show the system of a text that was typed; the step, the angle and the sliders of constants that are declared as they
+        were stay where they are."""
         system = self._opened.read(content["text"])
         title = self._given.title if system == self._given.system else ""
         new, old = opened(system, title, without=self._without, unfold=self._unfold), self._opened
-        found = {**self._model_of(new, new.steps), "angle": new.angle}
+        standing = content.get("constants", {})
+        values = {name: nearest(new.values[name], name, standing[name])
+                  if name in standing and value == old.first.get(name) else value for name, value in new.first.items()}
+        found = {**self._model_of(new, new.steps, values), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found
-            self.settings = _texts(new)
+            self.settings = _texts(values)
             self.step = min(self.step, found["book"]["steps"])
             if new.angle != old.angle:
                 self.angle = new.angle
@@ -253,8 +258,8 @@ class Explorer(KitWidget):
         return self.text
 
 
-def _texts(what: Opened) -> dict[str, str]:
-    return {name: number_text(value) for name, value in what.first.items()}
+def _texts(values: Mapping[str, Value]) -> dict[str, str]:
+    return {name: number_text(value) for name, value in values.items()}
 
 
 def _mistake(error: LSystemError) -> dict[str, Any]:

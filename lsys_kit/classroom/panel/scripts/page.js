@@ -34,7 +34,7 @@ export function pageHost(data, books, linked, alone = true) {
   const settings = { ...first, ...linked.settings }, { step, angle, around, above, seed } = data.model, handlers = new Map();
   const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings };
   if (!answer(asked()).book) Object.assign(values, { settings: first, seed });
-  values.model = { ...data.model, book: answer(asked()).book };
+  values.model = { ...data.model, asked: asked(), book: answer(asked()).book };
   let notice = null;
 
   function asked() {

@@ -1,4 +1,4 @@
-// The books of a model, by their settings: each is asked for at most once.
+// The books of one model, by their settings: each is asked for at most once. Another model has a library of its own.
 
 import { openBook } from "./book.js";
 
@@ -35,13 +35,11 @@ export function library(host) {
     }
   }
 
-  function clear() {
-    books.clear();
+  function close() {
     fetching += 1;
-    fetched = 0;
   }
 
-  return { book, keep, fetchAhead, clear, known: (settings) => books.get(keyOf(settings)) };
+  return { book, keep, fetchAhead, close, known: (settings) => books.get(keyOf(settings)) };
 }
 
 // The settings that one movement of a slider leads to.

@@ -11,20 +11,20 @@ const MANY = 9;
 
 // Nine seeds: those of the row of nine to which the seed of the panel belongs. `sow` is called with the one that was chosen.
 export function seedsView(parent, sow, say) {
-  let shown = { key: "", first: 0 };
+  let shown = { books: null, key: "", first: 0 };
   const gallery = galleryView(parent, (number) => sow(shown.first + number));
 
   async function show(books, request, now, look) {
     const first = Math.floor(request.seed / MANY) * MANY, key = JSON.stringify([request.constants, first]);
-    if (shown.key !== key) {
-      shown = { key, first };
+    if (shown.books !== books || shown.key !== key) {
+      const asked = shown = { books, key, first };
       const entries = [];
       for (let seed = first; seed < first + MANY; seed++) {
         const answer = await books.book({ ...request, seed });
         if (answer.mistake) return say(answer.mistake);
         entries.push({ label: `seed ${seed}`, book: answer.book });
       }
-      if (shown.key !== key) return;
+      if (shown !== asked) return;
       gallery.open(entries);
     }
     gallery.show(now, look, request.seed - first);

@@ -38,7 +38,7 @@ export function hostOf(model) {
     },
     save: () => model.save_changes(),
     book: (settings) => ask({ kind: "book", ...settings }),
-    rules: (text) => ask({ kind: "rules", text }),
+    rules: (text, constants) => ask({ kind: "rules", text, constants }),
     variants: () => ask({ kind: "variants" }),
     keep: (kind, state) => ask({ kind: "keep", what: kind, state }),
     keeps: ["svg", "page", "link"],

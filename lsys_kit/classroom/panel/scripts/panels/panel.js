@@ -30,8 +30,8 @@ export function openPanel(element, host, compared = null) {
   speak(host.get("model").words);
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
   element.append(root);
-  const books = library(host), offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, book, theme, resting = 0, asking = 0, idle = 0, wanted = host.get("step"), traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
+  const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
+  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = host.get("step"), traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
   let constants = [];
 
   // -- what there is --------------------------------------------------------------------------------------------------
@@ -91,7 +91,7 @@ export function openPanel(element, host, compared = null) {
     clearTimeout(resting);
     resting = setTimeout(() => host.save(), REST);
     if (!books.known(asked)) await underway; // a slider that moves on asks only for where it is when the kernel is free
-    if (number !== asking) return;
+    if (number !== asking) return; // another setting was asked for, or another model was opened
     underway = books.book(asked);
     const answer = await underway;
     if (number !== asking) return;
@@ -105,20 +105,21 @@ export function openPanel(element, host, compared = null) {
   const request = () => ({ constants: { ...host.get("settings") }, seed: host.get("seed") });
 
   async function newRules(text) {
-    const number = ++asking, answer = await host.rules(text);
-    if (number !== asking || answer === null) return;
+    const number = ++typing, answer = await host.rules(text, request().constants);
+    if (number !== typing || answer === null) return;
     if (answer.mistake) rules.mistaken(answer.mistake); // otherwise the kernel has set another model
+    else rules.understood();
   }
 
-  // A model was opened: its controls, and its first book.
+  // A model was opened: its controls, and its first book. A book belongs to a model: what was asked about the one before is not shown.
   function openModel() {
     model = host.get("model");
-    books.clear();
-    const settings = Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]]));
-    if (JSON.stringify(Object.keys(host.get("settings"))) !== JSON.stringify(Object.keys(settings))) host.set("settings", settings);
+    asking += 1;
+    books?.close();
+    books = library(host);
     constants = model.constants.map((each) => ({
       ...each,
-      control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(host.get("settings")[each.name] ?? each.texts[each.index])), (at) => {
+      control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(host.get("settings")[each.name])), (at) => {
         host.set("settings", { ...host.get("settings"), [each.name]: each.texts[at] });
       }),
     }));
@@ -129,7 +130,7 @@ export function openPanel(element, host, compared = null) {
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     variants.forget();
-    const first = books.keep({ constants: settings, seed: model.seed }, model.book);
+    const first = books.keep(model.asked, model.book);
     boxed = Math.min(model.step, first.steps);
     rules.open(model.book.text, host.editable);
     if (books.known(request())) turnTo(books.known(request()));
@@ -288,6 +289,7 @@ export function openPanel(element, host, compared = null) {
     play.stop();
     for (const off of offs) off();
     for (const timer of [resting, idle]) clearTimeout(timer);
+    books.close();
     cancelAnimationFrame(waiting);
     drawing.close();
     rules.close();

@@ -42,6 +42,14 @@ export function rulesView(parent, asked) {
   area.addEventListener("input", typed);
   area.addEventListener("scroll", paint);
 
+  // Nothing is wrong with the text.
+  function understood() {
+    spans = [];
+    said.replaceChildren();
+    area.removeAttribute("aria-invalid");
+    paint();
+  }
+
   return {
     put,
     // The text of a model that was opened; one that was typed stays as it was typed.
@@ -51,11 +59,9 @@ export function rulesView(parent, asked) {
       if (area.value !== text && document.activeElement !== area) area.value = text;
       area.rows = Math.max(4, Math.min(18, area.value.split("\n").length + 1));
       back.hidden = area.value === first;
-      spans = [];
-      said.replaceChildren();
-      area.removeAttribute("aria-invalid");
-      paint();
+      understood();
     },
+    understood,
     // What is wrong with the text, where it stands, and what to try.
     mistaken({ message, hint, start, end }) {
       spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
