@@ -17,6 +17,8 @@ from lsys_kit.notation.model.expressions import Expression, TextSpan
 from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, flat, joined
 from lsys_kit.notation.model.surfaces import SurfaceShape
 
+LOOK = "cells", "widths", "colours"
+"""Settings that say how a system looks: equality ignores them, and what is written keeps them."""
 USUAL_STEPS = 5
 """How many steps a system is derived that does not say how many."""
 

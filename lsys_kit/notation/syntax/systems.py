@@ -14,7 +14,7 @@ from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import END, Pattern, joined
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import LOOK, LSystem
 from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
@@ -105,7 +105,8 @@ def _lost(notation: Dialect, system: LSystem, text: str) -> str | None:
         raise
     except LSystemError as error:
         return _quoted(text.split("\n")[error.line - 1]) if error.line else "a part of it"
-    compared = ((part.name, getattr(system, part.name), getattr(back, part.name)) for part in fields(system) if part.compare)
+    compared = ((part.name, getattr(system, part.name), getattr(back, part.name)) for part in fields(system)
+                if part.compare or part.name in LOOK)
     return next((_different(*parts) for parts in compared if parts[1] != parts[2]), None)
 
 

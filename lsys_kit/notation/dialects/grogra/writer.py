@@ -12,7 +12,7 @@ from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, styled_text
 from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import first_missing
+from lsys_kit.notation.syntax.formatting import first_missing, look
 
 STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
@@ -86,6 +86,7 @@ def _settings(system: LSystem) -> Iterator[str]:
                                     ("\\set depth", system.depth, 1)):
         if value is not None and value != usual:
             yield f"{directive} {_value_text(Number(value))}"
+    yield from (f"\\set {name} {said}" for name, said in look(system))
 
 
 def _constant(constant: Constant) -> str:
