@@ -225,6 +225,7 @@ def _add_conversion(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--to", required=True, metavar="NOTATION", help="the notation to be printed")
     parser.add_argument("--from", dest="notation", metavar="NOTATION", help="the notation of FILE (default: it is recognised)")
     parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
+    parser.add_argument("--no-interpretation", action="store_true", help="leave out the rules that say how it is drawn")
     parser.add_argument("-o", "--output", metavar="FILE", help="write into this file, which must not exist yet")
 
 

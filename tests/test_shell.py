@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
 
 from lsys_kit.__main__ import BAD_INPUT, BROKEN_PIPE, INTERRUPTED, main
+from lsys_kit.classroom.catalogue import system
+from lsys_kit.notation.read import read
 
 FIBONACCI = "axiom: a\na -> ab\nb -> a\n"
 
@@ -291,6 +293,13 @@ def test_convert_prints_the_same_system_in_another_notation(shell):
     said = shell("convert", "K5", "--to", "plant-string")
     assert said == Said(0, "turtle: abop\nangle: 25.7\nsteps: 4\nAxiom: F\nF -> F[+F]F[-F]F\n", "")
     assert read(said.out, "plant-string") == system("K5")
+
+
+def test_convert_leaves_the_interpretation_out_where_that_is_asked(shell):
+    assert "--no-interpretation" in shell("convert", "J4", "--to", "mathematica").err
+    said = shell("convert", "J4", "--to", "mathematica", "--no-interpretation")
+    assert said.status == 0
+    assert read(said.out) == replace(system("J4"), interpretation=())
 
 
 def test_what_was_converted_converts_back(shell, model):

@@ -171,7 +171,7 @@ def convert(options: argparse.Namespace) -> None:
     from lsys_kit.notation.write import write
 
     system = named_system(options.system, options.notation, options.name)
-    text = write(system, options.to)
+    text = write(system, options.to, interpretation=not options.no_interpretation)
     if options.output is not None:
         _keep(f"{text}\n", options.output)
     for note in system.notes:

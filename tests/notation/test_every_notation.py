@@ -6,6 +6,7 @@ The notations are those of the registry: a new one is tested from the moment it 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -50,6 +51,24 @@ def test_a_refusal_names_a_feature_that_the_system_has(id: str, notation: str) -
     assert FEATURES.get(feature, lambda _: True)(system(id))
     with pytest.raises(ModelValueError, match=re.escape(f"The notation {notation} has no {feature}, which this system needs")):
         write(system(id), notation)
+
+
+@pytest.mark.parametrize(("id", "notation"), REFUSED)
+def test_a_refusal_is_a_sentence(id: str, notation: str) -> None:
+    """What follows "has no" has no article of its own and no second negation."""
+    assert not re.match(r"(a|an|the|no|any)\b|.*\b(no|not|but)\b", lacking(DIALECTS[notation], system(id)) or "")
+
+
+@pytest.mark.parametrize("id", ["J1", "J2", "J3", "J4", "J5"])
+def test_a_system_goes_without_its_interpretation_where_that_is_asked(id: str) -> None:
+    whole = system(id)
+    with pytest.raises(ModelValueError) as refused:
+        write(whole, "mathematica")
+    assert refused.value.hint == 'write(system, "mathematica", interpretation=False) leaves them out; in a shell, --no-interpretation.'
+    back = read(write(whole, "mathematica", interpretation=False))
+    assert whole.interpretation
+    assert record(back) == record(replace(whole, interpretation=(), depth=1))
+    assert list(map(str, derive(back, STEPS))) == list(map(str, derive(replace(whole, notation="mathematica"), STEPS)))
 
 
 @pytest.mark.parametrize("notation", DIALECTS)

@@ -83,7 +83,7 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "decomposition rules": lambda s: bool(s.decomposition),
     "meta-rules": lambda s: bool(s.meta),
     "interpretation rules": lambda s: bool(s.interpretation),
-    "a field": lambda s: s.field is not None,
+    "field": lambda s: s.field is not None,
     "starting direction": lambda s: s.heading != 90,
     "ignored symbols": lambda s: bool(s.ignored or s.considered),
     "right contexts that name the next branch": lambda s: s.branches == NEXT_BRANCH,

@@ -47,7 +47,9 @@ def text_in(notation: Dialect, system: LSystem) -> str:
     with Task("The model was not written"):
         missing = lacking(notation, system)
         if missing:
-            raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs")
+            left_out = f'write(system, "{notation.name}", interpretation=False) leaves them out; in a shell, --no-interpretation.'
+            raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs",
+                                  hint=left_out if missing == "interpretation rules" else None)
         text = notation.write(system)
         lost = _lost(notation, system, text)
         if lost:
@@ -113,7 +115,7 @@ def _lost(notation: Dialect, system: LSystem, text: str) -> str | None:
 def _different(name: str, wanted: object, found: object) -> str:
     """What differs between an attribute of a system and the same as it reads back."""
     if not isinstance(wanted, tuple):
-        return f"the {name} {wanted}"
+        return _quoted(f"{name.replace('_', ' ')}: {wanted}")
     others = found if isinstance(found, tuple) else ()
     if name == "axiom":
         return _quoted(f"axiom: {joined(map(str, wanted))}")

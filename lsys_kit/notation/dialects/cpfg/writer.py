@@ -112,7 +112,7 @@ def missing_feature(system: LSystem) -> str | None:
     if system.turtle != "abop":
         return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
     found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules",
-                                 "right contexts that name any branch", "a field"),),
+                                 "right contexts that name any branch", "field"),),
                   map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))
     return next(filter(None, found), None)

@@ -86,7 +86,7 @@ def lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
     return (first_missing(system, "conditions", "contexts", "predecessors of several modules", "probabilities", "repetition",
                           "constants", "decomposition rules", "meta-rules", "interpretation rules", "ignored symbols",
-                          "a field")
+                          "field")
             or _strange_setting(system) or _strange_rule(system) or _strange_word(system))
 
 

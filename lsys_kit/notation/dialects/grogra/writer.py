@@ -116,9 +116,9 @@ def missing_feature(system: LSystem) -> str | None:
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
     return (first_missing(system, "round brackets as branches", "predecessors of several modules", "decomposition rules",
                           "meta-rules", "ignored symbols", "right contexts that name the next branch",
-                          "right contexts that pass over brackets", "a field")
+                          "right contexts that pass over brackets", "field")
             or (None if system.decomposition_depth is None else "depth of decomposition")
             or ("branch ends in contexts" if ends else None)
             or (None if system.axiom else "empty axiom")
             or inexpressible(system)
-            or (None if complete_probabilities(system)[0] == system.productions else "probabilities that do not add up to 1"))
+            or (None if complete_probabilities(system)[0] == system.productions else "probabilities with another sum than 1"))

@@ -70,7 +70,7 @@ def _lacking(system: LSystem) -> str | None:
     return first_missing(
         system, "parameters", "symbols of several letters", "conditions", "contexts", "predecessors of several modules",
         "probabilities", "repetition", "constants", "decomposition rules", "meta-rules", "interpretation rules",
-        "starting direction", "ignored symbols", "a field")
+        "starting direction", "ignored symbols", "field")
 
 
 def _likely(text: str) -> int:
