@@ -31,7 +31,7 @@ REFUSED = [pair for pair in EVERY if pair not in EXPRESSED]
 def test_what_is_written_reads_back_as_the_same_system(id: str, notation: str) -> None:
     written = write(system(id), notation)
     back = read(written, notation)
-    assert record(back) == record(system(id))
+    assert record(back) == record(DIALECTS[notation].translated(system(id)))
     assert back.notation == notation
     assert write(back) == written
 
@@ -41,7 +41,7 @@ def test_the_same_words_come_out_in_every_notation(id: str, notation: str) -> No
     back = read(write(system(id), notation), notation)
     for seed in (None, 7):
         assert [tuple(word) for word in derive(back, STEPS, seed=seed)] == \
-            [tuple(word) for word in derive(system(id), STEPS, seed=seed)]
+            [tuple(word) for word in derive(DIALECTS[notation].translated(system(id)), STEPS, seed=seed)]
 
 
 @pytest.mark.parametrize(("id", "notation"), REFUSED)
@@ -64,7 +64,7 @@ def test_a_system_goes_without_its_interpretation_where_that_is_asked(id: str) -
     whole = system(id)
     with pytest.raises(ModelValueError) as refused:
         write(whole, "mathematica")
-    assert refused.value.hint == 'write(system, "mathematica", interpretation=False) leaves them out; in a shell, --no-interpretation.'
+    assert "interpretation=False" in (refused.value.hint or "")
     back = read(write(whole, "mathematica", interpretation=False))
     assert whole.interpretation
     assert record(back) == record(replace(whole, interpretation=(), depth=1))

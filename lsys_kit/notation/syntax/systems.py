@@ -35,7 +35,7 @@ def system_in(notation: Dialect, text: str, name: str | None = None) -> LSystem:
 
 
 def text_in(notation: Dialect, system: LSystem) -> str:
-    """The text of a system in a notation.
+    """The text of a system in a notation; what reads back is the system, or what the notation translates it to.
 
     Raises
     ------
@@ -47,9 +47,11 @@ def text_in(notation: Dialect, system: LSystem) -> str:
     with Task("The model was not written"):
         missing = lacking(notation, system)
         if missing:
-            left_out = f'write(system, "{notation.name}", interpretation=False) leaves them out; in a shell, --no-interpretation.'
+            without = (f'They are left out by write(system, "{notation.name}", interpretation=False), '
+                       "and in a shell by --no-interpretation.")
             raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs",
-                                  hint=left_out if missing == "interpretation rules" else None)
+                                  hint=without if missing == "interpretation rules" else None)
+        system = notation.translated(system)
         text = notation.write(system)
         lost = _lost(notation, system, text)
         if lost:
@@ -59,6 +61,7 @@ def text_in(notation: Dialect, system: LSystem) -> str:
 
 def lacking(notation: Dialect, system: LSystem) -> str | None:
     """The first thing that a system has and a notation lacks, in words: a feature or a symbol."""
+    system = notation.translated(system)
     return notation.missing_feature(system) or next(_strange_symbols(notation, system), None)
 
 
