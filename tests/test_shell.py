@@ -415,6 +415,16 @@ def test_stages_tells_how_long_cells_live(shell, tmp_path):
     refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives cannot be told", "lets time pass")
 
 
+def test_a_net_that_other_programs_play_otherwise_says_so_in_a_line(shell, tmp_path):
+    path = str(tmp_path / "net.pnml")
+    assert shell("stages", "J4", "-o", path).err == ""
+    assert shell("stages", "K16", "-o", path).err == (
+        "lsys-kit: note: Programs for Petri nets play this net otherwise than the system grows: "
+        'they know no condition such as "s < a".\n')
+    assert shell("stages", "K16", "-o", str(tmp_path / "net.svg")).err == ""
+
+
+
 def test_stages_unfolds_all_symbols_or_some(shell, tmp_path):
     path = str(tmp_path / "net.svg")
     assert "5 stages A, I, F" in shell("stages", "K19", "-o", path).out

@@ -155,6 +155,7 @@ def _steps(options: argparse.Namespace) -> dict[str, Any]:
 
 def draw_stages(options: argparse.Namespace) -> None:
     """Write a picture of the stage diagram, or a film of its tokens, and print what it shows."""
+    from lsys_kit.derivation.petri.pnml import played_otherwise
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
@@ -164,6 +165,9 @@ def draw_stages(options: argparse.Namespace) -> None:
     word = None if options.steps is None or film else _derivation(system, options)[-1]
     looks = _looks(options)
     _save(animate(net, options.steps, **film, **looks) if film else draw(net, tokens=word, **looks), options)
+    otherwise = played_otherwise(net) if Path(options.output).suffix.lower() == ".pnml" else ""
+    if otherwise:
+        print(f"lsys-kit: note: {otherwise}", file=sys.stderr)
 
 
 def convert(options: argparse.Namespace) -> None:
