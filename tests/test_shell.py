@@ -234,9 +234,20 @@ def test_the_other_commands_read_a_link(shell, tmp_path):
 def test_link_writes_a_qr_code(shell, tmp_path):
     from lsys_kit import qr_code
 
-    said = shell("link", "J4", "-n", "9", "--qr", str(tmp_path / "j4.svg"))
+    base = "--base", "https://example.org/j4.html"
+    said = shell("link", "J4", "-n", "9", *base, "--qr", str(tmp_path / "j4.svg"))
+    assert said.err == ""
     assert qr_code(said.out.strip()).svg in (tmp_path / "j4.svg").read_text()
-    refused(shell("link", "J4", "--qr", "j4.txt"), "j4.txt", ".svg, .png or .pdf")
+    refused(shell("link", "J4", *base, "--qr", "j4.txt"), "j4.txt", ".svg, .png or .pdf")
+
+
+def test_a_link_that_no_browser_can_open_says_so_and_has_no_qr_code(shell, tmp_path):
+    said = shell("link", "J4")
+    assert said.out.startswith("#lsys=")
+    assert "The kit alone reads this link" in said.err
+    assert "--base" in said.err
+    refused(shell("link", "J4", "--qr", str(tmp_path / "j4.svg")), "A phone cannot open", "--base", "lsys-kit page")
+    assert not (tmp_path / "j4.svg").exists()
 
 
 def test_link_refuses_what_the_model_has_not(shell):

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.formats.film import Film
 
+_BASE = 'Give one with --base: where the page of this model stands that "lsys-kit page" makes.'
 BITS_A_DIGIT = 3
 """A digit says at least so many bits of a number."""
 
@@ -193,7 +194,11 @@ def print_link(options: argparse.Namespace) -> None:
     settings = {name: value for name, value in own.items() if value is not None} | dict(options.settings)
     address = link(system, settings, options.base)
     if options.qr is not None:
+        if not options.base:
+            raise ModelValueError("A phone cannot open the QR code of a link without the address of a page", hint=_BASE)
         qr_code(address).save(options.qr)
+    elif not options.base:
+        print(f"lsys-kit: note: The kit alone reads this link, which has no address of a page. {_BASE}", file=sys.stderr)
     print(address)
 
 
