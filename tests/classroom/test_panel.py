@@ -189,10 +189,10 @@ def test_what_was_clicked_stays_lit_wherever_the_mouse_is(explored):
 
 
 def test_long_numbers_of_a_word_are_shown_shorter_and_told_whole(explored):
-    panel = explored(read("axiom: A(2/3) B(0.00012345678) C(117.61973158964844) D(0.25)"), 0)
-    assert word_in(panel) == "A(2/3)B(0.0001235)C(117.6197)D(0.25)"
+    panel = explored(read("axiom: A(2/3) B(0.00012345678) C(117.61973158964844) D(0.25) E(1185/3840001)"), 0)
+    assert word_in(panel) == "A(2/3)B(0.0001235)C(117.6)D(0.25)E(0.0003086)"
     told = [each.get_attribute("title") for each in panel.at("[data-position]").all()]
-    assert told == [None, "B(0.00012345678)", "C(117.61973158964844)", None]
+    assert told == [None, "B(0.00012345678)", "C(117.61973158964844)", None, "E(1185/3840001)"]
 
 
 def test_a_small_stage_diagram_leaves_its_room_to_the_drawing(explored):

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.arithmetic import Value, number_text, rounded
 from lsys_kit.notation.model.expressions import Expression, TextSpan
 
 OPENING, CLOSING = frozenset("[("), frozenset("])")
@@ -36,6 +36,15 @@ class Module:
 
     def __str__(self) -> str:
         return f"{self.symbol}({','.join(map(number_text, self.arguments))})" if self.arguments else self.symbol
+
+
+def rounded_module(module: Module) -> Module:
+    """A module as it is shown: with the values that a person would write.
+
+    >>> print(rounded_module(Module("F", (1.7185000000000001,))))
+    F(1.719)
+    """
+    return Module(module.symbol, tuple(map(rounded, module.arguments)))
 
 
 @dataclass(frozen=True)
