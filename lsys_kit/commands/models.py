@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
-from lsys_kit.files import create_file
+from lsys_kit.files import create_file, file_stem
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -217,7 +217,8 @@ def write_page(options: argparse.Namespace) -> None:
     chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side)
     data = what.page_data(chosen)
     sight = what.sight(replace(chosen, step=data["model"]["step"]))
-    save_page(options.output, page(title or what.kind, data, str(sight)))
+    named = {"file": file_stem(title, what.kind, "")} if title else {}
+    save_page(options.output, page(title or what.kind, data | named, str(sight)))
     print(f"{sight} {data['model']['fixed']}".strip())
 
 

@@ -282,3 +282,14 @@ def test_what_is_taken_along(explored):
     with panel.page.expect_download() as kept:
         panel.page.get_by_role("button", name="PNG").click()
     assert kept.value.suggested_filename == "J4.png"
+
+
+@pytest.mark.parametrize(("what", "name"), [
+    ("K5", "K5"), ("axiom: F\nF -> F[+F]F", "L-system-51d4"), ("axiom: F\nF -> F[-F]F", "L-system-0e08"), ("K28", "K28"),
+    ("map: A>B>C>D>\nA> -> A>", "map-5bb3")])
+def test_a_file_that_is_taken_along_is_called_after_its_system(explored, what: str, name: str) -> None:
+    panel = explored(what, 1)
+    for kind, suffix in (("SVG", "svg"), ("page", "html"), ("PNG", "png")):
+        with panel.page.expect_download() as kept:
+            panel.page.get_by_role("button", name=kind, exact=True).click()
+        assert kept.value.suggested_filename == f"{name}.{suffix}"

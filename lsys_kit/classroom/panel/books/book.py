@@ -28,6 +28,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError, ModelLimitError
+from lsys_kit.files import file_stem
 from lsys_kit.geometry.turtle.commands.mode import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
@@ -103,7 +104,8 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {
-            "title": visible(title), "text": system.source, "notation": system.notation, "noun": "module",
+            "title": visible(title), "text": system.source,
+            "file": file_stem(title, "L-system", system.source or repr(system)), "notation": system.notation, "noun": "module",
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states), "symbols": symbols, "states": rows,
             "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}

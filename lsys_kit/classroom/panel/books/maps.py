@@ -21,6 +21,7 @@ from lsys_kit.derivation.maps.development import Development, develop, unmatched
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
 from lsys_kit.errors import LSystemError, ModelLimitError
+from lsys_kit.files import file_stem
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.equilibrium import Equilibrium
 from lsys_kit.geometry.tissues.map_layout import equilibria, polygon, tissue
@@ -134,7 +135,8 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
     with Task("The book was not finished"):
         net, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         return {
-            "title": title, "text": system.source, "notation": "map", "noun": "wall", "mode": "map",
+            "title": title, "text": system.source,
+            "file": file_stem(title, "map", system.source or repr(system)), "notation": "map", "noun": "wall", "mode": "map",
             "settings": {name: number_text(value) for name, value in settings.items()}, "chance": False,
             "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
             "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],

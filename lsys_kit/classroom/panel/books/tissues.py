@@ -22,6 +22,7 @@ from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest
 from lsys_kit.derivation.cellworks.cellwork import CellEdge, Cellwork
 from lsys_kit.derivation.maps.map import Map, Wall, least_rotation
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
+from lsys_kit.files import file_stem
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.cellwork_layout import solid_tissue
 from lsys_kit.geometry.tissues.sphere_layout import Placed
@@ -70,8 +71,10 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
     with Task("The book was not finished"):
         _, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         edges = [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()]
+        notation = "map" if isinstance(system, MapSystem) else "cellwork"
         return {
-            "title": title, "text": system.source, "notation": "map" if isinstance(system, MapSystem) else "cellwork",
+            "title": title, "text": system.source, "notation": notation,
+            "file": file_stem(title, notation, system.source or repr(system)),
             "noun": "cell", "mode": "tissue", "chance": False,
             "settings": {name: number_text(value) for name, value in settings.items()},
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
