@@ -39,7 +39,7 @@ from lsys_kit.pictures.style.labels import label_parts, values_text, visible
 from lsys_kit.pictures.style.palette import colours
 from lsys_kit.worlds.derive import derive
 
-MOST_MODULES, MOST_BYTES = 100_000, 1_900_000
+MOST_MODULES, MOST_BYTES = 250_000, 1_900_000
 """A book holds no step of more modules, since nobody could see more of them; and no more than about so many bytes."""
 STATE_BYTES, HISTORY_BYTES = 60, 6
 """About what a state takes in it beside its text, and a module of a word with what it becomes."""
