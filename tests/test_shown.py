@@ -5,15 +5,12 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import pytest
 
 import lsys_kit
-from lsys_kit import derive, explore, link, linked, read, system
-from lsys_kit.notation.model.modules import Pattern
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit import derive, explore, link, linked, system
 from tests.test_odd_arguments import FITTING
 
 RECORD = re.compile(r"\b[A-Z]\w*\([a-z_]+=|\bobject at 0x")
@@ -51,15 +48,6 @@ def test_the_parts_of_a_system_and_of_a_word_are_shown_in_words(id: str) -> None
     for part in (*known.axiom, *known.productions, *known.constants, *derive(known, 2)[-1]):
         assert repr(part) == str(part)
     assert repr(known) == str(known)
-
-
-def test_a_long_system_is_shown_by_its_beginning_and_one_that_cannot_be_written_by_its_rules() -> None:
-    long = read("axiom: A\n" + "A -> A B C D E F G\n" * 900)
-    assert len(repr(long)) < 2_100
-    assert repr(long).endswith("characters)")
-    odd = replace(read("axiom: A(1)\nA(t) -> A(t+1)"), notation="plant-string")
-    assert repr(odd) == "axiom: A(1)\nA(t) -> A(t + 1)"
-    assert repr(LSystem((Pattern("A"),), (), notation="no such")) == "axiom: A"
 
 
 def test_a_link_is_shown_as_the_panel_to_which_it_leads() -> None:

@@ -16,7 +16,10 @@ from lsys_kit.notation.syntax.systems import text_in
 
 
 def write(system: LSystem, notation: str | None = None, *, interpretation: bool = True) -> str:
-    """The text of a system.
+    """The text of a system, which reads back as the same system.
+
+    Fractint's turtle is another than the kit's: for it a system that has only `F f + - | [ ]` and letters is translated, and
+    what reads back draws the same.
 
     Parameters
     ----------

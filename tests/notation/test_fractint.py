@@ -271,7 +271,8 @@ def test_what_fractint_lacks_is_said(text: str, lack: str) -> None:
 
 TRANSLATED = (
     "angle: 60\nheading: 0\naxiom: F--F\nF -> F+F", "angle: 90\naxiom: F f F\nF -> F+F\nf -> f f", "angle: 20\naxiom: F[+F]-F",
-    "angle: 72\nheading: -45\naxiom: F|+F", "angle: 120\naxiom: F|-F", "angle: -45\naxiom: F+F[|F]-F\nsteps: 2",
+    "angle: 72\nheading: -45\naxiom: F|+F", "angle: 120\naxiom: F|-F", "angle: 72\nheading: 0\naxiom: F|+F",
+    "angle: -45\naxiom: F+F[|F]-F\nsteps: 2",
     "angle: 750\naxiom: F+F", "angle: 0\naxiom: F+F-F", "axiom: F a A + C c d\na -> A\nA -> F+\nd -> F F\nC -> -F")
 
 
