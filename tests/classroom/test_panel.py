@@ -103,7 +103,7 @@ def test_a_setting_with_fewer_steps_does_not_forget_the_step_that_was_wanted(exp
 def test_the_last_step_says_why_there_are_no_more(explored):
     panel = explored("K5", 4)
     panel.control("step").press("End")
-    expect(panel.at(".lsys-status")).to_contain_text("Step 7 would have 195,311 modules; the limit is 100,000")
+    expect(panel.at(".lsys-status")).to_contain_text("Step 8 would have 976,561 modules; the limit is 250,000")
 
 
 def test_rules_are_changed_broken_and_mended(explored):

@@ -104,12 +104,12 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {
-            "title": visible(title), "text": system.source,
-            "file": file_stem(title, "L-system", system.source or repr(system)), "notation": system.notation, "noun": "module",
+            "title": visible(title), "text": system.source, "notation": system.notation, "noun": "module",
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states), "symbols": symbols, "states": rows,
             "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}
                             for rule in system.productions],
+            "file": file_stem(title, "L-system", system.source or repr(system)),
             "steps": pages.last, "end": pages.end, "axiom": [pages.numbers[state] for state in states.axiom],
             **(_table(states, pages.numbers) if states.traits.d0l else _history(derivation, pages)), "net": diagram,
             **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last), "growth": growth_entry(system, given)}

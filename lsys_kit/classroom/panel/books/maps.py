@@ -135,12 +135,12 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
     with Task("The book was not finished"):
         net, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         return {
-            "title": title, "text": system.source,
-            "file": file_stem(title, "map", system.source or repr(system)), "notation": "map", "noun": "wall", "mode": "map",
+            "title": title, "text": system.source, "notation": "map", "noun": "wall", "mode": "map",
             "settings": {name: number_text(value) for name, value in settings.items()}, "chance": False,
             "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
             "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
+            "file": file_stem(title, "map", system.source or repr(system)),
             "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
             **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
             "forces": asdict(found.forces), "first": _flat(polygon(len(system.axiom))), "maps": _pages(found),

@@ -71,13 +71,12 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
     with Task("The book was not finished"):
         _, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         edges = [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()]
-        notation = "map" if isinstance(system, MapSystem) else "cellwork"
         return {
-            "title": title, "text": system.source, "notation": notation,
-            "file": file_stem(title, notation, system.source or repr(system)),
+            "title": title, "text": system.source, "notation": "map" if isinstance(system, MapSystem) else "cellwork",
             "noun": "cell", "mode": "tissue", "chance": False,
             "settings": {name: number_text(value) for name, value in settings.items()},
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
+            "file": file_stem(title, "map" if isinstance(system, MapSystem) else "cellwork", system.source or repr(system)),
             "steps": found.last, "end": found.end, "axiom": [], **_cells(found, edges, [*map(str, kinds)]), "net": diagram,
             "tokens": [*_tokens(found, kinds)], "sizes": [*map(size_text, found.steps)],
             "pages": _pages(found, {edge: number for number, edge in enumerate(kinds)}), "unknown": [],
