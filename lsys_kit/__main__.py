@@ -121,7 +121,7 @@ def _argument_parser() -> argparse.ArgumentParser:
                       "Example: lsys-kit convert K5 --to plant-string -o plant.txt")
     _add_conversion(convert)
     link = command("link", models.print_link, "Print a model with its settings as an address, which the other commands read.",
-                   "Example: lsys-kit link J4 -n 9 --set lifeTimeA=4 --qr j4.svg")
+                   "Example: lsys-kit link J4 -n 9 --base https://example.org/j4.html --qr j4.svg")
     _add_link(link)
     page = command("page", models.write_page, "Write a page with sliders, which needs neither Python nor a network.",
                    "Example: lsys-kit page J4 -n 9 -o j4.html")
@@ -226,6 +226,7 @@ def _add_conversion(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--to", required=True, metavar="NOTATION", help="the notation to be printed")
     parser.add_argument("--from", dest="notation", metavar="NOTATION", help="the notation of FILE (default: it is recognised)")
     parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
+    parser.add_argument("--no-interpretation", action="store_true", help="leave out the rules that say how it is drawn")
     parser.add_argument("-o", "--output", metavar="FILE", help="write into this file, which must not exist yet")
 
 
@@ -234,7 +235,8 @@ def _add_link(parser: argparse.ArgumentParser) -> None:
     _add_model(parser)
     parser.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is to be seen")
     parser.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
-    parser.add_argument("--base", default="", metavar="ADDRESS", help="the address of a page that shows models")
+    parser.add_argument("--base", default="", metavar="ADDRESS",
+                        help="where a browser finds the page of this model that lsys-kit page makes")
     parser.add_argument("--qr", metavar="FILE", help="write the address as a QR code too (.svg, .png)")
 
 

@@ -182,6 +182,9 @@ class limits(ContextDecorator):  # noqa: N801 - used as a function is
                 raise ModelValueError(f'The limit "{name}" must be a positive number, not {shown(value)}')
         self._changes: dict[str, Any] = changes
 
+    def __repr__(self) -> str:
+        return f"limits({', '.join(f'{name}={value!r}' for name, value in self._changes.items())})"
+
     def __enter__(self) -> Limits:
         outer = _in_force(_limits)
         set_here = replace(outer.value if outer else DEFAULT, **self._changes)

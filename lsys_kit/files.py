@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import secrets
 import shutil
 import struct
@@ -21,6 +22,8 @@ from lsys_kit.errors import ModelFileError, ModelValueError, quotable
 
 KIT_MARK = b"lsys-kit"
 """What shows that a file was made by the kit; it is near the beginning or the end of each."""
+LONGEST_STEM = 60
+"""So much of a title is in the name of a file."""
 SEARCHED = 4_096
 """So many bytes at either end of a file may hold the mark."""
 _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
@@ -79,6 +82,18 @@ def path_from(given: object) -> Path:
         return Path(given)  # type: ignore[arg-type]
     except TypeError:
         raise ModelValueError(f"The name of a file is needed, not {type(given).__name__}") from None
+
+
+def file_stem(title: str, kind: str, content: str) -> str:
+    """What a file that somebody takes along is called, without its extension: after a title; without one after the kind of its
+    content, and a number for that.
+
+    >>> file_stem("K5: a pseudo-plant", "", ""), file_stem("", "L-system", "axiom: F")
+    ('K5 a pseudo-plant', 'L-system-d091')
+    """
+    visible = "".join(character if character.isprintable() else " " for character in title)
+    said = " ".join(re.sub(r'[<>:"/\\|?*]', " ", visible).split()).strip(". ")[:LONGEST_STEM]
+    return said or f"{kind}-{zlib.crc32(content.encode(errors='replace')) & 0xffff:04x}"
 
 
 def save_file(path: Path, content: bytes) -> None:

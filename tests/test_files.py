@@ -12,7 +12,7 @@ import pytest
 
 from lsys_kit import animate, draw, lineage, map_system, stages, system
 from lsys_kit.errors import ModelFileError
-from lsys_kit.files import create_file, made_by_the_kit, replace_file, save_file
+from lsys_kit.files import create_file, file_stem, made_by_the_kit, replace_file, save_file
 
 SAVED: dict[str, Callable[[Path], None]] = {
     **{ending: lambda path: draw(system("K5"), 2).save(path) for ending in ("svg", "png", "pdf", "glb", "obj")},
@@ -104,3 +104,10 @@ def test_what_kind_of_file_it_may_be_stays(tmp_path: Path) -> None:
     (tmp_path / "a.svg").chmod(0o640)
     save_file(tmp_path / "a.svg", b"<!-- lsys-kit -->2")
     assert (tmp_path / "a.svg").stat().st_mode & 0o777 == 0o640
+
+
+@pytest.mark.parametrize(("title", "stem"), [
+    ("J4: Anabaena", "J4 Anabaena"), ("../../etc/passwd", "etc passwd"), ("a\x00b\u202ec", "a b c"), ("x" * 99, "x" * 60),
+    ("", "plant-0000"), ("...", "plant-0000"), ("CON|*?", "CON"), ("Šárka", "Šárka"), ("\ud800", "plant-0000")])
+def test_a_title_is_the_name_of_a_file_as_far_as_that_can_have_its_characters(title: str, stem: str) -> None:
+    assert file_stem(title, "plant", "") == stem

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
 
 from lsys_kit.__main__ import BAD_INPUT, BROKEN_PIPE, INTERRUPTED, main
+from lsys_kit.classroom.catalogue import system
+from lsys_kit.notation.read import read
 
 FIBONACCI = "axiom: a\na -> ab\nb -> a\n"
 
@@ -234,9 +236,20 @@ def test_the_other_commands_read_a_link(shell, tmp_path):
 def test_link_writes_a_qr_code(shell, tmp_path):
     from lsys_kit import qr_code
 
-    said = shell("link", "J4", "-n", "9", "--qr", str(tmp_path / "j4.svg"))
+    base = "--base", "https://example.org/j4.html"
+    said = shell("link", "J4", "-n", "9", *base, "--qr", str(tmp_path / "j4.svg"))
+    assert said.err == ""
     assert qr_code(said.out.strip()).svg in (tmp_path / "j4.svg").read_text()
-    refused(shell("link", "J4", "--qr", "j4.txt"), "j4.txt", ".svg, .png or .pdf")
+    refused(shell("link", "J4", *base, "--qr", "j4.txt"), "j4.txt", ".svg, .png or .pdf")
+
+
+def test_a_link_that_no_browser_can_open_says_so_and_has_no_qr_code(shell, tmp_path):
+    said = shell("link", "J4")
+    assert said.out.startswith("#lsys=")
+    assert "The kit alone reads this link" in said.err
+    assert "--base" in said.err
+    refused(shell("link", "J4", "--qr", str(tmp_path / "j4.svg")), "A phone cannot open", "--base", "lsys-kit page")
+    assert not (tmp_path / "j4.svg").exists()
 
 
 def test_link_refuses_what_the_model_has_not(shell):
@@ -295,6 +308,13 @@ def test_convert_prints_the_same_system_in_another_notation(shell):
     said = shell("convert", "K5", "--to", "plant-string")
     assert said == Said(0, "turtle: abop\nangle: 25.7\nsteps: 4\nAxiom: F\nF -> F[+F]F[-F]F\n", "")
     assert read(said.out, "plant-string") == system("K5")
+
+
+def test_convert_leaves_the_interpretation_out_where_that_is_asked(shell):
+    assert "--no-interpretation" in shell("convert", "J4", "--to", "mathematica").err
+    said = shell("convert", "J4", "--to", "mathematica", "--no-interpretation")
+    assert said.status == 0
+    assert read(said.out) == replace(system("J4"), interpretation=())
 
 
 def test_what_was_converted_converts_back(shell, model):
@@ -408,6 +428,15 @@ def test_stages_tells_how_long_cells_live(shell, tmp_path):
     assert "2 stages M(0), M(0.2); tokens 2, 5" in shell("stages", "P7", "-n", "4", "--durations", "-o", str(path)).out
     assert "after 0.8" in path.read_text()
     refused(shell("stages", "J1", "--durations", "-o", str(path)), "How long a module lives cannot be told", "lets time pass")
+
+
+def test_a_net_that_other_programs_play_otherwise_says_so_in_a_line(shell, tmp_path):
+    path = str(tmp_path / "net.pnml")
+    assert shell("stages", "J4", "-o", path).err == ""
+    assert shell("stages", "K16", "-o", path).err == (
+        "lsys-kit: note: Programs for Petri nets play this net otherwise than the system grows: "
+        'they know no condition such as "s < a".\n')
+    assert shell("stages", "K16", "-o", str(tmp_path / "net.svg")).err == ""
 
 
 @pytest.mark.slow

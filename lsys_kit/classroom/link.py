@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from types import MappingProxyType
+from typing import Any
 
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
@@ -40,8 +42,17 @@ class Linked:
     system: LSystem | MapSystem | CellworkSystem
     settings: Mapping[str, Value]
 
+    def __repr__(self) -> str:
+        return "\n".join((repr(self.system), *(f"{name} = {number_text(value)}" for name, value in self.settings.items())))
 
-def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, object] | None = None, base: str = "") -> str:
+    def _repr_mimebundle_(self, **options: object) -> Any:
+        """The panel that the link leads to."""
+        explore = import_module("lsys_kit").explore  # imported late: panels make links
+        return explore(self.system, **self.settings)._repr_mimebundle_(**options)
+
+
+def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, object] | None = None, base: str = "", *,
+         step: int | None = None) -> str:
     """An address with a model in it, which `read` reads; nothing of it is kept anywhere else.
 
     Parameters
@@ -53,6 +64,8 @@ def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, ob
         cellwork.
     base
         The address of a page that shows models; without one, the link can be read by the kit alone.
+    step
+        The step that is to be seen, as in `settings`; by default the number of steps that the system sets.
 
     Raises
     ------
@@ -73,7 +86,8 @@ def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, ob
     require(system, (LSystem, MapSystem, CellworkSystem), "A system")
     require(base, str, "The address of a page")
     require(settings, (Mapping, type(None)), "A mapping of settings")
-    given = {name: number_text(value) for name, value in _values(system, settings or {}).items()}
+    wanted = {**(settings or {}), **({} if step is None else {STEP: step})}
+    given = {name: number_text(value) for name, value in _values(system, wanted).items()}
     _values(system, given)  # which raises an error if a number is too long to be read again
     notation, text = (system.notation, write(system)) if isinstance(system, LSystem) else _cells_text(system)
     address = base.partition("#")[0] + packed(LinkContent(notation, given, text))

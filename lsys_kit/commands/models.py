@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
-from lsys_kit.files import create_file
+from lsys_kit.files import create_file, file_stem
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.formats.film import Film
 
+_BASE = 'Give one with --base: where the page of this model stands that "lsys-kit page" makes.'
 BITS_A_DIGIT = 3
 """A digit says at least so many bits of a number."""
 
@@ -155,6 +156,7 @@ def _steps(options: argparse.Namespace) -> dict[str, Any]:
 
 def draw_stages(options: argparse.Namespace) -> None:
     """Write a picture of the stage diagram, or a film of its tokens, and print what it shows."""
+    from lsys_kit.derivation.petri.pnml import played_otherwise
     from lsys_kit.derivation.petri.stages import stages
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
@@ -164,6 +166,9 @@ def draw_stages(options: argparse.Namespace) -> None:
     word = None if options.steps is None or film else _derivation(system, options)[-1]
     looks = _looks(options)
     _save(animate(net, options.steps, **film, **looks) if film else draw(net, tokens=word, **looks), options)
+    otherwise = played_otherwise(net) if Path(options.output).suffix.lower() == ".pnml" else ""
+    if otherwise:
+        print(f"lsys-kit: note: {otherwise}", file=sys.stderr)
 
 
 def convert(options: argparse.Namespace) -> None:
@@ -171,7 +176,7 @@ def convert(options: argparse.Namespace) -> None:
     from lsys_kit.notation.write import write
 
     system = named_system(options.system, options.notation, options.name)
-    text = write(system, options.to)
+    text = write(system, options.to, interpretation=not options.no_interpretation)
     if options.output is not None:
         _keep(f"{text}\n", options.output)
     for note in system.notes:
@@ -189,7 +194,11 @@ def print_link(options: argparse.Namespace) -> None:
     settings = {name: value for name, value in own.items() if value is not None} | dict(options.settings)
     address = link(system, settings, options.base)
     if options.qr is not None:
+        if not options.base:
+            raise ModelValueError("A phone cannot open the QR code of a link without the address of a page", hint=_BASE)
         qr_code(address).save(options.qr)
+    elif not options.base:
+        print(f"lsys-kit: note: The kit alone reads this link, which has no address of a page. {_BASE}", file=sys.stderr)
     print(address)
 
 
@@ -208,7 +217,8 @@ def write_page(options: argparse.Namespace) -> None:
     chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side)
     data = what.page_data(chosen)
     sight = what.sight(replace(chosen, step=data["model"]["step"]))
-    save_page(options.output, page(title or what.kind, data, str(sight)))
+    named = {"file": file_stem(title, what.kind, "")} if title else {}
+    save_page(options.output, page(title or what.kind, data | named, str(sight)))
     print(f"{sight} {data['model']['fixed']}".strip())
 
 

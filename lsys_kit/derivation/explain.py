@@ -59,6 +59,8 @@ class ModuleOutcome:
                  f"become{'s' * (not self.others)} {made}: {self.production}", *self.refused]
         return "\n     ".join(lines)
 
+    __repr__ = __str__
+
 
 class Explanation(tuple[ModuleOutcome, ...]):
     """What became of all modules of a word, shown one below the other."""

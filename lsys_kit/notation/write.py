@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from lsys_kit.errors import require
@@ -14,8 +15,11 @@ from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.syntax.systems import text_in
 
 
-def write(system: LSystem, notation: str | None = None) -> str:
-    """The text of a system.
+def write(system: LSystem, notation: str | None = None, *, interpretation: bool = True) -> str:
+    """The text of a system, which reads back as the same system.
+
+    Fractint's turtle is another than the kit's: for it a system that has only `F f + - | [ ]` and letters is translated, and
+    what reads back draws the same.
 
     Parameters
     ----------
@@ -23,6 +27,8 @@ def write(system: LSystem, notation: str | None = None) -> str:
         Any L-system.
     notation
         A notation that `read` reads; by default the one in which the system was read.
+    interpretation
+        Whether its interpretation rules are written; without them the words are the same, and are drawn as they are.
 
     Raises
     ------
@@ -41,7 +47,9 @@ def write(system: LSystem, notation: str | None = None) -> str:
     A(t) : t < 5 -> A(t + 1)[B]
     """
     require(system, LSystem, "An L-system")
-    return text_in(dialect_named(system.notation if notation is None else notation), system)
+    require(interpretation, bool, 'True or False for "interpretation"')
+    written = system if interpretation else replace(system, interpretation=(), depth=1)
+    return text_in(dialect_named(system.notation if notation is None else notation), written)
 
 
 def as_written(system: LSystem, part: Any) -> str:

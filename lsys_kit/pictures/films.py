@@ -31,7 +31,7 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import centred, turtle_image
 from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.kinds import coloured_symbols, kind_of
+from lsys_kit.pictures.kinds import WORD, coloured_symbols, instead, kind_of
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import Picture
@@ -190,7 +190,8 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
         return _filmed(what)
     if not isinstance(what, Sequence) or not what or not all(isinstance(each, SVGPicture) for each in what):
         raise ModelValueError("Only systems and derivations, stage diagrams, lineages and pictures can be animated, "
-                              f"not {type(what).__name__}")
+                              f"not {type(what).__name__}",
+                              hint=instead(what, "animate", f"animate([draw({WORD}), ...])"))
     if len(what) > MOST_FRAMES:
         raise _too_long(len(what))
     images = [picture.image() for picture in counted(what, 1)]

@@ -11,6 +11,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.cellworks import CellworkSystem
@@ -24,10 +25,27 @@ DRAWABLE = (LSystem, Derivation, Word, MapSystem, Development, CellworkSystem, C
 """What can be drawn."""
 
 
+WORD = "timed(system).word(4)"
+"""An example of a word of a timed system."""
+
+
+def instead(what: object, function: str, of_words: str) -> str:
+    """What to try in place of a text or a timed system, of which a function makes no picture.
+
+    >>> instead("K5", "draw", "")
+    "For example draw(system('K5')), or draw(read(text))."
+    """
+    if isinstance(what, str):
+        return f"For example {function}(system({shown(what)})), or {function}(read(text))."
+    if isinstance(what, Timed):
+        return f"At a time it has a word: {of_words}; up to a time a lineage: {function}(lineage(timed(system), 4))."
+    return ""
+
+
 def check_drawable(what: object, n: int | None = None) -> None:
     """It can be drawn, and its number of steps can be chosen if one is."""
     if not isinstance(what, DRAWABLE):
-        hint = f"For example draw(system({shown(what)})), or draw(read(text))." if isinstance(what, str) else ""
+        hint = instead(what, "draw", f"draw({WORD})")
         raise ModelValueError("Only systems, derivations, words, developments, stage diagrams and lineages can be drawn, "
                               f"not {type(what).__name__}", hint=hint)
     if n is not None and isinstance(what, Stages | Lineage):

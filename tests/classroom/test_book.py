@@ -66,8 +66,8 @@ def test_the_tables_of_settled_systems_are_a_few_hundred_bytes():
 def test_a_book_ends_before_a_step_that_is_too_large():
     made = book(read("axiom: F\nF -> F F F F F F F F F F"))
     assert made["steps"] == 5
-    assert "Step 6 would have 1,000,000 modules; the limit is 100,000" in made["end"]
-    assert MOST_MODULES == 100_000
+    assert "Step 6 would have 1,000,000 modules; the limit is 250,000" in made["end"]
+    assert MOST_MODULES == 250_000
 
 
 def test_a_book_ends_before_a_later_step_that_takes_too_long(monkeypatch):

@@ -4,8 +4,9 @@ from fractions import Fraction
 
 import pytest
 
-from lsys_kit import read, system
+from lsys_kit import book_systems, read, system, systems
 from lsys_kit.classroom.panel.controls import MOST_VALUES, slider_ranges, slider_values
+from lsys_kit.notation.model.arithmetic import number_text
 
 
 def of(text, **changes):
@@ -30,7 +31,25 @@ def test_a_constant_without_a_range_gets_one_around_its_value(value, low, high):
 
 
 def test_a_constant_that_is_only_told_apart_has_no_slider():
-    assert slider_ranges(system("P4"), {}) == {}
+    assert {*slider_ranges(system("P4"), {})} == {"lifeTime"}
+
+
+@pytest.mark.parametrize("value", ["(1 + sqrt(5))/2", "2*top", "top", "-top", "exp(1)"])
+def test_a_constant_that_is_derived_has_no_slider_unless_it_declares_a_range(value):
+    assert "c" not in of(f"top = 2\nc = {value}")
+    assert "c" in of(f"top = 2\nc = {value} in -9 .. 9")
+
+
+@pytest.mark.parametrize("id", ["J4", "J5", "P3", "P4", "K27"])
+def test_each_life_span_has_a_slider(id):
+    spans = {name for name in slider_ranges(system(id), {}) if name.startswith("lifeTime")}
+    assert spans == ({"lifeTime"} if id in ("P3", "P4") else {"lifeTimeA", "lifeTimeB"})
+
+
+@pytest.mark.parametrize("id", [*systems(), *book_systems()])
+def test_the_values_of_a_slider_are_short(id):
+    for span in slider_ranges(system(id), {}).values():
+        assert all(len(number_text(value)) <= 10 for value in slider_values(span))
 
 
 def test_a_slider_moves_through_exact_values():

@@ -174,14 +174,14 @@ def test_the_angle_is_that_of_the_picture():
 def test_a_step_beyond_the_last_says_why_there_are_no_more():
     panel = explore("K5", 4)
     last = panel.model["book"]["steps"]
-    with pytest.raises(ModelValueError, match=f"The panel shows steps 0 to {last}, not 9.*limit is 100,000"):
+    with pytest.raises(ModelValueError, match=f"The panel shows steps 0 to {last}, not 9.*limit is 250,000"):
         panel.step = 9
     assert panel.step == 4
 
 
 def test_a_first_step_past_the_limit_is_refused():
-    with pytest.raises(ModelValueError, match=r"steps 0 to 6, not 7.*195,311 modules; the limit is 100,000"):
-        explore("K5", 7)
+    with pytest.raises(ModelValueError, match=r"steps 0 to 7, not 8.*976,561 modules; the limit is 250,000"):
+        explore("K5", 8)
 
 
 def test_a_lower_limit_is_kept(monkeypatch):
@@ -294,3 +294,9 @@ def test_a_long_word_is_shortened_in_the_middle_with_its_length():
 def test_only_systems_are_explored():
     with pytest.raises(ModelValueError, match="explored"):
         explore(3)
+
+
+@pytest.mark.parametrize("id", ["L0", "L1", "L2", "L3", "L4"])
+def test_the_panel_of_a_plant_string_goes_as_far_as_the_applet(id):
+    """The applet shows stages up to 7."""
+    assert explore(id).model["book"]["steps"] >= 7

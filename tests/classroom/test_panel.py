@@ -114,7 +114,7 @@ def test_a_setting_with_fewer_steps_does_not_forget_the_step_that_was_wanted(exp
 def test_the_last_step_says_why_there_are_no_more(explored):
     panel = explored("K5", 4)
     panel.control("step").press("End")
-    expect(panel.at(".lsys-status")).to_contain_text("Step 7 would have 195,311 modules; the limit is 100,000")
+    expect(panel.at(".lsys-status")).to_contain_text("Step 8 would have 976,561 modules; the limit is 250,000")
 
 
 def test_rules_are_changed_broken_and_mended(explored):
@@ -200,10 +200,10 @@ def test_what_was_clicked_stays_lit_wherever_the_mouse_is(explored):
 
 
 def test_long_numbers_of_a_word_are_shown_shorter_and_told_whole(explored):
-    panel = explored(read("axiom: A(2/3) B(0.00012345678) C(117.61973158964844) D(0.25)"), 0)
-    assert word_in(panel) == "A(2/3)B(0.0001235)C(117.6197)D(0.25)"
+    panel = explored(read("axiom: A(2/3) B(0.00012345678) C(117.61973158964844) D(0.25) E(1185/3840001)"), 0)
+    assert word_in(panel) == "A(2/3)B(0.0001235)C(117.6)D(0.25)E(0.0003086)"
     told = [each.get_attribute("title") for each in panel.at("[data-position]").all()]
-    assert told == [None, "B(0.00012345678)", "C(117.61973158964844)", None]
+    assert told == [None, "B(0.00012345678)", "C(117.61973158964844)", None, "E(1185/3840001)"]
 
 
 def test_a_small_stage_diagram_leaves_its_room_to_the_drawing(explored):
@@ -293,3 +293,14 @@ def test_what_is_taken_along(explored):
     with panel.page.expect_download() as kept:
         panel.page.get_by_role("button", name="PNG").click()
     assert kept.value.suggested_filename == "J4.png"
+
+
+@pytest.mark.parametrize(("what", "name"), [
+    ("K5", "K5"), ("axiom: F\nF -> F[+F]F", "L-system-51d4"), ("axiom: F\nF -> F[-F]F", "L-system-0e08"), ("K28", "K28"),
+    ("map: A>B>C>D>\nA> -> A>", "map-5bb3")])
+def test_a_file_that_is_taken_along_is_called_after_its_system(explored, what: str, name: str) -> None:
+    panel = explored(what, 1)
+    for kind, suffix in (("SVG", "svg"), ("page", "html"), ("PNG", "png")):
+        with panel.page.expect_download() as kept:
+            panel.page.get_by_role("button", name=kind, exact=True).click()
+        assert kept.value.suggested_filename == f"{name}.{suffix}"

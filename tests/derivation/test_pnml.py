@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, derive, draw, pnml, read, stages, system, systems, timed
+from lsys_kit.derivation.petri.pnml import played_otherwise
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
@@ -96,6 +97,28 @@ def test_every_net_of_the_catalogue_is_a_place_transition_net(name: str) -> None
         assert {arc.attrib["source"], arc.attrib["target"]} <= set(ids)
     assert all(int(text) > 1 for text in only_texts(root, ".//p:inscription/p:text"))
     assert sum(map(int, only_texts(root, ".//p:initialMarking/p:text"))) == sum(net.start) == len(derive(system(name), 0)[0])
+
+
+def played(net: Stages, tokens: tuple[int, ...]) -> tuple[int, ...]:
+    """A step as programs for Petri nets have it: all tokens of a place go through each transition behind it."""
+    after = Counter({place: count for place, count in enumerate(tokens) if all(t.place != place for t in net.transitions)})
+    for arc in net.arcs:
+        after[arc.place] += arc.copies * tokens[net.transitions[arc.transition].place]
+    return tuple(after[place] for place in range(len(tokens)))
+
+
+@pytest.mark.parametrize("name", systems())
+def test_what_other_programs_do_not_know_of_a_net_is_said_and_nothing_else(name: str) -> None:
+    """Where nothing is said of a net, they play as the system grows; where there are contexts, they do not."""
+    net, words = stages(system(name)), derive(system(name), 6)
+    tokens = [net.start]
+    for _ in range(6):
+        tokens.append(played(net, tokens[-1]))
+    alike = not net.grouped and tokens == [net.tokens(word) for word in words]
+    said = played_otherwise(net)
+    assert alike or said.startswith("Programs for Petri nets play this net otherwise than the system grows: they know no ")
+    assert bool(said) == any((*net.besides, *(t.condition or t.chance is not None for t in net.transitions),
+                              *(arc.factor for arc in net.arcs)))
 
 
 @pytest.mark.parametrize("name", ["K7", "K8"])

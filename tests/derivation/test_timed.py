@@ -182,3 +182,7 @@ def test_a_life_ends_alike_in_steps_and_in_time() -> None:
     assert in_time.daughters(young) == in_steps.daughters(young) == [Module("M", (0,)), Module("M", (1,))]
     assert in_time.aged(young, 2) == in_steps.aged(young, 2) == Module("M", (2,))
     assert in_time.ageless(young) == in_steps.ageless(young) == ("M", ())
+
+
+def test_a_timed_system_is_shown_as_its_text() -> None:
+    assert repr(timed(read("axiom: a(0)\na(1) -> a(0) a(0)"))) == "In continuous time:\naxiom: a(0)\na(1) -> a(0)a(0)"

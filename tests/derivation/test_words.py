@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import re
+from fractions import Fraction
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core.words import Word, abridged, state_counts
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelLimitError
+from lsys_kit.notation.model.arithmetic import DIGITS, normalised, number_text, rounded
 from lsys_kit.notation.model.modules import Module
-from lsys_kit.notation.read import read
+from lsys_kit.notation.read import read, read_word
 
 AGEING = read("axiom: A(1)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(1) C\nB -> ε")
 KOCH = read("axiom: F\nF -> F+F--F+F")
@@ -114,3 +120,24 @@ def test_words_stand_below_one_another() -> None:
     assert lines[10].startswith("10 a b")
     assert lines[0].index("a") > 80
     assert str(derive(AGEING, 1).column(coding={"B": "b"})) == "0 A(1)\n1 A(2)[b]"
+
+
+THIRDS = read("axiom: F(1) A(118587876497/38400000000) A(80/3) A(0.25) A(123456) A(25.7)")
+
+
+def test_a_word_is_shown_with_four_digits_and_written_exactly() -> None:
+    word = derive(THIRDS, 0)[0]
+    assert repr(word) == "F(1)A(3.088)A(80/3)A(0.25)A(123456)A(25.7)"
+    assert "118587876497/38400000000" in str(word)
+    assert read_word(str(word)) == tuple(word)
+    assert repr(derive(read("axiom: A(0.7)\nA(t) -> A(t+0.1)"), 3, arithmetic="float")) == (
+        "0 A(0.7)\n1 A(0.7999999999999999)\n2 A(0.8999999999999999)\n3 A(0.9999999999999999)")
+
+
+@given(st.one_of(st.fractions().map(normalised), st.floats(allow_nan=False, allow_infinity=False), st.integers()))
+def test_what_is_shown_of_a_value_is_near_it_and_short(value: int | Fraction | float) -> None:
+    """It is longer than four digits only where it is whole, large, or just beside a number with fewer digits."""
+    text, exact = number_text(rounded(value)), number_text(value)
+    digits = re.sub(r"e.*|[./]|\D", "", text).strip("0")
+    assert abs(Fraction(text) - Fraction(value)) <= Fraction(6, 10**DIGITS) * abs(Fraction(value))
+    assert len(digits) <= DIGITS or abs(value) >= 10**DIGITS or text == exact

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import fields
 from fractions import Fraction
 from random import Random
 
@@ -42,7 +43,14 @@ LENGTHS = (1, 5, 12, 20, 41, 99, 100, 101, 200, 300, 308, 400, 900)
 EXPONENTS = ("", "", "e1", "e-20", "e-99", "e-300", "e-500", "e-999", "e300")
 CALCULATED, COMPARED = ("+", "-", "*", "/", "^"), ("==", "!=", "<", "<=", ">", ">=")
 FUNCTIONS = sorted(name for name, operator in OPERATORS.items() if operator.precedence is None and name != "sensed")
+LOOKS = {"cells": ("rectangles", "ellipses"), "widths": ("pixels", "units"), "colours": ("natural", "symbols")}
 ANGLES = (60, -45, Fraction(257, 10), Fraction(1, 3), 2**0.5, 1e-7, 10**20, Fraction(1, 7**50), Fraction(1, 10**400))
+
+
+def record(system: LSystem) -> dict[str, object]:
+    """All that a text says of a system: its attributes but for those that say how a text is read, and which text it was."""
+    of_reading = "alphabet", "notation", "source", "notes"
+    return {part.name: getattr(system, part.name) for part in fields(system) if part.name not in of_reading}
 
 
 class Systems:
@@ -163,6 +171,7 @@ class Systems:
             chosen["considered"] = self.symbols()
         if rich and self.chance(10):
             chosen["meta"] = (MetaRule((Pattern("A"), Pattern(self.symbol())), (Pattern(self.symbol()),)),)
+        chosen |= {name: self.random.choice(said) for name, said in LOOKS.items() if self.chance(10)}
         if not rich and self.chance(20):  # as Fractint's systems are
             chosen = {"turtle": "fractint", "heading": 0, "angle": 60}
         axiom = self.word(self.constants, repeats=0) or (Pattern(self.symbol()),)

@@ -8,12 +8,14 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, derive, read, write
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
@@ -248,9 +250,14 @@ def test_every_slip_is_a_clear_error(text: str, message: str, line: int, column:
 
 
 @pytest.mark.parametrize(("text", "lack"), [
-    ("axiom: F", 'turtle of the tradition "abop"'), ("turtle: fractint\naxiom: F", "starting direction but that to the right"),
-    ("turtle: fractint\nheading: 0\nangle: 25.7\naxiom: F", "angle that is no whole part of a full turn"),
-    ("turtle: fractint\nheading: 0\nsteps: 3\naxiom: F", "number of steps"),
+    ("axiom: F&F", 'module "&"'), ("axiom: F(2)", 'module "F(2)"'), ("axiom: F\nF -> G", 'module "G"'),
+    ("axiom: F\n+ -> F", 'rule for the command "+"'), ("turtle: grogra\naxiom: F", "turtle commands of GROGRA"),
+    ("angle: 25.7\naxiom: F", "angle of 25.7 with a heading of 90 degrees"),
+    ("angle: 20\nheading: 1\naxiom: F", "angle of 20 with a heading of 1 degrees"),
+    ("axiom: " + " ".join(f"{letter} {letter.lower()}" for letter in "ABCDEHIJKLM"), "more letters than 21"),
+    ("turtle: fractint\naxiom: F", "starting direction of 90 degrees"),
+    ("turtle: fractint\nheading: 0\nangle: 25.7\naxiom: F", "angle of 25.7 degrees"),
+    ("turtle: fractint\nheading: 0\nseed: 3\naxiom: F", "seed"),
     ("turtle: fractint\nheading: 0\naxiom: F(2)", 'module "F(2)"'), ("turtle: fractint\nheading: 0\naxiom: f", 'module "f"'),
     ("turtle: fractint\nheading: 0\naxiom: A(1)\nA(t) : t < 3 -> A(t+1)", "conditions"),
     ("turtle: fractint\nheading: 0\naxiom: F\n+ -> F", 'rule for the command "+"'),
@@ -260,6 +267,34 @@ def test_every_slip_is_a_clear_error(text: str, message: str, line: int, column:
 def test_what_fractint_lacks_is_said(text: str, lack: str) -> None:
     with pytest.raises(ModelValueError, match=re.escape(f"The notation fractint has no {lack}, which this system needs")):
         write(read(text), "fractint")
+
+
+TRANSLATED = (
+    "angle: 60\nheading: 0\naxiom: F--F\nF -> F+F", "angle: 90\naxiom: F f F\nF -> F+F\nf -> f f", "angle: 20\naxiom: F[+F]-F",
+    "angle: 72\nheading: -45\naxiom: F|+F", "angle: 120\naxiom: F|-F", "angle: 72\nheading: 0\naxiom: F|+F",
+    "angle: -45\naxiom: F+F[|F]-F\nsteps: 2",
+    "angle: 750\naxiom: F+F", "angle: 0\naxiom: F+F-F", "axiom: F a A + C c d\na -> A\nA -> F+\nd -> F F\nC -> -F")
+
+
+@pytest.mark.parametrize("text", TRANSLATED)
+def test_a_system_with_the_kits_commands_is_translated_and_draws_the_same(text: str) -> None:
+    system = read(text)
+    there = read(write(system, "fractint"), "fractint")
+    assert (there.turtle, there.steps, len(there.productions)) == ("fractint", system.steps, len(system.productions))
+    for step in range(4):
+        one, other = (scene_of(derive(each, step)[step]).segments.ends for each in (system, there))
+        assert one.shape == other.shape
+        assert np.allclose(one, other)
+
+
+def test_each_letter_of_a_translation_is_a_capital_of_its_own() -> None:
+    system = read("axiom: a A d D z Z F\na -> A\nd -> D")
+    assert write(system, "fractint").splitlines()[2:] == ["  Axiom +XAWYVZF", "  X=A", "  W=Y", "  }"]
+
+
+def test_a_comment_says_how_many_steps() -> None:
+    assert read("Koch { ; old\r\n; steps: 4 \r\nAngle 6\r\nAxiom F ; steps: 3\r\n}").steps == 4
+    assert read("A {\n;steps: 2\nAngle 6\nAxiom F\n}\nB {\nAngle 6\nAxiom F\n}", name="B").steps is None
 
 
 def test_a_system_of_fractints_can_be_written_in_the_kits_own_notation() -> None:

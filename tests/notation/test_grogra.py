@@ -387,8 +387,8 @@ def test_names_that_are_taken_are_left_to_their_owners() -> None:
 
 @pytest.mark.parametrize(("text", "lacking"), [
     ("axiom: A\nmeta: A A -> A", "meta-rules"), ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
-    ("ignore: +\naxiom: A", "ignored symbols"), ("axiom: A\nA -> B : 1\nA -> C : 1", "probabilities that do not add up to 1"),
-    ("axiom: A\nA -> B : 0.5", "probabilities that do not add up to 1"),
+    ("ignore: +\naxiom: A", "ignored symbols"), ("axiom: A\nA -> B : 1\nA -> C : 1", "probabilities with another sum than 1"),
+    ("axiom: A\nA -> B : 0.5", "probabilities with another sum than 1"),
     ("axiom: A(1)\nA(t) -> F(uniform(0, t))", "random numbers that depend on parameters"),
     ("axiom: A\nA -> F(uniform(0, uniform(0, 1)))", "random numbers that depend on parameters"),
     ("axiom: A\nA -> F(normal(0, sqrt(4)))", "random number like normal(0, sqrt(4))"),

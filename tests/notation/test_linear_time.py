@@ -39,7 +39,7 @@ TOKENS = (
     "(* (* *) *)", "<<", "x/:", ":=", ":>", "/.", "#&", "& ", "*^5", "1*^5", "1.", "]]", "],", "\n", "\n\n", "\t", " ", "\r",
     "\x0b", "\xa0", "\ufeff", "n=3, ", "n=5, δ=25.7°\n", "Start:", "-  A → ", "• ", "0.5 → ", "1\n", " .5", "\\bar{A}",
     "branches:", "next", "surface leaf:", "surface: l x", "patch", "(0, 1)", "widths:", "pixels", "colours:", "natural",
-    "symbols",
+    "symbols", "cells: ellipses", "\\set widths units", "colours = \"natural\"", "; steps: ",
     "\\quad", "\\begin{array}", "\\\\", "∗", "’", "–", "|-", ">*", "*<", "#include",
     "A -> B\n", "A\n", "A -> ",
     "A : t < 5 -> ", "B < ", "> B", "A(t)", "A(", "A(1)", "F[+F]", "{A}", "{}", "[]", "()", "&& ", "|| ", "!(",

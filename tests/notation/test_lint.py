@@ -8,11 +8,14 @@ from fractions import Fraction
 import pytest
 
 from lsys_kit.budget import limits
+from lsys_kit.derivation.core.interpretation import interpretation_of
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import function_of, is_random
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read, read_expression, read_number
 
 WALLS = """
@@ -38,6 +41,45 @@ def test_the_printed_l_system_9_cannot_divide() -> None:
 def test_a_production_that_never_matches_is_told(rules: str, missing: str) -> None:
     (note,) = read(f"axiom: A\n{rules}").notes
     assert note.endswith(f" can never match: no module {missing} occurs.")
+
+
+STAYS = ("{} stays as it is in what {} is drawn as, though it has a rule too: {} rules are applied {}. To apply them to what "
+         'they make, type "{}".')
+
+
+@pytest.mark.parametrize(("rules", "made", "rule", "often", "depth"), [
+    ("M -> Q Q\nQ -> F", "Q", "M", "once", "depth: 2"),
+    ("M -> [Q]\nQ -> R\nR -> F", "Q", "M", "once", "depth: 3"),
+    ("M -> A\nA -> B\nB -> C\nC -> F\ndepth: 3", "C", "B", "3 times", "depth: 4"),
+    ("M -> T(3)\nT(n) : n > 0 -> F T(n-1)", "T", "M", "once", "depth: 10"),
+    ("M : 1 > 0 -> F M", "M", "M", "once", "depth: 10"),
+])
+def test_what_is_drawn_unfinished_is_told(rules: str, made: str, rule: str, often: str, depth: str) -> None:
+    """Kurth and Prusinkiewicz apply interpretation rules to what they make; the kit does so as often as the depth says."""
+    assert read(f"axiom: M\ninterpretation:\n{rules}").notes == (STAYS.format(made, rule, "interpretation", often, depth),)
+
+
+@pytest.mark.parametrize("rules", ["M -> F\nF -> !F", "M -> @o M", "M -> Q\nX -> Q", "M -> Q\nQ -> F\ndepth: 2",
+                                   "M -> Q\nQ -> F\ndepth: 0", "M : 1 > 0 -> F M\ndepth: 7", "X -> Q\nQ -> F"])
+def test_what_is_drawn_as_it_is_meant_is_not_told(rules: str) -> None:
+    assert read(f"axiom: M\ninterpretation:\n{rules}").notes == ()
+
+
+@pytest.mark.parametrize(("notation", "text", "interpretation", "depth"), [
+    ("cpfg", "Axiom: M\nhomomorphism\nM --> QQ\nQ --> F", "homomorphism", "maximum depth: 2"),
+    ("grogra", "\\axiom M,\nM ## Q Q,\nQ ## F", "interpretation", "\\set depth 2"),
+])
+def test_the_depth_to_type_is_that_of_the_notation(notation: str, text: str, interpretation: str, depth: str) -> None:
+    system = read(text, notation)
+    assert system.notes == (STAYS.format("Q", "M", interpretation, "once", depth),)
+    deeper = text.replace("M --> QQ", f"{depth}\nM --> QQ").replace("\\axiom", f"{depth},\n\\axiom")
+    assert read(deeper, notation).notes == ()
+    assert [str(module) for module in interpretation_of(States(read(deeper, notation)), Module("M"))] == ["F", "F"]
+
+
+def test_what_is_drawn_as_itself_again_is_told_before_it_is_drawn() -> None:
+    assert read("depth: 40\naxiom: A\ninterpretation:\nA -> F B\nB -> A A").notes == (
+        "A is drawn as itself again (A -> B -> A): the depth ends that after 40 times.",)
 
 
 @pytest.mark.parametrize("rules", ["A -> B\nB -> A", "A -> repeat(2) <B>\nB -> A", "A -> A\ndecomposition:\nA -> B\nB -> ε",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
+from lsys_kit.classroom.catalogue import cellwork_system, map_system, system
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern
@@ -117,3 +119,17 @@ def test_records_print_as_the_notation() -> None:
     assert str(Production((Pattern("A"),), ())) == "A -> ε"
     assert str(Constant("k", Number(3))) == "k = 3"
     assert str(LSystem((Pattern("A"),), ())) == "axiom: A"
+
+
+def test_a_long_system_is_shown_by_its_beginning_and_one_that_cannot_be_written_by_its_rules() -> None:
+    long = read("axiom: A\n" + "A -> A B C D E F G\n" * 900)
+    assert len(repr(long)) < 2_100
+    assert repr(long).endswith("characters)")
+    odd = replace(read("axiom: A(1)\nA(t) -> A(t+1)"), notation="plant-string")
+    assert repr(odd) == "axiom: A(1)\nA(t) -> A(t + 1)"
+    assert repr(LSystem((Pattern("A"),), (), notation="no such")) == "axiom: A"
+
+
+@pytest.mark.parametrize("found", [system("J4"), map_system("K28"), cellwork_system("K33")], ids=["J4", "K28", "K33"])
+def test_a_system_is_shown_as_its_text(found: object) -> None:
+    assert repr(found) == str(found)

@@ -26,6 +26,7 @@ from lsys_kit import (
     read,
     stages,
     system,
+    timed,
 )
 from lsys_kit.__main__ import main
 from lsys_kit.geometry.meshes.mesh import mesh_of
@@ -382,3 +383,18 @@ def test_what_a_picture_or_a_file_is_made_of_is_given_up_in_time(tmp_path):
         assert tree.svg
     with limits(seconds=1e-9), pytest.raises(ModelLimitError, match="in 1e-09 seconds"):
         plant.save(tmp_path / "plant.obj")
+
+
+@pytest.mark.parametrize("function", [draw, animate])
+def test_a_timed_system_has_no_picture_of_its_own_and_what_has_one_is_named(function):
+    growing = timed(system("K27"))
+    with pytest.raises(ModelValueError) as refused:
+        function(growing, 4)
+    name = function.__name__
+    assert f"{name}(lineage(timed(system), 4))" in refused.value.hint
+    assert "draw(timed(system).word(4))" in refused.value.hint
+    assert repr(function(lineage(growing, 4))) == "lineage of 5 cells at time 4, after 4 divisions"
+    assert repr(draw(growing.word(4))).startswith("5 cells")
+    assert repr(animate([draw(growing.word(time)) for time in range(4)])).startswith("4 pictures")
+    with pytest.raises(ModelValueError, match="For example"):
+        function("K5")

@@ -110,6 +110,9 @@ class Exercise:
     drawn: bool = False
     values: Mapping[str, Sequence[Value]] = field(default_factory=dict, hash=False)
 
+    def __repr__(self) -> str:
+        return f"{self.id:8} {self.title}"
+
 
 @dataclass(frozen=True)
 class Lesson:

@@ -30,7 +30,7 @@ class SliderRange:
 
 
 def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, SliderRange]:
-    """For each constant that has a slider, the slider's values.
+    """For each constant that has a slider, the slider's values: where it declares a range, or is a number of its own.
 
     Raises
     ------
@@ -54,9 +54,16 @@ def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, S
                 raise ModelValueError(f"{constant.name} = {number_text(value)} lies outside its slider's range",
                                       hint=f"It goes from {number_text(low)} to {number_text(high)}.")
             found[constant.name] = SliderRange(value, low, high, step)
-        elif _calculated_with(constant.name, system):
+        elif not _derived(constant.value) and _calculated_with(constant.name, system):
             found[constant.name] = _guessed(value)
     return found
+
+
+def _derived(value: Expression) -> bool:
+    """Whether a constant is made of others, or of a function, and so is nobody's to move: a golden section, a threshold."""
+    if isinstance(value, Apply):
+        return OPERATORS[value.operator].precedence is None or any(map(_derived, value.operands))
+    return isinstance(value, Name)
 
 
 def _guessed(value: Value) -> SliderRange:

@@ -245,8 +245,8 @@ class Explorer(KitWidget):
         if content["what"] == "link":
             return {"text": self.link}
         if content["what"] == "page":
-            return {"name": f"{self._opened.title or 'panel'}.html", "type": "text/html", "text": self._page()}
-        return {"name": f"{self._opened.title or 'drawing'}.svg", "type": "image/svg+xml", "text": self.sight.svg}
+            return {"name": f"{self.model['book']['file']}.html", "type": "text/html", "text": self._page()}
+        return {"name": f"{self.model['book']['file']}.svg", "type": "image/svg+xml", "text": self.sight.svg}
 
     # -- what is kept ---------------------------------------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ import numpy as np
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import require
-from lsys_kit.notation.model.modules import Module, joined
+from lsys_kit.notation.model.modules import Module, joined, rounded_module
 from lsys_kit.notation.registry import dialect_named
 
 MOST_SHOWN = 2_000
@@ -21,6 +21,8 @@ MOST_SHOWN = 2_000
 
 class Word(Sequence[Module]):
     """A word of a derivation.
+
+    Its text, `str(word)`, has exact values, and reads back; where it is only shown, values have four digits at most.
 
     Attributes
     ----------
@@ -73,7 +75,8 @@ class Word(Sequence[Module]):
             return text_of(self.states, self.codes)
 
     def __repr__(self) -> str:
-        return abridged(self, MOST_SHOWN)
+        with Task("The word was not shown"):
+            return abridged(self, MOST_SHOWN)
 
     @property
     def bytes(self) -> int:
@@ -135,12 +138,13 @@ def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[in
     return (numbers[first:first + size] for first in counted(range(0, len(numbers), size), 1))
 
 
-def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> str:
-    """The text of a row of states, in their system's notation."""
+def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: bool = False) -> str:
+    """The text of a row of states, in their system's notation; if it is only shown, with rounded values."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)
     counts = state_counts(Word(states, codes))
-    texts = {state: notation.module(states.modules[state]) for state in counted(counts)}
+    texts = {state: notation.module(rounded_module(module) if shown else module)
+             for state in counted(counts) for module in (states.modules[state],)}
     _check_size(texts, counts)
     return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
 
@@ -152,7 +156,7 @@ def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:
 
 
 def abridged(word: Word, characters: int) -> str:
-    """The text of a word, with its middle left out where it is long.
+    """The text of a word as it is shown: with rounded values, and with its middle left out where it is long.
 
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
@@ -160,7 +164,7 @@ def abridged(word: Word, characters: int) -> str:
     'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
     """
     half = max(1, characters // 2)
-    if len(word) <= characters and len(str(word)) <= characters:
-        return str(word)
-    front, back = str(word[:half]), str(word[-half:])
+    if len(word) <= characters and len(whole := text_of(word.states, word.codes, shown=True)) <= characters:
+        return whole
+    front, back = (text_of(word.states, part, shown=True) for part in (word.codes[:half], word.codes[-half:]))
     return f"{front[:half]} ... {back[-half:]} ({len(word):,} modules)"

@@ -20,6 +20,11 @@ GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
 TOOL = {"tool": "lsys-kit", "version": "1"}
 
 
+_UNKNOWN = {"condition": "condition such as", "probability": "probability such as", "duration": "duration such as",
+            "factor": "number of copies such as", "besides": "rule such as"}
+"""What a plain net cannot say, in words."""
+
+
 def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
     """A stage diagram as PNML.
 
@@ -76,6 +81,22 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
     </pnml>
     """
     return placed_pnml(net, tokens, {})
+
+
+def played_otherwise(net: Stages) -> str:
+    """Why other programs play a diagram otherwise than the system grows, in a sentence; empty where they play it alike.
+
+    >>> from lsys_kit.derivation.petri.stages import stages
+    >>> from lsys_kit.notation.read import read
+    >>> played_otherwise(stages(read("axiom: s a a\\ns < a -> a s\\ns -> ε")))
+    'Programs for Petri nets play this net otherwise than the system grows: they know no condition such as "s < a".'
+    >>> played_otherwise(stages(read("axiom: a\\na -> a a")))
+    ''
+    """
+    terms = [*map(_terms, net.transitions), *({"factor": arc.factor} for arc in net.arcs), {"besides": "; ".join(net.besides)}]
+    found = ((name, each[name]) for name in _UNKNOWN for each in terms if each.get(name))
+    first = next((f'{_UNKNOWN[name]} "{said}"' for name, said in found), "")
+    return first and f"Programs for Petri nets play this net otherwise than the system grows: they know no {first}."
 
 
 def placed_pnml(net: Stages, tokens: Sequence[int] | None, positions: Mapping[str, tuple[float, float]]) -> str:

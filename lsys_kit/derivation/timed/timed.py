@@ -43,6 +43,9 @@ class Timed:
 
     ages: AgeModel
 
+    def __repr__(self) -> str:
+        return f"In continuous time:\n{self.states.system!r}"
+
     @property
     def states(self) -> States:
         """The table of its modules."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from graphlib import CycleError, TopologicalSorter
 
-from lsys_kit.notation.analysis.problems import Problem, ProblemFound, problem
+from lsys_kit.notation.analysis.problems import Problem, problem
 from lsys_kit.notation.analysis.slips import slips
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, Name, Number, function_of, is_random, names_in
@@ -16,6 +17,8 @@ _ModuleKind = tuple[str, int]
 """A symbol and a number of parameters: what a module is to the rules."""
 _DRAWN_EITHER_WAY = frozenset(("F", "f", "G", "g"))
 """Commands that make sense with a value and without."""
+_DEEP = 10
+"""So often interpretation rules may be applied, where they lead to themselves, in an example."""
 
 
 def _kind(module: Pattern) -> _ModuleKind:
@@ -35,7 +38,8 @@ def warnings(system: LSystem) -> list[Problem]:
     return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
             *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
             *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system),
-            *_unanswered(system, reachable), *_passed_over(system), *_timed(system), *slips(system)]
+            *_unanswered(system, reachable), *_passed_over(system), *_timed(system),
+            *_drawn_no_further(system, reachable), *_drawn_as_itself(system), *slips(system)]
 
 
 def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
@@ -143,6 +147,50 @@ def _timed(system: LSystem) -> Iterator[Problem]:
             yield Problem("only in time", rules[0].at, {"rule": rules[0]})
 
 
+def _drawn_no_further(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem]:
+    """The first module that stays in a drawing as an interpretation rule made it, though it has a rule too; where such rules
+    lead to themselves, this is told only where no depth is set."""
+    made = _drawn_as(system)
+    applied = {kind: 1 for kind in made if kind in reachable}
+    needed = _DEEP
+    with suppress(CycleError):
+        for kind in reversed([*TopologicalSorter(made).static_order()]):
+            for other in made[kind] if kind in applied else ():
+                applied[other] = max(applied.get(other, 0), applied[kind] + 1)
+        needed = max(applied.values(), default=0)
+    for rule in system.interpretation if 0 < system.depth < needed else ():
+        own = _kind(rule.predecessor)
+        found = next((kind for kind in made[own] if kind in map(_kind, flat(rule.successor))), None)
+        if found and applied.get(own) == system.depth:
+            often = "once" if system.depth == 1 else f"{system.depth} times"
+            yield Problem("drawn no further", rule.at, {"rule": rule, "made": found[0], "often": often, "needed": needed})
+            return
+
+
+def _drawn_as(system: LSystem) -> dict[_ModuleKind, dict[_ModuleKind, None]]:
+    """The kinds of modules with interpretation rules that other such rules make, and that are no commands of the turtle.
+
+    What a rule makes of a module again, whatever its values are, stays as it is: "A -> @o A" is a circle at an A.
+    """
+    constants = {constant.name for constant in system.constants}
+    ruled = {_kind(rule.predecessor) for rule in system.interpretation}
+    found: dict[_ModuleKind, dict[_ModuleKind, None]] = {kind: {} for kind in ruled}
+    for rule in system.interpretation:
+        own = _kind(rule.predecessor)
+        found[own] |= {kind: None for kind in map(_kind, flat(rule.successor))
+                       if kind in ruled and kind[0][0].isalpha() and kind[0] not in _DRAWN_EITHER_WAY
+                       and not (kind == own and _always(rule, constants))}
+    return found
+
+
+def _drawn_as_itself(system: LSystem) -> Iterator[Problem]:
+    """Rules that are certain to draw a module as itself again: only the depth that is set ends them."""
+    found = _certain_cycle(system.interpretation, system) if system.depth > 1 else None
+    if found:
+        names, rule = found
+        yield Problem("drawn as itself", rule.at, {"symbol": names[0], "cycle": _shown_cycle(names), "often": system.depth})
+
+
 def _asks_age(rule: Production, constants: Mapping[str, Value]) -> bool:
     """Whether all that a production asks is the first value of a module."""
     first, *others = rule.predecessor.arguments or (None,)
@@ -202,10 +250,16 @@ def check_decomposition(system: LSystem) -> None:
 
     Only rules that are certain to be applied count: the first for a module, without condition or probability.
     """
-    if system.decomposition_depth is not None:
-        return
+    found = _certain_cycle(system.decomposition, system) if system.decomposition_depth is None else None
+    if found:
+        names, rule = found
+        raise problem("endless decomposition", rule.at, symbol=names[0], cycle=_shown_cycle(names))
+
+
+def _certain_cycle(applied: Iterable[Production], system: LSystem) -> tuple[list[str], Production] | None:
+    """The symbols of rules that are certain to lead to each other, and the first of these rules."""
     rules: dict[_ModuleKind, Production] = {}
-    for rule in system.decomposition:
+    for rule in applied:
         rules.setdefault(_kind(rule.predecessor), rule)
     constants = {constant.name for constant in system.constants}
     certain = {kind: rule for kind, rule in rules.items() if _always(rule, constants)}
@@ -213,7 +267,8 @@ def check_decomposition(system: LSystem) -> None:
     try:
         TopologicalSorter(made).prepare()
     except CycleError as error:
-        raise _endless(error.args[1], certain) from None
+        return _cycle(error.args[1], certain)
+    return None
 
 
 def _always(rule: Production, constants: Iterable[str]) -> bool:
@@ -231,12 +286,14 @@ def _always_made(items: Iterable[Item]) -> Iterator[Pattern]:
             yield from _always_made(item.body)
 
 
-def _endless(cycle: list[_ModuleKind], rules: Mapping[_ModuleKind, Production]) -> ProblemFound:
-    """The rules that lead to each other, beginning with the one that is written first."""
+def _cycle(cycle: list[_ModuleKind], rules: Mapping[_ModuleKind, Production]) -> tuple[list[str], Production]:
+    """A cycle, beginning and ending with the rule that is written first."""
     kinds = cycle[:0:-1]  # the sorter gives a cycle backwards, with one of its ends twice
     order = list(rules)
     first = min(kinds, key=order.index)
     at = kinds.index(first)
-    names = [symbol for symbol, _ in (*kinds[at:], *kinds[:at], first)]
-    shown = names if len(names) <= 8 else [*names[:4], "...", *names[-3:]]
-    return problem("endless decomposition", rules[first].at, symbol=names[0], cycle=" -> ".join(shown))
+    return [symbol for symbol, _ in (*kinds[at:], *kinds[:at], first)], rules[first]
+
+
+def _shown_cycle(names: list[str]) -> str:
+    return " -> ".join(names if len(names) <= 8 else [*names[:4], "...", *names[-3:]])

@@ -151,6 +151,33 @@ def short_text(value: Value) -> str:
     return text if len(text) <= 20 else f"{float(value):.2e}".replace("e", "...e")
 
 
+DIGITS = 4
+"""A value that is only shown has at most so many digits, unless it is whole."""
+ALIKE = 1e-6
+"""Numbers whose difference is a smaller part of them look alike."""
+
+
+def rounded(value: Value) -> Value:
+    """A value as a person would write it down: a whole number or a short fraction as it is, any other with four digits, unless
+    it would look like a number from which it only just differs.
+
+    >>> [number_text(rounded(v)) for v in (Fraction(118587876497, 38400000000), Fraction(80, 3), 123456, 12345.678, 1e-9 / 3)]
+    ['3.088', '80/3', '123456', '12346', '3.333e-10']
+    >>> number_text(rounded(0.7 + 0.1 + 0.1 + 0.1))
+    '0.9999999999999999'
+    """
+    if isinstance(value, int) or is_symbolic(value):
+        return value
+    text = number_text(value)
+    if "/" in text and sum(map(str.isdigit, text)) <= DIGITS:
+        return value
+    near = float(value)
+    if 10**DIGITS <= abs(near) < 1e16:
+        return float(round(near))
+    short = float(f"{near:.{DIGITS}g}")
+    return short if short and math.isfinite(short) and abs(short - near) >= ALIKE * abs(near) else value
+
+
 def normalised(value: Value) -> Value:
     """A whole rational number as an int.
 

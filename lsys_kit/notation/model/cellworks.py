@@ -16,6 +16,7 @@ from typing import TypeAlias
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import TextSpan
 from lsys_kit.notation.model.maps import Edge
+from lsys_kit.notation.model.modules import abridged_text
 
 ANY = "*"
 """Stands for all walls."""
@@ -191,6 +192,9 @@ class CellworkSystem:
         steps = () if self.steps is None else (f"steps: {self.steps}",)
         return "\n".join((f"cellwork: {' '.join(map(str, self.corners))}", *steps, *map(str, self.walls),
                           *map(str, self.productions), *map(str, self.wall_productions)))
+
+    def __repr__(self) -> str:
+        return abridged_text(str(self))
 
     @property
     def axiom(self) -> tuple[Edge, ...]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from lsys_kit.notation.model.expressions import TextSpan
+from lsys_kit.notation.model.modules import abridged_text
 
 TURNED = {"": "", ">": "<", "<": ">"}
 """The arrow of a wall, as seen from its other end."""
@@ -137,6 +138,9 @@ class MapSystem:
         steps = () if self.steps is None else (f"steps: {self.steps}",)
         first = f"{'sphere' if self.sphere else 'map'}: {''.join(map(str, self.axiom))}"
         return "\n".join((first, *steps, *map(str, self.productions)))
+
+    def __repr__(self) -> str:
+        return abridged_text(str(self))
 
     @property
     def markers(self) -> Iterator[Marker]:

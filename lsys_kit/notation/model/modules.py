@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.arithmetic import Value, number_text, rounded
 from lsys_kit.notation.model.expressions import Expression, TextSpan
 
 OPENING, CLOSING = frozenset("[("), frozenset("])")
@@ -37,6 +37,17 @@ class Module:
     def __str__(self) -> str:
         return f"{self.symbol}({','.join(map(number_text, self.arguments))})" if self.arguments else self.symbol
 
+    __repr__ = __str__
+
+
+def rounded_module(module: Module) -> Module:
+    """A module as it is shown: with the values that a person would write.
+
+    >>> print(rounded_module(Module("F", (1.7185000000000001,))))
+    F(1.719)
+    """
+    return Module(module.symbol, tuple(map(rounded, module.arguments)))
+
 
 @dataclass(frozen=True)
 class Pattern:
@@ -56,6 +67,17 @@ class Pattern:
 
     def __str__(self) -> str:
         return f"{self.symbol}({','.join(map(str, self.arguments))})" if self.arguments else self.symbol
+
+    __repr__ = __str__
+
+
+def abridged_text(text: str, most: int = 2_000) -> str:
+    """A text that is shown, without what is beyond so many characters.
+
+    >>> abridged_text("axiom: F", 5)
+    'axiom ... (8 characters)'
+    """
+    return text if len(text) <= most else f"{text[:most]} ... ({len(text):,} characters)"
 
 
 def joined(texts: Iterable[str]) -> str:

@@ -12,11 +12,14 @@ from functools import cached_property
 from importlib import import_module
 from typing import Any
 
+from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.arithmetic import Value, shortest_decimal
 from lsys_kit.notation.model.expressions import Expression, TextSpan
-from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, flat, joined
+from lsys_kit.notation.model.modules import END, OPENING, Item, Pattern, abridged_text, flat, joined
 from lsys_kit.notation.model.surfaces import SurfaceShape
 
+LOOK = "cells", "widths", "colours"
+"""Settings that say how a system looks: equality ignores them, and what is written keeps them."""
 USUAL_STEPS = 5
 """How many steps a system is derived that does not say how many."""
 
@@ -57,6 +60,8 @@ class Production:
         own = joined(map(str, self.predecessors))
         return f"{left}{own}{right}{condition} -> {joined(map(str, self.successor)) or 'ε'}{probability}"
 
+    __repr__ = __str__
+
     @property
     def predecessor(self) -> Pattern:
         """The module that is replaced; of several that are replaced together the first."""
@@ -93,6 +98,8 @@ class MetaRule:
         condition = f" : {self.condition}" if self.condition is not None else ""
         return f"meta: {joined(map(str, self.predecessors))}{condition} -> {joined(map(str, self.successor)) or 'ε'}"
 
+    __repr__ = __str__
+
 
 @dataclass(frozen=True)
 class Constant:
@@ -111,6 +118,8 @@ class Constant:
     def __str__(self) -> str:
         span = f" in {self.range[0]} .. {self.range[1]} by {self.range[2]}" if self.range else ""
         return f"{self.name} = {self.value}{span}"
+
+    __repr__ = __str__
 
 
 ANY_BRANCH, NEXT_BRANCH, FLAT = BRANCHES = ("any", "next", "flat")
@@ -219,6 +228,14 @@ class LSystem:
 
     def __str__(self) -> str:
         return WRITERS[self.notation](self)
+
+    def __repr__(self) -> str:
+        """Its text, abridged; where its notation has no text of it, its axiom and its rules."""
+        try:
+            text = str(self)
+        except (KeyError, LSystemError):
+            text = "\n".join([f"axiom: {joined(map(str, self.axiom))}", *map(str, self.rules)])
+        return abridged_text(text)
 
     def picture(self, n: int | None = None, **choices: Any) -> Any:
         """The picture that `draw(system, n)` makes.

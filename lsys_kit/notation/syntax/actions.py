@@ -230,6 +230,11 @@ class Statements(Transformer[Any, Any]):
     def cells(self, _: Token, look: Token) -> tuple[str, str]:
         return "cells", str(look)
 
+    def look(self, token: Token) -> tuple[str, str]:
+        """How a system looks, in a single token: a keyword and a word."""
+        name, said = re.findall("[a-z]+", token)[-2:]
+        return name, said
+
     def branches(self, _: Token, which: Token) -> tuple[str, str]:
         return "branches", str(which)
 

@@ -84,6 +84,8 @@ class Dialect(Grammar):
         The text with the system of a name in it alone; without a name, with the only one.
     transcribe
         A text as its grammar reads it, where prints have it otherwise.
+    translated
+        A system with the notation's own turtle commands that draws the same; where there is none, the system itself.
     turtle
         Whose turtle commands its symbols are, if the text says nothing.
     likely
@@ -100,6 +102,7 @@ class Dialect(Grammar):
     entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"
     transcribe: Callable[[str], Transcript] = as_typed
+    translated: Callable[[LSystem], LSystem] = lambda system: system
 
     def word(self, modules: Iterable[Module | Pattern]) -> str:
         """The text of a word."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from lsys_kit.notation.model.arithmetic import literal_text
 from lsys_kit.notation.model.modules import OPENING, Repeat
-from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
+from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, LOOK, NEXT_BRANCH, LSystem
 
 OWN_NOTATION = "abop"
 """The dialect of turtle commands, and of the notation, that is meant where nothing is said."""
@@ -37,6 +37,17 @@ def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
         yield f"branches: {system.branches}"
     if system.field is not None:
         yield f"field: {system.field}"
+    yield from (f"{name}: {said}" for name, said in look(system))
+
+
+def look(system: LSystem) -> Iterator[tuple[str, str]]:
+    """What a system says of how it looks, by name.
+
+    >>> from lsys_kit.notation.read import read
+    >>> [*look(read("axiom: F\\ncolours: natural"))]
+    [('colours', 'natural')]
+    """
+    return ((name, getattr(system, name)) for name in LOOK if getattr(system, name) != getattr(LSystem, name))
 
 
 def sections(system: LSystem, rule: Callable[[object], str]) -> Iterator[str]:
@@ -72,7 +83,7 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "decomposition rules": lambda s: bool(s.decomposition),
     "meta-rules": lambda s: bool(s.meta),
     "interpretation rules": lambda s: bool(s.interpretation),
-    "a field": lambda s: s.field is not None,
+    "field": lambda s: s.field is not None,
     "starting direction": lambda s: s.heading != 90,
     "ignored symbols": lambda s: bool(s.ignored or s.considered),
     "right contexts that name the next branch": lambda s: s.branches == NEXT_BRANCH,

@@ -66,8 +66,9 @@ class Spelling:
     arrow, axiom, constant, part, random, nothing
         The arrow; examples of an axiom, of a constant, of a constant that holds a part of an expression, of a random number;
         how an empty successor is written.
-    rule, rule_example, interpretation
-        What a rule is called, and an example; what the rules are called that say how modules are drawn.
+    rule, rule_example, interpretation, depth
+        What a rule is called, and an example; what the rules are called that say how modules are drawn, and how a text says how
+        often they are applied.
     comment, contexts, name_rule, apart, repetition, after_arrow
         Hints: how comments, contexts and names are written, what separates rules, how repetitions are written, and what "<" and
         ">" mean after the arrow.
@@ -92,6 +93,7 @@ class Spelling:
     rule: str = "production"
     rule_example: str = 'A production reads "A -> B": what is replaced, an arrow, what replaces it.'
     interpretation: str = "interpretation"
+    depth: str = "depth:"
     comment: str = 'A comment is written between "/*" and "*/".'
     contexts: str = 'A left context ends with "<", a right context begins with ">", as in "A < B > C -> D".'
     name_rule: str = "Names are made of the letters A to Z, digits and _."

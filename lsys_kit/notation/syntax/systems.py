@@ -14,7 +14,7 @@ from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import END, Pattern, joined
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import LOOK, LSystem
 from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
@@ -35,7 +35,7 @@ def system_in(notation: Dialect, text: str, name: str | None = None) -> LSystem:
 
 
 def text_in(notation: Dialect, system: LSystem) -> str:
-    """The text of a system in a notation.
+    """The text of a system in a notation; what reads back is the system, or what the notation translates it to.
 
     Raises
     ------
@@ -47,7 +47,11 @@ def text_in(notation: Dialect, system: LSystem) -> str:
     with Task("The model was not written"):
         missing = lacking(notation, system)
         if missing:
-            raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs")
+            without = (f'They are left out by write(system, "{notation.name}", interpretation=False), '
+                       "and in a shell by --no-interpretation.")
+            raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs",
+                                  hint=without if missing == "interpretation rules" else None)
+        system = notation.translated(system)
         text = notation.write(system)
         lost = _lost(notation, system, text)
         if lost:
@@ -57,6 +61,7 @@ def text_in(notation: Dialect, system: LSystem) -> str:
 
 def lacking(notation: Dialect, system: LSystem) -> str | None:
     """The first thing that a system has and a notation lacks, in words: a feature or a symbol."""
+    system = notation.translated(system)
     return notation.missing_feature(system) or next(_strange_symbols(notation, system), None)
 
 
@@ -105,14 +110,15 @@ def _lost(notation: Dialect, system: LSystem, text: str) -> str | None:
         raise
     except LSystemError as error:
         return _quoted(text.split("\n")[error.line - 1]) if error.line else "a part of it"
-    compared = ((part.name, getattr(system, part.name), getattr(back, part.name)) for part in fields(system) if part.compare)
+    compared = ((part.name, getattr(system, part.name), getattr(back, part.name)) for part in fields(system)
+                if part.compare or part.name in LOOK)
     return next((_different(*parts) for parts in compared if parts[1] != parts[2]), None)
 
 
 def _different(name: str, wanted: object, found: object) -> str:
     """What differs between an attribute of a system and the same as it reads back."""
     if not isinstance(wanted, tuple):
-        return f"the {name} {wanted}"
+        return _quoted(f"{name.replace('_', ' ')}: {wanted}")
     others = found if isinstance(found, tuple) else ()
     if name == "axiom":
         return _quoted(f"axiom: {joined(map(str, wanted))}")

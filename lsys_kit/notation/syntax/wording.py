@@ -127,6 +127,9 @@ WORDINGS: Mapping[str, Wording] = {
                             "a module older. Time passes in timed(system).word(t), and in steps with a(t) -> a(t+dt)."),
     "unanswered query": Wording("Nothing in the model answers {symbol}: name a field, as in \"field: light\", or derive with "
                                 "field=..."),
+    "drawn no further": Wording("{made} stays as it is in what {rule} is drawn as, though it has a rule too: {interpretation} "
+                                "rules are applied {often}. To apply them to what they make, type \"{depth} {needed}\"."),
+    "drawn as itself": Wording("{symbol} is drawn as itself again ({cycle}): the depth ends that after {often} times."),
     "endless decomposition": Wording("Rule {symbol} decomposes into itself: {cycle}", "It can never finish.", ModelValueError),
 }
 """The problems of L-systems, as the kit's own notation words them."""

@@ -13,7 +13,7 @@ from html import escape
 
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
-from lsys_kit.notation.model.arithmetic import is_symbolic, number_text
+from lsys_kit.notation.model.arithmetic import is_symbolic, number_text, rounded
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
 
@@ -65,8 +65,8 @@ def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
 
 
 def values_text(module: Module) -> str:
-    """A module's values in parentheses, or nothing."""
-    values = ",".join(number_text(value) if is_symbolic(value) or abs(float(value)) < 1e6 else f"{float(value):.3g}"
+    """A module's values in parentheses, as they are shown, or nothing."""
+    values = ",".join(number_text(rounded(value)) if is_symbolic(value) or abs(float(value)) < 1e6 else f"{float(value):.3g}"
                       for value in module.arguments)
     return f"({values})" if values else ""
 

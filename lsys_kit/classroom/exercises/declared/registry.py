@@ -37,7 +37,7 @@ class ExerciseList(tuple[Exercise, ...]):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        return "\n".join(f"{exercise.id:8} {exercise.title}" for exercise in self)
+        return "\n".join(map(repr, self))
 
 
 def exercises(folder: str | Path | None = None) -> ExerciseList:

@@ -28,6 +28,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError, ModelLimitError
+from lsys_kit.files import file_stem
 from lsys_kit.geometry.turtle.commands.mode import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
@@ -38,7 +39,7 @@ from lsys_kit.pictures.style.labels import label_parts, values_text, visible
 from lsys_kit.pictures.style.palette import colours
 from lsys_kit.worlds.derive import derive
 
-MOST_MODULES, MOST_BYTES = 100_000, 1_900_000
+MOST_MODULES, MOST_BYTES = 250_000, 1_900_000
 """A book holds no step of more modules, since nobody could see more of them; and no more than about so many bytes."""
 STATE_BYTES, HISTORY_BYTES = 60, 6
 """About what a state takes in it beside its text, and a module of a word with what it becomes."""
@@ -108,6 +109,7 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
             "chance": _has_chance(states), "symbols": symbols, "states": rows,
             "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}
                             for rule in system.productions],
+            "file": file_stem(title, "L-system", system.source or repr(system)),
             "steps": pages.last, "end": pages.end, "axiom": [pages.numbers[state] for state in states.axiom],
             **(_table(states, pages.numbers) if states.traits.d0l else _history(derivation, pages)), "net": diagram,
             **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last), "growth": growth_entry(system, given)}

@@ -21,6 +21,7 @@ from lsys_kit.derivation.maps.development import Development, develop, unmatched
 from lsys_kit.derivation.maps.map import Map, Wall, cell_words
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
 from lsys_kit.errors import LSystemError, ModelLimitError
+from lsys_kit.files import file_stem
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.equilibrium import Equilibrium
 from lsys_kit.geometry.tissues.map_layout import equilibria, polygon, tissue
@@ -139,6 +140,7 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
             "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
             "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
+            "file": file_stem(title, "map", system.source or repr(system)),
             "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
             **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
             "forces": asdict(found.forces), "first": _flat(polygon(len(system.axiom))), "maps": _pages(found),

@@ -22,6 +22,7 @@ from lsys_kit.classroom.panel.books.tissue_layout import TissueAtRest
 from lsys_kit.derivation.cellworks.cellwork import CellEdge, Cellwork
 from lsys_kit.derivation.maps.map import Map, Wall, least_rotation
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
+from lsys_kit.files import file_stem
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.cellwork_layout import solid_tissue
 from lsys_kit.geometry.tissues.sphere_layout import Placed
@@ -75,6 +76,7 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
             "noun": "cell", "mode": "tissue", "chance": False,
             "settings": {name: number_text(value) for name, value in settings.items()},
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
+            "file": file_stem(title, "map" if isinstance(system, MapSystem) else "cellwork", system.source or repr(system)),
             "steps": found.last, "end": found.end, "axiom": [], **_cells(found, edges, [*map(str, kinds)]), "net": diagram,
             "tokens": [*_tokens(found, kinds)], "sizes": [*map(size_text, found.steps)],
             "pages": _pages(found, {edge: number for number, edge in enumerate(kinds)}), "unknown": [],

@@ -72,6 +72,7 @@ export function pageHost(data, books, linked, alone = true) {
     variants: () => Promise.resolve({ variants: [] }),
     keep: async () => ({ text: await address() }),
     keeps: ["link"],
+    file: data.file,
     editable: false, ahead: !relaxes,
   };
 }

@@ -74,9 +74,7 @@ def _write(system: LSystem) -> str:
     system = replace(system, alphabet=(*system.alphabet, *sorted(digits)))
     while mistaken := segment_system(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
-    look = [f"{name}: {getattr(system, name)}" for name in ("cells", "widths", "colours")
-            if getattr(system, name) != getattr(LSystem, name)]
-    return "\n".join([*map(str, system.constants), *settings(system), *look, *map(str, system.surfaces),
+    return "\n".join([*map(str, system.constants), *settings(system), *map(str, system.surfaces),
                       f"axiom: {joined(map(str, system.axiom))}", *sections(system, str)])
 
 

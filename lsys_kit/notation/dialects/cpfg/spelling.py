@@ -10,6 +10,7 @@ from lsys_kit.notation.syntax.spelling import Spelling, Wording
 SPELLING = Spelling(
     arrow="-->", axiom="Axiom: A", constant="#define dt 0.5", part="#define c ...", random="A --> F(ran(2))", nothing='"*"',
     rule_example='A production reads "A --> B": what is replaced, an arrow, what replaces it.', interpretation="homomorphism",
+    depth="maximum depth:",
     contexts='A left context ends with "<", a right context begins with ">", as in "A < B > C --> D".',
     expression=expression_text, module=module_text, joined=joined_word, wordings={
         "bracket in list": Wording("One bracket is listed here without the other",

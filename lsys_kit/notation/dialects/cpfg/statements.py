@@ -11,8 +11,10 @@ from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 
 KEPT = re.compile(
-    r"^[ \t]*/\*[ \t]*((?:angle|heading|length):[ \t]*-?\d[\d.]*(?:e[+-]?\d+)?(?:/\d+)?)[ \t]*\*/[ \t]*$", re.MULTILINE)
-"""A comment in which a text keeps what cpfg has in another file: `/* angle: 25.7 */`, alone on its line."""
+    r"^[ \t]*/\*[ \t]*((?:angle|heading|length):[ \t]*-?\d[\d.]*(?:e[+-]?\d+)?(?:/\d+)?"
+    r"|cells:[ \t]*(?:ellipses|rectangles)|widths:[ \t]*(?:pixels|units)|colours:[ \t]*(?:natural|symbols))[ \t]*\*/[ \t]*$",
+    re.MULTILINE)
+"""A comment in which a text keeps what cpfg has in other files: `/* angle: 25.7 */`, alone on its line."""
 _RANGED = re.compile(r"[ \t]*/\*[ \t]*-?[\d./]+[ \t]+\.\.[ \t]+-?[\d./]+([ \t]+by[ \t]+[\d./]+)?[ \t]*\*/")
 """A comment after a constant that gives the range of its slider."""
 _KEYWORD = re.compile(

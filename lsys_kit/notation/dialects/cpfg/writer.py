@@ -12,7 +12,7 @@ from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.modules import END, Module, Pattern, flat
 from lsys_kit.notation.model.system import FLAT, Constant, LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-from lsys_kit.notation.syntax.formatting import first_missing
+from lsys_kit.notation.syntax.formatting import first_missing, look
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
 
@@ -54,6 +54,7 @@ def _lines(system: LSystem) -> Iterator[str]:
                                   ("length", system.length, None)):
         if value != usual and value is not None:
             yield f"/* {keyword}: {literal_text(value)} */"
+    yield from (f"/* {name}: {said} */" for name, said in look(system))
     yield f"Axiom: {joined_word(map(module_text, system.axiom))}"
     yield from map(_rule, system.productions)
     yield from _section("decomposition", system.decomposition, system.decomposition_depth)
@@ -111,7 +112,7 @@ def missing_feature(system: LSystem) -> str | None:
     if system.turtle != "abop":
         return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
     found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules",
-                                 "right contexts that name any branch", "a field"),),
+                                 "right contexts that name any branch", "field"),),
                   map(missing_function, _expressions(system)),
                   map(_lacking_range, system.constants))
     return next(filter(None, found), None)

@@ -46,6 +46,9 @@ class Records(Transformer[Any, Any]):
                           f'"Angle n" makes + and - turn by 360/n degrees, with n from {LEAST} to {MOST}.')
         return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
+    def steps(self, _: Token, count: Token) -> tuple[str, Number]:
+        return "steps", Number(int(count), _at(count))
+
     def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
         return "deferred", ("axiom", word)
 

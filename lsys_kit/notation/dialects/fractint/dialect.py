@@ -15,7 +15,8 @@ from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.fractint.actions import Records
 from lsys_kit.notation.dialects.fractint.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.fractint.systems import entries_in, selected_entry, statement_lines, system_entries, uncommented
-from lsys_kit.notation.dialects.fractint.writer import NAME, lacking, merged_pair, module_text, system_text
+from lsys_kit.notation.dialects.fractint.translation import NAME, translated
+from lsys_kit.notation.dialects.fractint.writer import lacking, merged_pair, module_text, system_text
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem, Production
@@ -87,4 +88,4 @@ def _likely(text: str) -> int:
 FRACTINT = Dialect(
     name=NAME, statements=statement_lines, transformer=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
     joined="".join, write=system_text, missing_feature=lacking, likely=_likely, turtle=NAME,
-    entry=selected_entry, starts=("statement", "word"))
+    entry=selected_entry, starts=("statement", "word"), translated=translated)

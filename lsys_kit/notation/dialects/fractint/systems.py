@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from heapq import merge
 from itertools import chain, islice
 from typing import NamedTuple
 
@@ -21,6 +22,8 @@ from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, Model
 from lsys_kit.notation.analysis.checks import suggestion
 
 _COMMENT = re.compile(r";[^\r\n]*")
+_KEPT = re.compile(r"^[ \t]*(;[ \t]*steps:[ \t]*\d{1,300})[ \t]*\r?$", re.MULTILINE)
+"""A comment in which a text keeps what Fractint asks for: `; steps: 4`, alone on its line."""
 _LINE = re.compile(r"[^\r\n\f\x1a]+")
 _NAME = re.compile(r"[^\s(\ufeff]+")
 _BLANKS = " \t\v\u00a0\ufeff"
@@ -149,7 +152,8 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def statement_lines(text: str) -> Iterator[tuple[int, int]]:
-    """The offsets of the lines of the one system in a text, without braces, comments and blanks around.
+    """The offsets of the lines of the one system in a text, without braces, comments and blanks around, but for the comments
+    that say something.
 
     >>> text = "Koch { Angle 6 ; sixths\\n Axiom F }"
     >>> [text[start:end] for start, end in statement_lines(text)]
@@ -160,8 +164,6 @@ def statement_lines(text: str) -> Iterator[tuple[int, int]]:
         raise ModelSyntaxError('This "{" is never closed', text, found[0].opened, None,
                                'A system ends with "}", before the next one begins.')
     first, last = (found[0].opened + 1, found[0].stop) if found else (0, len(text))
-    for line in _LINE.finditer(uncommented(text), first, last):
-        said = line[0].strip(_BLANKS)
-        if said:
-            start = line.start() + line[0].index(said)
-            yield start, start + len(said)
+    said = ((line.start(), line[0], line[0].strip(_BLANKS)) for line in _LINE.finditer(uncommented(text), first, last))
+    lines = ((start + line.index(part), start + line.index(part) + len(part)) for start, line, part in said if part)
+    yield from merge(lines, (kept.span(1) for kept in _KEPT.finditer(text, first, last)))

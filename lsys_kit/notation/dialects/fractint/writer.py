@@ -9,13 +9,14 @@ from itertools import pairwise
 
 from lsys_kit.notation.dialects.fractint.actions import LEAST, LONGEST, MOST, RESERVED
 from lsys_kit.notation.dialects.fractint.systems import entries
-from lsys_kit.notation.model.arithmetic import literal_text
+from lsys_kit.notation.dialects.fractint.translation import NAME, untranslatable
+from lsys_kit.notation.model.arithmetic import literal_text, number_text
 from lsys_kit.notation.model.expressions import Expression, Number
 from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.formatting import first_missing
 
-NAME, NAMELESS = "fractint", "LSystem"
+NAMELESS = "LSystem"
 LONGEST_LINE = 150
 """Longer rules are parted into several for the same symbol: Fractint reads lines of less than 160 characters."""
 _SYMBOL = re.compile(r"[!-$&-:<>-Z^-`|~\[\]\\]")
@@ -56,7 +57,8 @@ def _goes_on(command: Pattern, symbol: str) -> bool:
 
 def system_text(system: LSystem) -> str:
     """The text of a system, under the name that it had."""
-    body = [f"Angle {360 / Fraction(system.angle)}", f"Axiom {_word(system.axiom)}",
+    steps = [] if system.steps is None else [f"; steps: {system.steps}"]
+    body = [*steps, f"Angle {360 / Fraction(system.angle)}", f"Axiom {_word(system.axiom)}",
             *(line for production in system.productions for line in _rules(production))]
     return "\n".join([f"{_name(system)} {{", *(f"  {line}" for line in body), "  }"])
 
@@ -86,19 +88,19 @@ def lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
     return (first_missing(system, "conditions", "contexts", "predecessors of several modules", "probabilities", "repetition",
                           "constants", "decomposition rules", "meta-rules", "interpretation rules", "ignored symbols",
-                          "a field")
+                          "field")
             or _strange_setting(system) or _strange_rule(system) or _strange_word(system))
 
 
 def _strange_setting(system: LSystem) -> str | None:
     parts = 360 / Fraction(system.angle) if system.angle else Fraction(0)
     if system.turtle != NAME:
-        return f'turtle of the tradition "{system.turtle}"'
+        return untranslatable(system)
     if parts.denominator != 1 or not LEAST <= parts <= MOST:
-        return "angle that is no whole part of a full turn"
+        return f"angle of {number_text(system.angle)} degrees"
     if system.heading != 0:
-        return "starting direction but that to the right"
-    settings = {"number of steps": system.steps, "length of a step": system.length, "seed": system.seed,
+        return f"starting direction of {number_text(system.heading)} degrees"
+    settings = {"length of a step": system.length, "seed": system.seed,
                 "depth": system.decomposition_depth, "depth of interpretation": None if system.depth == 1 else system.depth}
     return next((name for name, value in settings.items() if value is not None), None)
 

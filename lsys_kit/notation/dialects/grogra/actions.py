@@ -93,6 +93,9 @@ class _GrograStatements(_GrograExpressions, Statements):
     def turtle(self, _: Token, tradition: Token) -> tuple[str, Any]:
         return "deferred", ("setting", ("turtle", str(tradition)))
 
+    def look(self, token: Token) -> tuple[str, Any]:
+        return "deferred", ("setting", super().look(token))
+
     def unused(self, token: Token) -> tuple[str, Any]:
         return "deferred", ("note", f'"{" ".join(token.split())}" has no meaning here.')
 

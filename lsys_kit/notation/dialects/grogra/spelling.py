@@ -26,7 +26,7 @@ SPELLING = Spelling(
     apart='Rules are separated by commas: "a # F b, b # F a".',
     repetition='A repetition reads "&(3) < F a >"; for the turn that ABOP writes as "&", type "RL(60)".',
     after_arrow='Contexts come before the "#"; after it "<" and ">" go with "&(3)".',
-    relations=r"(?:[<>!=]?=|[<>≤≥≠]|\\[lgn]eq?)", comment_marks="#define|//", outside=frozenset("?<>"),
+    depth="\\set depth", relations=r"(?:[<>!=]?=|[<>≤≥≠]|\\[lgn]eq?)", comment_marks="#define|//", outside=frozenset("?<>"),
     first_module=r"(\([^()]*\)\s*)?([A-Za-z_]\w*'*|\S)?",
     corrections=(
         (r"=>(?=[^\n,]*\))", "This is not a comparison", 'For "at least", type ">=".'),

@@ -12,7 +12,7 @@ from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, styled_text
 from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import first_missing
+from lsys_kit.notation.syntax.formatting import first_missing, look
 
 STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
@@ -86,6 +86,7 @@ def _settings(system: LSystem) -> Iterator[str]:
                                     ("\\set depth", system.depth, 1)):
         if value is not None and value != usual:
             yield f"{directive} {_value_text(Number(value))}"
+    yield from (f"\\set {name} {said}" for name, said in look(system))
 
 
 def _constant(constant: Constant) -> str:
@@ -115,9 +116,9 @@ def missing_feature(system: LSystem) -> str | None:
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
     return (first_missing(system, "round brackets as branches", "predecessors of several modules", "decomposition rules",
                           "meta-rules", "ignored symbols", "right contexts that name the next branch",
-                          "right contexts that pass over brackets", "a field")
+                          "right contexts that pass over brackets", "field")
             or (None if system.decomposition_depth is None else "depth of decomposition")
             or ("branch ends in contexts" if ends else None)
             or (None if system.axiom else "empty axiom")
             or inexpressible(system)
-            or (None if complete_probabilities(system)[0] == system.productions else "probabilities that do not add up to 1"))
+            or (None if complete_probabilities(system)[0] == system.productions else "probabilities with another sum than 1"))

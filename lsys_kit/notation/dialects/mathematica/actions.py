@@ -210,6 +210,10 @@ class _MathematicaStatements(MathematicaExpressions):
                           f'Turtle commands are those of {quoted_dialects("or")}.')
         return "deferred", ("setting", ("turtle", str(tradition[1:-1])))
 
+    def look(self, token: Token) -> tuple[str, Any]:
+        name, said = re.findall("[a-z]+", token)
+        return "deferred", ("setting", (name, said))
+
     def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
         bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
         if bracket is not None:

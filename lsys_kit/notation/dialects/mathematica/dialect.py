@@ -31,7 +31,7 @@ _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turt
 def _lacking(system: LSystem) -> str | None:
     return first_missing(
         system, "predecessors of several modules", "probabilities", "repetition", "decomposition rules", "interpretation rules",
-        "meta-rules", "right contexts that name the next branch", "right contexts that pass over brackets", "a field") \
+        "meta-rules", "right contexts that name the next branch", "right contexts that pass over brackets", "field") \
         or next(_own_lacks(system), None)
 
 

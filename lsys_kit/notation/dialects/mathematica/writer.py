@@ -11,7 +11,7 @@ from lsys_kit.notation.model.arithmetic import Value, literal_text, number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
 from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import OWN_NOTATION
+from lsys_kit.notation.syntax.formatting import OWN_NOTATION, look
 
 _PLAIN_NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
 """A symbol that needs no quotation marks."""
@@ -76,6 +76,7 @@ def _settings(system: LSystem) -> Iterator[str]:
                                ("seed", system.seed, None)):
         if value is not None and value != usual:
             yield f"{name} = {literal_text(value)};"
+    yield from (f'{name} = "{said}";' for name, said in look(system))
 
 
 def _word_text(modules: Iterable[Pattern]) -> str:

@@ -23,7 +23,7 @@ _LINE = re.compile(rf"""\s*+(?:
       axiom\s*[:=](?P<axiom>{_WORD})
     | (?P<rule>[A-Za-z]\s*(?:->|→)(?:{_WORD}|\s*[ε*]\s*))
     | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*-?[\d.]+(?:e[+-]?\d+|/\d+)?\s*
-    | turtle\s*:\s*[a-z-]+\s*
+    | (?:turtle|cells|widths|colours)\s*:\s*[a-z-]+\s*
     | productions\s*:\s*
     | {HEADING}
     | (?-i:{SENTENCE})
@@ -70,7 +70,7 @@ def _lacking(system: LSystem) -> str | None:
     return first_missing(
         system, "parameters", "symbols of several letters", "conditions", "contexts", "predecessors of several modules",
         "probabilities", "repetition", "constants", "decomposition rules", "meta-rules", "interpretation rules",
-        "starting direction", "ignored symbols", "a field")
+        "starting direction", "ignored symbols", "field")
 
 
 def _likely(text: str) -> int:

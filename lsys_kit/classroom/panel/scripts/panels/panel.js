@@ -69,7 +69,7 @@ export function openPanel(element, host, compared = null) {
   });
   const counts = countsView(view.counts.body, goTo);
   const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
-  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, title: () => book.data.title, code: () => code(host, book, turns()), state }));
+  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(host, book, turns()), state }));
 
   // -- what happens ---------------------------------------------------------------------------------------------------
 

@@ -3,8 +3,8 @@
 import { made, button } from "./controls.js";
 import { worded } from "./language.js";
 
-// `panel` has { canvas, title(), code(), state() }; `host.keep(kind, state)` gives { name, type, text or bytes }, or null.
-export function keeping(host, { canvas, title, code, state }) {
+// `panel` has { canvas, file(), code(), state() }, the host perhaps a name of its own for files; `host.keep(kind, state)` gives { name, type, text or bytes }, or null.
+export function keeping(host, { canvas, file, code, state }) {
   const said = made("output", { class: "lsys-hint" }), field = made("input", { type: "text", readonly: true, hidden: true, class: "lsys-code", "aria-label": worded("to be copied") });
   const element = made("div", { class: "lsys-controls lsys-keep", role: "group", "aria-label": worded("take along") }, made("span", { class: "lsys-hint" }, worded("take along:")));
 
@@ -31,7 +31,7 @@ export function keeping(host, { canvas, title, code, state }) {
   }
 
   const kinds = { svg: "SVG", page: worded("page"), link: worded("link") };
-  element.append(button("PNG", worded("keep the drawing as a PNG picture"), () => canvas.toBlob((blob) => download(`${title() || "drawing"}.png`, blob))));
+  element.append(button("PNG", worded("keep the drawing as a PNG picture"), () => canvas.toBlob((blob) => download(`${host.file || file()}.png`, blob))));
   for (const [kind, text] of Object.entries(kinds)) {
     if (host.keeps.includes(kind)) element.append(button(text, worded("take along: {text}", { text }), () => keep(kind)));
   }

@@ -16,9 +16,8 @@ export function wordView(parent, told, pointed) {
     const state = word[position], label = book.label(state);
     const element = made("span", { class: label.steering ? "lsys-steering" : "lsys-module", "data-position": position });
     if (label.colour) element.style.setProperty("--symbol", label.colour);
-    const values = shortened(label.values);
-    if (values !== label.values) element.title = label.text;
-    element.append(...labelled({ ...label, values }));
+    if (label.values && !label.text.endsWith(label.values)) element.title = label.text;
+    element.append(...labelled(label));
     chips.set(position, element);
     return element;
   }
@@ -77,11 +76,6 @@ export function labelled({ letter, subscript, values, walls = [] }) {
   if (subscript) parts.push(made("sub", {}, subscript));
   if (values) parts.push(values);
   return parts;
-}
-
-// Values as they are shown: of a number four decimals, or four digits where it is less than one.
-function shortened(values) {
-  return values?.replace(/\d+\.\d{5,}(e[+-]?\d+)?/g, (number) => String(Number(number < 1 ? Number(number).toPrecision(4) : Number(number).toFixed(4))));
 }
 
 // A wall of a cell, with the edges around it.
