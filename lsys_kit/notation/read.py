@@ -87,7 +87,7 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
                               "Cellworks are read by read_cellwork(text).")
     require(notation, (str, type(None)), "The name of a notation")
     if notation:
-        return _read_or_claimed(dialect_named(notation), text, name)
+        return _read_as_named(dialect_named(notation), text, name)
     chosen, mistakable = recognise(text), mistakable_format(text)
     if mistakable:
         raise mistakable
@@ -146,7 +146,17 @@ def _reads(notation: Dialect, text: str, name: str | None) -> bool:
     return True
 
 
-def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Iterable[Dialect] = ()) -> LSystem:
+def _read_as_named(notation: Dialect, text: str, name: str | None) -> LSystem:
+    """Read a system in the notation that somebody named; what it has against the text is said, whatever else the text may be."""
+    try:
+        return system_in(notation, text, name)
+    except LSystemError as error:
+        if foreign := foreign_format(text):
+            error.with_hint(f"{error.hint or ''} Perhaps {foreign.message[0].lower()}{foreign.message[1:]}.".strip())
+        raise
+
+
+def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Iterable[Dialect]) -> LSystem:
     """Read a system in a notation; what cannot be read may be in another, or in the format of another program."""
     try:
         return system_in(chosen, text, name)

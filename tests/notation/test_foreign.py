@@ -59,8 +59,11 @@ def test_the_ends_of_lines_change_nothing() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "text", "line"), [row for row in TEXTS if row[0] != L_PY])
 @pytest.mark.parametrize("notation", DIALECTS)
-def test_it_says_so_too_where_a_notation_was_asked_for(notation: str, name: str, text: str, line: int) -> None:
-    assert claim(text, notation).message.startswith(f"This is {name},")
+def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_the_format_is_a_guess(
+        notation: str, name: str, text: str, line: int) -> None:
+    found = claim(text, notation)
+    assert "which the kit does not read" not in found.message
+    assert found.hint is not None and f"Perhaps this is {name}, which the kit does not read." in found.hint
 
 
 def test_each_format_has_five_texts() -> None:
