@@ -45,7 +45,8 @@ def parentheses(failure: ParseFailure) -> ModelSyntaxError | None:
     """Parentheses that do not match, or that are empty."""
     found, before, opened = failure.found, failure.before, unclosed_bracket(failure.text[failure.start:failure.at])
     ended = not found or found in failure.spelling.outside or failure.spelling.arrows.match(found)
-    unfinished = ended or (failure.accepted == {"RPAR"} and found != ",")
+    closes_nowhere = unclosed_bracket(failure.statement) is not None
+    unfinished = ended or (found != "," and "RPAR" in failure.accepted and (closes_nowhere or len(failure.accepted) == 1))
     if opened is not None and unfinished and not failure.accepted >= VALUE_TOKENS:
         return failure.error('This "(" is never closed', 'Every "(" needs a ")" after it.', failure.start + opened, 1)
     if found.startswith(")") and opened is None:
