@@ -10,7 +10,7 @@ from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_sys
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.net import Unfolding
-from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.explorer import VIEWS, Explorer
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import read_any
 from lsys_kit.derivation.petri.stages import stages
@@ -25,7 +25,8 @@ _ID = re.compile(r"[\w-]+(\.[\w-]+)?")
 
 
 def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
-            sliders: str | Collection[str] | None = None, unfold: Unfolding = False, **constants: object) -> Explorer:
+            sliders: str | Collection[str] | None = None, unfold: Unfolding = False, show: str | Collection[str] | None = None,
+            **constants: object) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
 
     Parameters
@@ -43,6 +44,9 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
         panel says which constants do. By default everything has one.
     unfold
         A symbol, or several, whose stages the diagram shows one by one, or True for all, as for `stages`.
+    show
+        The views that are open at first, one or a list of `rules`, `word`, `stages`, `drawing`, `counts`, `seeds` and
+        `variants`; by default the word, the stages and the drawing. The others are a click away.
     **constants
         First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
         `damping`.
@@ -52,7 +56,7 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     ModelValueError
         A first value lies outside its slider's range.
     ModelNameError
-        There is no slider of that name, or no symbol that is to be unfolded.
+        There is no slider or view of that name, or no symbol that is to be unfolded.
     ModelSyntaxError
         The text makes no sense.
 
@@ -85,9 +89,10 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)
-    without = frozenset() if sliders is None else _without(sliders, (*found.values, "angle", "seed"))
+    without = frozenset() if sliders is None else (
+        frozenset((*found.values, "angle", "seed")) - chosen_names(sliders, "slider", (*found.values, "angle", "seed")))
     chosen = opened(system, title, constants, without, unfold) if without else found
-    return Explorer(chosen, step, angle, seed, without, unfold)
+    return Explorer(chosen, step, angle, seed, without, unfold, None if show is None else chosen_names(show, "view", VIEWS))
 
 
 def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfolding, constants: dict[str, Any]) -> None:
@@ -105,13 +110,13 @@ def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfoldi
     stages(system, unfold=unfold, **constants)
 
 
-def _without(sliders: str | Collection[str], offered: Collection[str]) -> frozenset[str]:
-    """What has no slider, if some have."""
-    asked = (sliders,) if isinstance(sliders, str) else sliders
-    require(asked, Collection, "A name or a list of names of sliders")
+def chosen_names(names: str | Collection[str], what: str, offered: Collection[str]) -> frozenset[str]:
+    """The sliders or views that somebody asks for, by their names."""
+    asked = (names,) if isinstance(names, str) else names
+    require(asked, Collection, f"A name or a list of names of {what}s")
     for name in asked:
-        require(name, str, "The name of a slider")
+        require(name, str, f"The name of a {what}")
         if name not in offered:
-            raise ModelNameError(f"There is no slider {shown(name)}", hint=suggestion(name, offered)
-                                 or f"The sliders are: {', '.join(offered)}.")
-    return frozenset(offered) - frozenset(asked)
+            raise ModelNameError(f"There is no {what} {shown(name)}", hint=suggestion(name, offered)
+                                 or f"The {what}s are: {', '.join(offered)}.")
+    return frozenset(asked)

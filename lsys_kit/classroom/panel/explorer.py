@@ -33,6 +33,9 @@ from lsys_kit.notation.model.system import LSystem
 
 _BROKEN_OFF = LSystemError("The kernel was interrupted before this was finished", hint="Try it again.")
 
+VIEWS = ("rules", "word", "stages", "drawing", "counts", "seeds", "variants")
+"""The views of a panel, from left to right."""
+
 
 class Explorer(KitWidget):
     """The panel that `explore` shows. What it shows can be read, set, observed and linked to other widgets.
@@ -63,12 +66,13 @@ class Explorer(KitWidget):
     settings = traitlets.Dict().tag(sync=True)
 
     def __init__(self, opened: Opened, step: int | None, angle: object, seed: int, without: Collection[str] = (),
-                 unfold: Unfolding = False) -> None:
+                 unfold: Unfolding = False, show: Collection[str] | None = None) -> None:
         first = opened.steps if step is None else whole_number(step, "The step")
         turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
+        self._show = None if show is None else [view for view in VIEWS if view in show]
         super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened.first), around=opened.side[0],
                          above=opened.side[1])
         try:
@@ -139,7 +143,8 @@ class Explorer(KitWidget):
     def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         """What a page without a kernel has to know of the panel as it stands, and of the settings that are asked for."""
         with self._limited():  # each book is a task of its own
-            return self._opened.page_data(self._chosen, asked)
+            data = self._opened.page_data(self._chosen, asked)
+        return {**data, "model": {**data["model"], "show": self._show}}
 
     def _page(self) -> str:
         return page(self._opened.title or self._opened.kind, self.page_data(), self.text)
@@ -170,7 +175,7 @@ class Explorer(KitWidget):
         return {"book": made, "asked": {"constants": _texts(values), "seed": self.seed}, "constants": sliders,
                 "chance": made["chance"] and "seed" not in self._without,
                 "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
-                "unfold": self._unfold, "step": min(first, made["steps"]), "angle": self.angle, "around": self.around,
+                "unfold": self._unfold, "show": self._show, "step": min(first, made["steps"]), "angle": self.angle, "around": self.around,
                 "above": self.above, "seed": self.seed, **translated_labels()}
 
     def _offer_constants(self) -> None:
@@ -217,14 +222,20 @@ class Explorer(KitWidget):
         return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
 
     def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
-        """Show the system of a text that was typed; the step, the angle and the sliders of constants that are declared as they
-        were stay where they are."""
-        system = self._opened.read(content["text"])
+        """Show the system of a text that was typed.
+
+        The step and the angle stay where they can, and so does each constant that is declared as it was.
+        """
+        old = self._opened
+        system = old.read(content["text"])
         title = self._given.title if system == self._given.system else ""
-        new, old = opened(system, title, without=self._without, unfold=self._unfold), self._opened
-        standing = content.get("constants", {})
-        values = {name: nearest(new.values[name], name, standing[name])
-                  if name in standing and value == old.first.get(name) else value for name, value in new.first.items()}
+        new = opened(system, title, without=self._without, unfold=self._unfold)
+        alike = {name for name, value in new.declared.items() if value == old.declared.get(name)}
+        given = {name: value for name, value in old.given.items() if name in alike}
+        if given:
+            new = opened(system, title, given, self._without, self._unfold)
+        standing = {name: text for name, text in content.get("constants", {}).items() if name in alike}
+        values = {name: nearest(new.values[name], name, standing.get(name, value)) for name, value in new.first.items()}
         found = {**self._model_of(new, new.steps, values), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found
@@ -265,4 +276,4 @@ def _texts(values: Mapping[str, Value]) -> dict[str, str]:
 def _mistake(error: LSystemError) -> dict[str, Any]:
     """An error as the browser needs it: what is wrong, what to try, and between which offsets of the text it stands."""
     start, end = error.span or (None, None)
-    return {"message": error.message, "hint": error.hint or "", "start": start, "end": end}
+    return {"message": error.message, "hint": error.hint or "", "line": error.line, "start": start, "end": end}

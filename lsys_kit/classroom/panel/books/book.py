@@ -104,7 +104,8 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {
-            "title": visible(title), "text": system.source, "notation": system.notation, "noun": "module",
+            "title": visible(title), "text": system.source, "notation": system.notation,
+            "notes": [*map(visible, system.notes)], "noun": "module",
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states), "symbols": symbols, "states": rows,
             "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}

@@ -28,7 +28,7 @@ from lsys_kit.geometry.tissues.map_layout import equilibria, polygon, tissue
 from lsys_kit.geometry.tissues.relaxation import Forces
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.maps import Edge, MapSystem
-from lsys_kit.pictures.style.labels import label_parts
+from lsys_kit.pictures.style.labels import label_parts, visible
 from lsys_kit.pictures.style.palette import colours
 from lsys_kit.pictures.tissues.maps import STEPS
 
@@ -135,7 +135,8 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
     with Task("The book was not finished"):
         net, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         return {
-            "title": title, "text": system.source, "notation": "map", "noun": "wall", "mode": "map",
+            "title": title, "text": system.source, "notation": "map", "notes": [*map(visible, system.notes)],
+            "noun": "wall", "mode": "map",
             "settings": {name: number_text(value) for name, value in settings.items()}, "chance": False,
             "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
             "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],

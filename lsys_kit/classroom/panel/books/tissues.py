@@ -28,7 +28,7 @@ from lsys_kit.geometry.tissues.cellwork_layout import solid_tissue
 from lsys_kit.geometry.tissues.sphere_layout import Placed
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.maps import Edge, MapSystem
-from lsys_kit.pictures.style.labels import label_parts
+from lsys_kit.pictures.style.labels import label_parts, visible
 from lsys_kit.pictures.style.palette import SERIES, colours
 from lsys_kit.pictures.tissues.cellworks import wall_labels
 from lsys_kit.pictures.tissues.spheres import kinds_of_cells, wall_arcs
@@ -73,7 +73,7 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
         edges = [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()]
         return {
             "title": title, "text": system.source, "notation": "map" if isinstance(system, MapSystem) else "cellwork",
-            "noun": "cell", "mode": "tissue", "chance": False,
+            "notes": [*map(visible, system.notes)], "noun": "cell", "mode": "tissue", "chance": False,
             "settings": {name: number_text(value) for name, value in settings.items()},
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
             "file": file_stem(title, "map" if isinstance(system, MapSystem) else "cellwork", system.source or repr(system)),

@@ -130,6 +130,8 @@ class OpenedCells(Generic[Found]):
         given = {name: exact(getattr(forces, name)) for name in VALUES}
         self.first: Mapping[str, Value] = {name: value for name, value in given.items() if name not in without}
         self.fixed: Mapping[str, Value] = {name: value for name, value in given.items() if name in without}
+        self.declared: Mapping[str, Value] = {name: exact(getattr(of.usual, name)) for name in VALUES}
+        self.given: Mapping[str, Any] = self.fixed
         self.values: Mapping[str, Sequence[Value]] = {
             name: tuple(sorted({*of.values[name], value})) for name, value in self.first.items()}
         self._kept = Cache[tuple[Forces, int], Found](of.size, SHARE)

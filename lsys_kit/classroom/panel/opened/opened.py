@@ -58,6 +58,10 @@ class Opened(Protocol):
         For each slider its first value, and all its values.
     fixed
         The values of those constants or forces that could have a slider, and have none.
+    declared
+        The values of all constants as the text declares them, or the usual forces.
+    given
+        The values of what has no slider, where they were given instead of those declared, or could have one.
     hint
         What the sliders are, for a tip; empty for constants.
     kind
@@ -69,6 +73,8 @@ class Opened(Protocol):
     first: Mapping[str, Value]
     values: Mapping[str, Sequence[Value]]
     fixed: Mapping[str, Value]
+    declared: Mapping[str, Value]
+    given: Mapping[str, Any]
     hint: str
     kind: str
 

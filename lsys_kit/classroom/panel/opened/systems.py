@@ -16,6 +16,7 @@ from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
 from lsys_kit.classroom.panel.page import page_data
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
+from lsys_kit.derivation.core.rules import constants_of
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
@@ -47,7 +48,9 @@ class OpenedSystem:
         self.first: Mapping[str, Value] = {name: span.value for name, span in moving.items()}
         self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in moving.items()}
         self.fixed: Mapping[str, Value] = {name: span.value for name, span in ranges.items() if name in without}
-        self._fixed = {**{name: value for name, value in (changes or {}).items() if name not in ranges}, **self.fixed}
+        self.declared: Mapping[str, Value] = dict(zip((each.name for each in system.constants), constants_of(system, {}), strict=True))
+        self.given: Mapping[str, Any] = {**{name: value for name, value in (changes or {}).items() if name not in ranges},
+                                         **self.fixed}
         self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed, unfold))
 
     @property
@@ -60,7 +63,7 @@ class OpenedSystem:
         if drawing_mode(self.system) is not DrawingMode.SPACE:
             return FRONT
         try:
-            scene = self._views(self.system.seed or 0).sight(self.steps, {**self._fixed, **self.first}).scene
+            scene = self._views(self.system.seed or 0).sight(self.steps, {**self.given, **self.first}).scene
         except LSystemError:
             return FROM_THE_RIGHT
         return FRONT if lies_flat(scene) else FROM_THE_RIGHT
@@ -76,11 +79,11 @@ class OpenedSystem:
         return turn
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
-        return book(self.system, {**self._fixed, **values}, seed, title=self.title, least=least,
+        return book(self.system, {**self.given, **values}, seed, title=self.title, least=least,
                     unfold=self._unfold)
 
     def sight(self, chosen: Viewing) -> StepView:
-        constants, view = {**self._fixed, **chosen.values}, self._views(chosen.seed)
+        constants, view = {**self.given, **chosen.values}, self._views(chosen.seed)
         net = view.known(constants)[1]
         names = [place_text(place, net.system) for place in net.places]
         place = names.index(chosen.mark) if chosen.mark in names else -1
@@ -90,14 +93,14 @@ class OpenedSystem:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
-        return page_data(self.system, {**self._fixed, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
+        return page_data(self.system, {**self.given, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
                          angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked, without=self._without,
                          unfold=self._unfold)
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
         seed = {SEED: chosen.seed} if chosen.seed else {}
-        return link(self.system, {STEP: chosen.step, **turn, **seed, **self._fixed, **chosen.values})
+        return link(self.system, {STEP: chosen.step, **turn, **seed, **self.given, **chosen.values})
 
     def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
         """The text in the notation of the system before it, or in the one that it shows."""

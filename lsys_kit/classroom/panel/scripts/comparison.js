@@ -5,7 +5,7 @@ import { hostOf } from "./panels/jupyter.js";
 
 async function render({ model, el }) {
   const found = await Promise.all(["left", "right"].map((side) => model.widget_manager.get_model(model.get(side).slice("IPY_MODEL_".length))));
-  const hosts = found.map(hostOf), close = openComparison(el, hosts.map(({ host }) => host));
+  const hosts = found.map(hostOf), close = openComparison(el, hosts.map(({ host }) => host), model.get("shared"));
   return () => {
     close();
     for (const { leave } of hosts) leave();

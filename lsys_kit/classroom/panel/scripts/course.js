@@ -36,10 +36,10 @@ async function panel(place, data, page) {
   openPanel(place, host);
 }
 
-async function comparison(place, { left, right }, page) {
+async function comparison(place, { left, right, shared }, page) {
   const hosts = await Promise.all([left, right].map((data) => hostOf(data, page)));
   place.replaceChildren();
-  openComparison(place, hosts);
+  openComparison(place, hosts, shared);
 }
 
 // Both votes on a question know of one another.

@@ -7,8 +7,8 @@ import { openPanel } from "./panel.js";
 
 const SHARED = ["step", "angle", "around", "above"];
 
-// `hosts` are those of the two panels.
-export function openComparison(element, hosts) {
+// `hosts` are those of the two panels; `shared` names the constants that one slider moves on both sides.
+export function openComparison(element, hosts, shared) {
   const bar = made("div", { class: "lsys-controls" }), root = made("div", { class: "lsys-panel lsys-both" }, bar);
   const said = made("div", { class: "lsys-sentence", role: "status" }), sides = made("div", { class: "lsys-comparison" });
   const seen = [null, null], panels = [], offs = [];
@@ -20,6 +20,7 @@ export function openComparison(element, hosts) {
     sides.append(column);
     panels.push(openPanel(column, host, {
       bar: side === 0 ? bar : null,
+      shared,
       shown(book, step) {
         seen[side] = { book, step };
         if (seen[0] && seen[1] && seen[0].step === seen[1].step) tell();
@@ -28,6 +29,11 @@ export function openComparison(element, hosts) {
     for (const name of SHARED) offs.push(host.on(name, () => {
       const other = hosts[1 - side], value = host.get(name);
       if (other.get(name) !== value) other.set(name, value);
+    }));
+    offs.push(host.on("settings", () => {
+      const other = hosts[1 - side], there = other.get("settings"), here = host.get("settings");
+      const changed = shared.filter((name) => name in here && name in there && here[name] !== there[name]);
+      if (changed.length) other.set("settings", { ...there, ...Object.fromEntries(changed.map((name) => [name, here[name]])) });
     }));
   });
 

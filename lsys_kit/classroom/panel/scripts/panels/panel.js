@@ -25,7 +25,8 @@ const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
 const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
 const SEEDS = DEGREES(0, 999);
 
-// Of two panels beside each other `compared` has { bar, shown(book, step) }: where the sliders of both are, or null in the second.
+// Of two panels beside each other `compared` has { bar, shared, shown(book, step) }: where the sliders of both are, or null in the
+// second, and the names of the constants among them.
 export function openPanel(element, host, compared = null) {
   speak(host.get("model").words);
   const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
@@ -54,9 +55,10 @@ export function openPanel(element, host, compared = null) {
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
   if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
-  const view = folding(views, root, [["rules", worded("rules"), false], ["word", worded("word"), true],
-    ["stages", worded("stages"), !compared], ["drawing", worded("drawing"), true], ["counts", worded("how many"), false],
-    ["seeds", worded("nine seeds"), false], ["variants", worded("nine variants"), false]], () => show());
+  const titles = { rules: worded("rules"), word: worded("word"), stages: worded("stages"), drawing: worded("drawing"), counts: worded("how many"),
+    seeds: worded("nine seeds"), variants: worded("nine variants") };
+  const opening = host.get("model").show ?? ["word", "drawing", ...(compared ? [] : ["stages"])];
+  const view = folding(views, root, Object.entries(titles).map(([name, title]) => [name, title, opening.includes(name)]), () => show());
   const rules = rulesView(view.rules.body, (text) => newRules(text));
   const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way), (position) => point({ step: host.get("step"), position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
@@ -117,6 +119,7 @@ export function openPanel(element, host, compared = null) {
     asking += 1;
     books?.close();
     books = library(host);
+    for (const each of constants) each.control.element.remove();
     constants = model.constants.map((each) => ({
       ...each,
       control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(host.get("settings")[each.name])), (at) => {
@@ -124,7 +127,9 @@ export function openPanel(element, host, compared = null) {
       }),
     }));
     const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
-    bottom.replaceChildren(...constants.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
+    const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
+    compared?.bar?.append(...ofBoth.map((each) => each.control.element));
+    bottom.replaceChildren(...own.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
       ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
     seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(host.get("seed")))));
     view.seeds.offer(model.chance);
@@ -132,7 +137,7 @@ export function openPanel(element, host, compared = null) {
     variants.forget();
     const first = books.keep(model.asked, model.book);
     boxed = Math.min(model.step, first.steps);
-    rules.open(model.book.text, host.editable);
+    rules.open(model.book.text, host.editable, model.book.notes);
     if (books.known(request())) turnTo(books.known(request()));
     else {
       turnTo(first);

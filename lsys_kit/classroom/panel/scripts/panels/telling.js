@@ -8,7 +8,8 @@ const rounded = (size) => Number((size + 1e-9).toFixed(2));
 // A step with its tokens, and the width and height of its drawing, if there is one.
 export function caption(book, now, tokens, measured) {
   const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
-  const parts = [`step ${now}: ${sizeOf(book, now)}`, `${occupied} of ${counted(stages, "stage")} occupied`];
+  const parts = [`step ${now}: ${sizeOf(book, now)}`];
+  if (stages > 1) parts.push(`${occupied} of ${counted(stages, "stage")} occupied`);
   if (changesNothing(book, now)) parts.push("this step changes nothing");
   if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now))}`);
   if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
@@ -34,6 +35,7 @@ export function code(host, book, turns) {
     ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
     ...(model.without?.length ? [`sliders=${JSON.stringify([...model.constants.map((each) => each.name), ...(turns ? ["angle"] : []), ...(model.chance ? ["seed"] : [])])}`] : []),
     ...(model.unfold ? [`unfold=${model.unfold === true ? "True" : JSON.stringify(model.unfold)}`] : []),
+    ...(model.show ? [`show=${JSON.stringify(model.show)}`] : []),
     ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];
   return `explore(${[first, ...more].join(", ")})`;
 }

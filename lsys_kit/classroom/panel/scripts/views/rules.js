@@ -10,8 +10,9 @@ export function rulesView(parent, asked) {
   const area = made("textarea", { class: "lsys-rules", spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": worded("rules of the model") });
   const said = made("div", { class: "lsys-mistake", role: "status", "aria-live": "polite" });
   const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), () => put(first), { hidden: true });
-  parent.append(made("div", { class: "lsys-editor" }, backdrop, area), said, back);
-  let first = "", spans = [], waiting = 0;
+  const notes = made("div", { class: "lsys-hint", role: "status" });
+  parent.append(made("div", { class: "lsys-editor" }, backdrop, area), said, notes, back);
+  let first = "", told = [], spans = [], waiting = 0;
 
   function paint() {
     const text = area.value, parts = [];
@@ -42,18 +43,20 @@ export function rulesView(parent, asked) {
   area.addEventListener("input", typed);
   area.addEventListener("scroll", paint);
 
-  // Nothing is wrong with the text.
+  // Nothing is wrong with the text; there may be notes on how it was read.
   function understood() {
     spans = [];
     said.replaceChildren();
+    notes.replaceChildren(...told.map((note) => made("div", {}, note)));
     area.removeAttribute("aria-invalid");
     paint();
   }
 
   return {
     put,
-    // The text of a model that was opened; one that was typed stays as it was typed.
-    open(text, editable) {
+    // The text of a model that was opened, and the notes on how it was read; one that was typed stays as it was typed.
+    open(text, editable, noted) {
+      told = noted;
       if (!first) first = text;
       area.readOnly = !editable;
       if (area.value !== text && document.activeElement !== area) area.value = text;
@@ -62,10 +65,12 @@ export function rulesView(parent, asked) {
       understood();
     },
     understood,
-    // What is wrong with the text, where it stands, and what to try.
-    mistaken({ message, hint, start, end }) {
+    // What is wrong with the text, where it stands, and what to try; the notes are of another text.
+    mistaken({ message, hint, line, start, end }) {
+      notes.replaceChildren();
       spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
-      said.replaceChildren(made("strong", {}, `${message}.`), hint ? ` ${hint}` : "");
+      const where = line && area.value.includes("\n") ? `Line ${line}: ` : "";
+      said.replaceChildren(made("strong", {}, `${where}${message}.`), hint ? ` ${hint}` : "");
       area.setAttribute("aria-invalid", "true");
       paint();
     },
