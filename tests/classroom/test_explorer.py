@@ -132,7 +132,43 @@ def test_sliders_of_both_sides_are_chosen_at_once():
     assert [*both.left.settings] == [*both.right.settings] == ["dt"]
 
 
-@pytest.mark.parametrize("side", [{"step": 3}, {"sliders": "dt"}, {"what": "J5"}])
+def test_a_slider_of_both_sides_moves_both():
+    both = compare("P5", "P6", step=4, sliders=["dt", "t_l"], shared="dt")
+    both.left.settings = {"dt": "0.2"}
+    assert both.right.settings["dt"] == "0.2"
+    both.right.settings = {"dt": "0.5", "t_l": both.right.settings["t_l"]}
+    assert both.left.settings["dt"] == "0.5"
+    assert both.page_data()["shared"] == ["dt"]
+    with pytest.raises(ModelNameError, match="There is no slider 'lifeTimeA'"):
+        compare("P5", "P6", shared=["lifeTimeA"])
+
+
+def test_a_panel_opens_with_the_views_that_are_asked_for():
+    panel = explore("J4", 3, show=["drawing", "rules"])
+    assert panel.model["show"] == panel.page_data()["model"]["show"] == ["rules", "drawing"]
+    assert explore("J4", show="word").model["show"] == ["word"]
+    assert explore("J4").model["show"] is None
+    with pytest.raises(ModelNameError, match=r"There is no view 'net'\. The views are: rules, word, stages"):
+        explore("J4", show="net")
+
+
+def test_what_is_given_without_a_slider_stays_when_rules_are_typed(monkeypatch):
+    panel = explore("J4", 3, lifeTimeB=4, sliders="lifeTimeA")
+    assert answer(panel, monkeypatch, kind="rules", text=str(panel.system).replace("axiom: Al(1)", "axiom: Br(1)"))["opened"]
+    assert panel.model["fixed"] == "Fixed: lifeTimeB = 4."
+
+
+def test_what_was_moved_stays_where_it_is_declared_as_before_wherever_it_began(monkeypatch):
+    panel = explore("J4", 3, lifeTimeA=5)
+    typed = str(panel.system).replace("axiom: Al(1)", "axiom: Br(1)")
+    assert answer(panel, monkeypatch, kind="rules", text=typed, constants={"lifeTimeA": "4", "lifeTimeB": "2"})["opened"]
+    assert panel.settings == {"lifeTimeA": "4", "lifeTimeB": "2"}
+    anew = typed.replace("lifeTimeA = 3", "lifeTimeA = 2")
+    assert answer(panel, monkeypatch, kind="rules", text=anew, constants=panel.settings)["opened"]
+    assert panel.settings == {"lifeTimeA": "2", "lifeTimeB": "2"}
+
+
+@pytest.mark.parametrize("side", [{"step": 3}, {"sliders": "dt"}, {"what": "J5"}, {"show": "word"}])
 def test_what_both_sides_share_is_no_setting_of_one(side):
     with pytest.raises(ModelValueError, match=r"is no setting of one side. It stands beside the two"):
         compare("J4", side, {})

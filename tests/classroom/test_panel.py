@@ -46,6 +46,25 @@ def test_the_slider_of_the_step_changes_word_tokens_and_drawing(explored):
     expect(panel.at("canvas")).to_have_attribute("data-step", "4")
 
 
+def test_a_panel_opens_with_the_views_that_are_asked_for(explored):
+    panel = explored("K7", 3, show=["rules", "drawing"])
+    assert [each.get_attribute("data-view") for each in panel.at(".lsys-view:not([hidden])").all()] == ["rules", "drawing"]
+    pressed = panel.page.get_by_role("group", name="views").locator("[aria-pressed=true]")
+    assert pressed.all_inner_texts() == ["rules", "drawing"]
+
+
+def test_notes_on_how_rules_were_read_stand_below_them_and_a_mistake_names_its_line(explored):
+    panel = explored("J4", 3, show=["rules", "drawing"])
+    notes, rules = panel.at('[data-view="rules"] .lsys-hint'), panel.at(".lsys-rules")
+    rules.fill("axiom: A\nA -> BXB\nX -> X")
+    expect(notes).to_contain_text("BXB")
+    rules.fill("axiom: A\nA -> BXB(\nX -> X")
+    expect(panel.at(".lsys-mistake")).to_contain_text("Line 2: ")
+    expect(notes).to_have_text("")
+    rules.fill("axiom: A\nA -> BXB\nX -> X")
+    expect(notes).to_contain_text("BXB")
+
+
 def test_a_step_that_changes_nothing_is_said_to_do_so(explored):
     panel = explored("K24", 18, L=2)
     words = derive(system("K24"), 20, L=2)
