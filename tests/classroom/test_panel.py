@@ -80,7 +80,7 @@ def test_a_step_that_changes_nothing_is_said_to_do_so(explored):
 def test_the_length_of_a_filament_is_said(explored, id, step, length):
     panel = explored(id, step)
     assert f"width {length}, height 1" in panel.explorer.text
-    expect(panel.at(".lsys-status")).to_contain_text(re.compile(rf"occupied; length {re.escape(length)}$"))
+    expect(panel.at(".lsys-status")).to_contain_text(re.compile(rf"(occupied|modules); length {re.escape(length)}$"))
 
 
 def test_a_number_is_typed_as_a_person_writes_it(explored):
