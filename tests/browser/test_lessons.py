@@ -9,6 +9,8 @@ from tests.browser.lab import OpenNotebook
 from tests.notebooks.rebuild import ROOT
 
 LESSONS = sorted(path.stem for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+ONE_SCREEN = 840
+"""Pixels: a panel as it opens, with what moves it and what is moved, is no higher on a screen of 1440 by 900."""
 PATIENCE = 200
 """How often one looks whether a view has changed."""
 SEEN = """panel => [
@@ -28,11 +30,18 @@ def test_a_lesson_is_worked_through(open_notebook, lesson):
     for number in sorted({*notebook.cells_showing("explore("), *notebook.cells_showing("compare(")}):
         panels = notebook.output(number).locator(".lsys-panel")
         expect(panels.first).to_be_visible()
+        assert height_of(panels.first) <= ONE_SCREEN
         for place in range(panels.count()):
             move_every_slider(panels.nth(place))
         notebook.shot(f"{lesson}-{number}")
     assert notebook.cell_errors() == []
     assert notebook.console == []
+
+
+def height_of(panel: Locator) -> float:
+    """The height of a panel, or of a comparison, whose drawings have been drawn."""
+    expect(panel.locator("canvas[data-drawn]").first).to_be_visible()
+    return float(panel.evaluate("panel => panel.getBoundingClientRect().height"))
 
 
 def answer_predictions(notebook: OpenNotebook) -> None:
