@@ -147,7 +147,7 @@ def _reads(notation: Dialect, text: str, name: str | None) -> bool:
 
 
 def _read_as_named(notation: Dialect, text: str, name: str | None) -> LSystem:
-    """Read a system in the notation that somebody named; what it has against the text is said, whatever else the text may be."""
+    """Read a system in the notation that somebody named; what it has against a text is said, whatever else that may be."""
     try:
         return system_in(notation, text, name)
     except LSystemError as error:

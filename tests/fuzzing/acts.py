@@ -387,7 +387,8 @@ LEFT_OUT: Mapping[str, str] = {
                      "lsys-kit site", "VoteBox.close", "VoteBox.page_data", "VoteBox.__repr__", "Worksheet.close",
                      "Worksheet.entries",
                      "Worksheet.page_data", "Worksheet.__repr__", "Progress.count", "Progress.state", "Progress.__repr__",
-                     "Verdict.__repr__", "Practice.next", "Practice.__repr__", "Comparison.left", "Comparison.right"),
+                     "Verdict.__repr__", "Practice.next", "Practice.__repr__", "Comparison.left", "Comparison.right",
+                     "Comparison.shared"),
     "lsys-kit lab": "it serves until it is closed",
     **{f"HierarchyPicture.{name}": "it has one picture alone" for name in (*members("HierarchyPicture"), "__repr__")},
 }

@@ -63,7 +63,8 @@ def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_th
         notation: str, name: str, text: str, line: int) -> None:
     found = claim(text, notation)
     assert "which the kit does not read" not in found.message
-    assert found.hint is not None and f"Perhaps this is {name}, which the kit does not read." in found.hint
+    assert found.hint is not None
+    assert f"Perhaps this is {name}, which the kit does not read." in found.hint
 
 
 def test_each_format_has_five_texts() -> None:

@@ -175,8 +175,8 @@ class Explorer(KitWidget):
         return {"book": made, "asked": {"constants": _texts(values), "seed": self.seed}, "constants": sliders,
                 "chance": made["chance"] and "seed" not in self._without,
                 "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
-                "unfold": self._unfold, "show": self._show, "step": min(first, made["steps"]), "angle": self.angle, "around": self.around,
-                "above": self.above, "seed": self.seed, **translated_labels()}
+                "unfold": self._unfold, "show": self._show, "step": min(first, made["steps"]), "angle": self.angle,
+                "around": self.around, "above": self.above, "seed": self.seed, **translated_labels()}
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""

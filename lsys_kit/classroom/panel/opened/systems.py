@@ -48,7 +48,8 @@ class OpenedSystem:
         self.first: Mapping[str, Value] = {name: span.value for name, span in moving.items()}
         self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in moving.items()}
         self.fixed: Mapping[str, Value] = {name: span.value for name, span in ranges.items() if name in without}
-        self.declared: Mapping[str, Value] = dict(zip((each.name for each in system.constants), constants_of(system, {}), strict=True))
+        self.declared: Mapping[str, Value] = dict(
+            zip((each.name for each in system.constants), constants_of(system, {}), strict=True))
         self.given: Mapping[str, Any] = {**{name: value for name, value in (changes or {}).items() if name not in ranges},
                                          **self.fixed}
         self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed, unfold))

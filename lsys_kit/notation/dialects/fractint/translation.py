@@ -41,7 +41,7 @@ def translated(system: LSystem) -> LSystem:
     """A system for Fractint's turtle that draws the same; the system itself where there is none, or where it is one.
 
     >>> from lsys_kit.notation.read import read
-    >>> koch = translated(read("angle: 60\\naxiom: F\\nF -> F+fx-F"))
+    >>> koch = translated(read("angle: 60\\naxiom: F\\nF -> F+f x-F"))
     >>> koch.angle, "".join(map(str, koch.axiom)), str(koch.productions[0])
     (30, '+++F', 'F -> F ++ GX -- F')
     """
