@@ -42,8 +42,8 @@ def translated(system: LSystem) -> LSystem:
 
     >>> from lsys_kit.notation.read import read
     >>> koch = translated(read("angle: 60\\naxiom: F\\nF -> F+f x-F"))
-    >>> koch.angle, "".join(map(str, koch.axiom)), str(koch.productions[0])
-    (30, '+++F', 'F -> F ++ GX -- F')
+    >>> int(koch.angle), "".join(map(str, koch.axiom)), str(koch.productions[0])
+    (30, '+++F', 'F -> F++G X--F')
     """
     if system.turtle != "abop" or untranslatable(system):
         return system
