@@ -65,6 +65,16 @@ def test_notes_on_how_rules_were_read_stand_below_them_and_a_mistake_names_its_l
     expect(notes).to_contain_text("BXB")
 
 
+def test_while_a_book_is_fetched_a_panel_is_busy(explored):
+    panel = explored("J4", 9)
+    panel.page.evaluate("window.delay = () => 2000")
+    panel.control("lifeTimeA").press("End")
+    expect(panel.at(".lsys-panel")).to_have_attribute("aria-busy", "true")
+    expect(panel.at(".lsys-status")).to_have_css("opacity", "0.4")
+    expect(panel.at(".lsys-panel")).to_have_attribute("aria-busy", "false")
+    expect(panel.at(".lsys-status")).to_have_css("opacity", "1")
+
+
 def test_a_step_that_changes_nothing_is_said_to_do_so(explored):
     panel = explored("K24", 18, L=2)
     words = derive(system("K24"), 20, L=2)

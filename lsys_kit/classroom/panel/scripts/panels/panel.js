@@ -92,11 +92,13 @@ export function openPanel(element, host, compared = null) {
     const asked = request(), number = ++asking;
     clearTimeout(resting);
     resting = setTimeout(() => host.save(), REST);
+    root.ariaBusy = String(!books.known(asked)); // what is shown is still that of other settings
     if (!books.known(asked)) await underway; // a slider that moves on asks only for where it is when the kernel is free
     if (number !== asking) return; // another setting was asked for, or another model was opened
     underway = books.book(asked);
     const answer = await underway;
     if (number !== asking) return;
+    root.ariaBusy = "false";
     if (answer.mistake) return say(answer.mistake);
     turnTo(answer.book);
     say(host.notice?.() ?? null); // a page may not hold all settings
@@ -117,6 +119,7 @@ export function openPanel(element, host, compared = null) {
   function openModel() {
     model = host.get("model");
     asking += 1;
+    root.ariaBusy = "false";
     books?.close();
     books = library(host);
     for (const each of constants) each.control.element.remove();
