@@ -183,7 +183,7 @@ class limits(ContextDecorator):  # noqa: N801 - used as a function is
         self._changes: dict[str, Any] = changes
 
     def __repr__(self) -> str:
-        return f"limits({', '.join(f'{name}={value!r}' for name, value in self._changes.items())})"
+        return f"limits({', '.join(f'{name}={shown(value)}' for name, value in self._changes.items())})"
 
     def __enter__(self) -> Limits:
         outer = _in_force(_limits)

@@ -8,14 +8,17 @@ caret under the place, and suggests what to try. Faults of the kit itself are ne
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Collection
 from itertools import islice
 from numbers import Integral
 from reprlib import Repr
-from typing import Self
+from typing import Any, Self
 
 _LINE = 80
 """The most characters of a name or a value in a message."""
 
+FARTHEST = 10**18
+"""The greatest number of a step, or of anything that is counted."""
 _LONGEST = 20_000
 """The most characters of a message."""
 
@@ -167,7 +170,21 @@ def whole_number(given: object, what: str) -> int:
     """
     if isinstance(given, bool) or not isinstance(given, Integral) or int(given) < 0:
         raise ModelValueError(f"{what} must be a whole number from 0 on, not {shown(given)}")
+    if int(given) > FARTHEST:
+        raise ModelValueError(f"{what} must be at most {FARTHEST:,}, not {shown(given)}")
     return int(given)
+
+
+def every(values: Any, kind: type | tuple[type, ...], what: str) -> None:
+    """Refuse what is no collection of values of a type, and a value of another type among them.
+
+    >>> every([1, "a"], int, "A whole number")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelValueError: A whole number is needed, not str.
+    """
+    require(values, Collection, "A list")
+    for value in values:
+        require(value, kind, what)
 
 
 def printable(character: str) -> str:

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.notebook import SVGPicture, enlargement_from
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import turtle_image
-from lsys_kit.pictures.formats.transparency import on_ground
 from lsys_kit.pictures.formats.vector.lettering import advance
 from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.formats.vector.shapes import Drawing
@@ -82,15 +81,13 @@ class SmallMultiples(SVGPicture):
         with Task("The picture was not drawn"), drawn_on(self.theme):
             return self._written(current().segments, SHARP)
 
-    def image(self, enlarged: float = 1.0) -> Image:
-        """The picture as an image, perhaps enlarged."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return on_ground(lambda: painted(drawing_of(self._written(0, enlarged)), enlarged))
+    def _image(self, enlarged: float) -> Image:
+        return painted(drawing_of(self._written(0, enlarged)), enlarged)
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return drawing_of(self._written(current().figure, enlarged))
+            return drawing_of(self._written(current().figure, enlargement_from(enlarged)))
 
     def _written(self, most: int, enlarged: float = 1.0) -> str:
         """The picture as SVG; if it has more shapes than the most, its drawings are pixels, so many in each direction of its

@@ -24,7 +24,7 @@ from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.filament_raster import rows_image
 from lsys_kit.pictures.formats.files import FILMS, listed, save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
-from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.notebook import SVGPicture, enlargement_from
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import turtle_image, turtle_picture
 from lsys_kit.pictures.formats.transparency import on_ground
@@ -38,7 +38,6 @@ from lsys_kit.pictures.rendering.looks import widths_by_order
 from lsys_kit.pictures.sizes import SHARP, enlargement
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, labels_svg, resized, turtle_svg
-from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -109,11 +108,6 @@ class Picture(SVGPicture):
         with Task("The picture was not drawn"), drawn_on(self.theme):
             return self._written(current().segments, SHARP)
 
-    def image(self, enlarged: float = 1.0) -> Image:
-        """The picture as an image, perhaps enlarged."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return on_ground(lambda: self._image(enlarged))
-
     def _image(self, enlarged: float) -> Image:
         if len(self.scene.cells) or self.legend or len(self.scene.labels):
             most = MOST_PAINTED if len(self.scene.cells) else 0
@@ -123,21 +117,19 @@ class Picture(SVGPicture):
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return drawing_of(self._written(current().figure, enlarged))
+            return drawing_of(self._written(current().figure, enlargement_from(enlarged)))
 
-    def plot_into(self, ax: Axes) -> None:
-        """Paint the picture into axes: what a turtle has drawn in its own units, a filament in pixels."""
+    def _plot_into(self, ax: Axes) -> None:
         if self.size > current().figure:
             raise ModelLimitError(f"The figure would have {self.size:,} shapes; the limit is {current().figure:,}",
                                   limit=current().figure, needed=self.size,
                                   hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).")
         if len(self.scene.cells):
-            super().plot_into(ax)
+            super()._plot_into(ax)
         else:
-            with Task("The figure was not drawn"), supervised(), drawn_on(self.theme):
-                plot_turtle(ax, self.scene, self.colour_of)
-                if self.legend is not None:
-                    plot_legend(ax, self.legend)
+            plot_turtle(ax, self.scene, self.colour_of)
+            if self.legend is not None:
+                plot_legend(ax, self.legend)
 
     def _written(self, most: int, enlarged: float = 1.0) -> str:
         """The picture as SVG; if it has more shapes than the most, these are pixels, so many in each direction of its own."""

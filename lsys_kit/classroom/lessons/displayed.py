@@ -11,6 +11,7 @@ from ipywidgets import HTML, HTMLMath, Widget
 
 from lsys_kit.budget import Task
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
+from lsys_kit.errors import shown
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.supervision import supervised
 
@@ -36,6 +37,8 @@ def media(what: object) -> dict[str, Any]:
         with Task("It was not shown"), supervised():
             data, _ = formatter.format(what)
         data = {kind: value for kind, value in data.items() if kind != "text/html"}
+    if not data:  # of what cannot be written
+        return {"text/plain": shown(what)}
     return {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
 
 

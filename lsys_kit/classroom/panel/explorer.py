@@ -25,7 +25,7 @@ from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.classroom.widget import KitWidget
-from lsys_kit.errors import LSystemError, ModelValueError, shown, whole_number
+from lsys_kit.errors import LSystemError, ModelValueError, every, shown, whole_number
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
@@ -142,6 +142,7 @@ class Explorer(KitWidget):
 
     def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         """What a page without a kernel has to know of the panel as it stands, and of the settings that are asked for."""
+        every(asked, Mapping, "A dictionary of values of sliders")
         with self._limited():  # each book is a task of its own
             data = self._opened.page_data(self._chosen, asked)
         return {**data, "model": {**data["model"], "show": self._show}}

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.maps.map import Vertex
+from lsys_kit.errors import every, require
 
 
 class CellEdge(NamedTuple):
@@ -97,10 +98,12 @@ class Cellwork:
 
     def corners(self, wall: CellWall) -> list[int]:
         """The vertices once around a wall."""
+        require(wall, CellWall, "A wall of a cellwork")
         return [self.edges[edge].start if forward else self.edges[edge].end for edge, forward in wall.sides]
 
     def labels(self, cell: Sequence[WallSide]) -> tuple[str, ...]:
         """The labels of the walls of a cell."""
+        every(cell, WallSide, "The side of a wall")
         return tuple(self.walls[side.wall].label for side in cell)
 
     def cells_at(self) -> Iterator[tuple[int, int, bool]]:

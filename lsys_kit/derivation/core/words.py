@@ -11,7 +11,7 @@ import numpy as np
 
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
-from lsys_kit.errors import require
+from lsys_kit.errors import every, require
 from lsys_kit.notation.model.modules import Module, joined, rounded_module
 from lsys_kit.notation.registry import dialect_named
 
@@ -96,6 +96,7 @@ class Word(Sequence[Module]):
         'M(1)L(1)'
         """
         require(coding, Mapping, "A dictionary of what is written in place of modules")
+        every([*coding.values()], str, "The text that is written in place of a module")
         with Task("The text of the word was not written"):
             texts = {state: str(self.states.modules[state]) for state in counted(state_counts(self))}
             texts = {state: coding.get(text, text) for state, text in texts.items()}

@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from lsys_kit.budget import Task, counted
+from lsys_kit.errors import every
 from lsys_kit.notation.model.maps import Edge
 
 
@@ -86,6 +87,7 @@ class Map:
 
     def word(self, sides: Sequence[Side]) -> tuple[Edge, ...]:
         """The letters of some sides, as one walks along them."""
+        every(sides, Side, "The side of a wall")
         return tuple(self._edge(side) for side in counted(sides))
 
     def _edge(self, side: Side) -> Edge:
@@ -94,6 +96,7 @@ class Map:
 
     def corners(self, sides: Sequence[Side]) -> list[int]:
         """The vertices at which some sides begin."""
+        every(sides, Side, "The side of a wall")
         return [self.walls[wall].start if forward else self.walls[wall].end for wall, forward in sides]
 
     def __str__(self) -> str:

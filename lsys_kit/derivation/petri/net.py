@@ -120,6 +120,7 @@ class Stages:
 
     def place_of(self, module: Module) -> int | None:
         """The number of the place where a module's token lies."""
+        require(module, Module, "A module")
         return self._where(module)
 
     def tokens(self, word: Iterable[Module]) -> tuple[int, ...]:
@@ -247,6 +248,9 @@ class Stages:
 
     def line(self, number: int) -> str:
         """A transition in one line: what it makes of what, and on which terms."""
+        if whole_number(number, "The number of a transition") >= len(self.transitions):
+            raise ModelValueError(f"There are {len(self.transitions)} transitions, and none has the number {number}",
+                                  hint="They are counted from 0.")
         transition = self.transitions[number]
         made = [f"{_times(arc)}{self.places[arc.place]}" for arc in self.arcs if arc.transition == number]
         return " ".join([f"{self.places[transition.place]} -> {' + '.join(made) or 'ε'}", *_terms(transition)])

@@ -108,6 +108,7 @@ class Continuity:
         >>> continuity(anabaena, {"a": "A * exp(B*(t+1))", "b": "A * exp(B*t)"}).solve("B")
         log(1/2 + sqrt(5)/2)
         """
+        require(name, str, "The name of an unknown number")
         if name not in self.unknowns:
             hint = suggestion(name, self.unknowns) or (f"They have: {', '.join(self.unknowns)}." if self.unknowns else None)
             raise ModelNameError(f'No equation for the length to be continuous has the name "{name}"', hint=hint)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.derivation.core.rules import number_from, unknown_constant
 from lsys_kit.derivation.timed.timed import Timed
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, every
 from lsys_kit.notation.analysis.checks import check_expression, span, suggestion
 from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in, to_sympy
@@ -28,6 +28,7 @@ JUMPS = frozenset(("if", "floor", "ceil", "mod", "rem"))
 
 def written_functions(lengths: Mapping[str, str], lives: Mapping[str, sympy.Set]) -> dict[str, str]:
     """The growth function of each letter as it is written."""
+    every(lengths, str, "A letter, or several with blanks between them,")
     texts = {symbol: text for symbols, text in lengths.items() for symbol in symbols.split()}
     for symbol in (*texts, *lives):
         if symbol not in lives:

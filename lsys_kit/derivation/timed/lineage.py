@@ -20,7 +20,7 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive
 from lsys_kit.derivation.timed.cell_lineage import MOST_CELLS, CellDivisions, CellGrowth, CellPart, LineageCell
 from lsys_kit.derivation.timed.timed import Timed
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
@@ -57,7 +57,7 @@ class Lineage:
 
     def daughters(self, cell: int) -> tuple[int, ...]:
         """The numbers of the cells that a cell has become, from left to right."""
-        return self._daughters.get(cell, ())
+        return self._daughters.get(whole_number(cell, "The number of a cell"), ())
 
     @property
     def divisions(self) -> tuple[Value, ...]:

@@ -24,7 +24,7 @@ from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model
 from lsys_kit.derivation.timed.lives import undecided_age
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import ModelLimitError, ModelValueError, every, require
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
@@ -89,8 +89,8 @@ class Timed:
         >>> print(*fibonacci.around(1))
         a(1) a(0)b(0)
         """
-        axiom = [self.states.modules[state] for state in self.states.axiom]
-        return self.later(axiom, at, already=False), self.later(axiom, at, already=True)
+        axiom, time = [self.states.modules[state] for state in self.states.axiom], number_from(at, "time")
+        return self.later(axiom, time, already=False), self.later(axiom, time, already=True)
 
     def divisions(self, until: Value) -> Iterator[Value]:
         """The times at which modules divide, each once, the earliest first, up to a time.
@@ -99,7 +99,7 @@ class Timed:
         >>> [*timed(read("axiom: a(0)\\na(1) -> a(0.5) b(0)\\nb(2) -> a(0)")).divisions(3)]
         [1, Fraction(3, 2), 2, Fraction(5, 2), 3]
         """
-        order, told = count(), None
+        order, told, until = count(), None, number_from(until, "time")
         born: Value = 0
         todo: list[tuple[Value, int, list[Module]]] = []
         modules = [self.states.modules[state] for state in self.states.axiom]
@@ -118,7 +118,8 @@ class Timed:
     def later(self, word: list[Module], passed: Value, already: bool | None = None) -> Word:
         """What a row of modules becomes in a time: D(word, passed); `already` as for `division`."""
         found: list[int] = []
-        most, deepest = current().modules, current().brackets
+        most, deepest, passed = current().modules, current().brackets, number_from(passed, "time")
+        every(word, Module, "A module")
         todo = [(module, passed, 0) for module in reversed(word)]
         visited = 0
         while todo:
@@ -145,6 +146,7 @@ class Timed:
 
         Whether it has divided already where no time is left is said by its rule, unless `already` says it.
         """
+        require(module, Module, "A module")
         end = self.ages.end(module)
         if end is None or end.rule is None:
             return left, None

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelValueError, require, shown
 from lsys_kit.files import marked_png, marked_xml, path_from
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.painting import painted
@@ -74,9 +74,12 @@ class SVGPicture(ABC):
 
     def image(self, enlarged: float = 1.0) -> Image:
         """The picture as an image, perhaps enlarged."""
-        drawing = self.drawing(enlarged)
+        factor = enlargement_from(enlarged)
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return on_ground(lambda: painted(drawing, enlarged))
+            return on_ground(lambda: self._image(factor))
+
+    def _image(self, enlarged: float) -> Image:
+        return painted(self.drawing(enlarged), enlarged)
 
     def film_images(self) -> Sequence[Image]:
         """The images of a film of the picture, all of the same size: its steps, if it has any."""
@@ -88,9 +91,15 @@ class SVGPicture(ABC):
             return drawing_of(self.svg)
 
     def plot_into(self, ax: Axes) -> None:
-        """Paint the picture into axes of a matplotlib figure, whose units are pixels then."""
-        with Task("The figure was not drawn"), supervised():
-            plot_drawing(ax, self.drawing())
+        """Paint the picture into axes of a matplotlib figure, whose units are pixels or those of its turtle."""
+        from matplotlib.axes import Axes
+
+        require(ax, Axes, "The axes of a figure")
+        with Task("The figure was not drawn"), supervised(), drawn_on(self.theme):
+            self._plot_into(ax)
+
+    def _plot_into(self, ax: Axes) -> None:
+        plot_drawing(ax, self.drawing())
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to an .svg, .png or .pdf file.
@@ -167,3 +176,11 @@ _STYLE = ("<style>.lsys-film:has(input:checked) .lsys-still, .lsys-film:has(inpu
 def _image(form: str, data: bytes, text: str, kind: str = "") -> str:
     named = f'class="{kind}" ' if kind else ""
     return f'<img {named}alt="{escape(text)}" src="data:image/{form};base64,{base64.b64encode(data).decode()}">'
+
+
+def enlargement_from(given: object) -> float:
+    """How much a picture is enlarged: a number greater than 0."""
+    factor = real_from(given, "enlarged")
+    if not factor > 0:
+        raise ModelValueError(f'"enlarged" must be greater than 0, not {shown(given)}')
+    return factor

@@ -10,7 +10,7 @@ from lsys_kit.classroom.exercises.declared.registry import all_lessons
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.progress.record import FILE, Record, record_so_far
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
-from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
+from lsys_kit.errors import ModelNameError, ModelValueError, every, quotable, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
@@ -43,11 +43,14 @@ class Progress:
 
     def state(self, exercise: Exercise) -> str:
         """Whether an exercise is "solved", "tried" or "not tried"."""
+        require(exercise, Exercise, "An exercise")
         tried = "tried" if self.record.tried(exercise.id) else "not tried"
         return "solved" if self.record.solved(exercise.id) else tried
 
     def count(self, state: str, *lessons: Lesson) -> int:
         """How many exercises of some lessons are in a state; of all that are shown, if none is named."""
+        require(state, str, "A state of exercises")
+        every(lessons, Lesson, "A lesson")
         return sum(self.state(each) == state for lesson in lessons or self.lessons for each in lesson.exercises)
 
     def __repr__(self) -> str:
