@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.budget import Task, check_bytes, counted
+from lsys_kit.budget import Task, check_bytes, counted, current, limits, processor_time
 from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import create_file, file_stem
@@ -214,12 +214,21 @@ def write_page(options: argparse.Namespace) -> None:
     what = opened(system, id, dict(options.settings), unfold=options.unfold)
     seed = options.seed or getattr(system, "seed", None) or 0
     first = what.steps if options.steps is None else options.steps
-    chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side)
-    data = what.page_data(chosen)
-    sight = what.sight(replace(chosen, step=data["model"]["step"]))
+    chosen, begun = Viewing(first, what.first, seed, what.turned(options.angle), *what.side), processor_time()
+    reached = min(first, what.book(what.first, seed, first)["steps"])
+    with _rest_of_the_time(begun):
+        sight = what.sight(replace(chosen, step=reached))
+    with _rest_of_the_time(begun):
+        data = what.page_data(chosen)
     named = {"file": file_stem(title, what.kind, "")} if title else {}
     save_page(options.output, page(title or what.kind, data | named, str(sight)))
     print(f"{sight} {data['model']['fixed']}".strip())
+
+
+def _rest_of_the_time(begun: float) -> limits:
+    """What is left of the seconds that a command may take; a little in any case."""
+    seconds = current().seconds
+    return limits(seconds=max(seconds - (processor_time() - begun), seconds / 20))
 
 
 def _titles(name: str) -> tuple[str, str]:

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from lsys_kit.budget import current, processor_time
 from lsys_kit.classroom.panel.books.book import book, first_step
@@ -92,7 +92,7 @@ def not_needed(*modes: str) -> frozenset[str]:
 def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed: int = 0, *, title: str = "",
               step: int | None = None, angle: object = None, around: int = 0, above: int = 0,
               asked: Sequence[Mapping[str, object]] = (), without: Collection[str] = (),
-              unfold: Unfolding = False) -> dict[str, Any]:
+              unfold: Unfolding = False, made: Made | None = None) -> dict[str, Any]:
     """What a page says of a system: its sliders, and the books of their settings.
 
     Parameters
@@ -115,6 +115,8 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
         What has no slider: names of constants, `angle`, `seed`.
     unfold
         The symbols that are unfolded in the stage diagram, as for `stages`.
+    made
+        A book of the system that is there already: that of the first settings need not be made again.
 
     Raises
     ------
@@ -127,6 +129,8 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
                                **{name: span.value for name, span in ranges.items()}, SEED: seed}
     wanted = first_step(system) if step is None else step
     shelf = _Shelf(start, partial(book, system, title=title, least=wanted, unfold=unfold))
+    if made and {**made.settings, SEED: made.seed} == start and wanted <= max(made.least, made.book["steps"]):
+        shelf.put(start, made)
     first = shelf.first()
     values = {name: slider_values(span) for name, span in ranges.items() if name not in without}
     held = _held(shelf, values, seed if first["chance"] and "seed" not in without else None, asked)
@@ -185,11 +189,26 @@ def _asked_settings(values: Mapping[str, Sequence[Value]], seed: int | None,
             yield found
 
 
+class Made(NamedTuple):
+    """A book with the settings of which it is, the step that it should hold, and the seconds that it took."""
+
+    settings: Mapping[str, Value]
+    seed: int
+    least: int
+    book: dict[str, Any]
+    seconds: float
+
+
 class _Shelf:
     """The books of a system, each made once, and how many of them a page has room for."""
 
     def __init__(self, start: Mapping[str, Value], made: Callable[[Mapping[str, Value], int], dict[str, Any]]) -> None:
         self.start, self._made, self._seconds, self._book = start, dict[tuple[Value, ...], dict[str, Any]](), 0.0, made
+
+    def put(self, chosen: Mapping[str, Value], made: Made) -> None:
+        """Take a book of some settings that is there already."""
+        self._made[tuple(chosen.values())] = made.book
+        self._seconds += made.seconds
 
     def first(self) -> dict[str, Any]:
         """The book of the first settings.

@@ -7,13 +7,14 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property, lru_cache
 from typing import Any
 
+from lsys_kit.budget import processor_time
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
 from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
-from lsys_kit.classroom.panel.page import page_data
+from lsys_kit.classroom.panel.page import Made, page_data
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import constants_of
@@ -52,6 +53,7 @@ class OpenedSystem:
             zip((each.name for each in system.constants), constants_of(system, {}), strict=True))
         self.given: Mapping[str, Any] = {**{name: value for name, value in (changes or {}).items() if name not in ranges},
                                          **self.fixed}
+        self._made: Made | None = None
         self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed, unfold))
 
     @property
@@ -80,8 +82,10 @@ class OpenedSystem:
         return turn
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
-        return book(self.system, {**self.given, **values}, seed, title=self.title, least=least,
-                    unfold=self._unfold)
+        settings, began = {**self.given, **values}, processor_time()
+        made = book(self.system, settings, seed, title=self.title, least=least, unfold=self._unfold)
+        self._made = Made(settings, seed, least, made, processor_time() - began)
+        return made
 
     def sight(self, chosen: Viewing) -> StepView:
         constants, view = {**self.given, **chosen.values}, self._views(chosen.seed)
@@ -96,7 +100,7 @@ class OpenedSystem:
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
         return page_data(self.system, {**self.given, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
                          angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked, without=self._without,
-                         unfold=self._unfold)
+                         unfold=self._unfold, made=self._made)
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
