@@ -49,7 +49,9 @@ TOGETHER = 8
 LONGEST_RULES, LONGEST_MISTAKE = 3_000, 600
 """So many characters are shown of a model, and of what is wrong with it."""
 _LINK = re.compile(rf"""(?<![^\s,;"'<>|])[^\s,;"'<>|]*?{MARK}[^\s,;"'<>|]*""")
-_AROUND_NAMES = " \t,;:|\"'<>-–="
+_BEFORE_NAMES = re.compile(r"^(?:[-–*+•=]{1,2}\s|\d+[.)]\s|[\s,;:|\"'<>])*")
+"""What may stand before a name in a list: the sign or number of its line, and quotation marks. A name may begin with a sign."""
+_BEHIND_NAMES = " \t,;:|\"'<>-–="
 STYLE = (Path(__file__).parent / "wall.css").read_text(encoding="utf-8")
 
 
@@ -141,7 +143,10 @@ def models_in(file: HandedIn) -> Iterator[Given]:
         if file.problem:
             raise ModelFileError(file.problem)
         most = 4 * current().text + 4
-        text = decoded(content_of(file.path, most), "this file", most)
+        content = content_of(file.path, most)
+        if MARK.encode() in content:  # a list of links is read without what is no text in it
+            content = content.replace(b"\0", b" ")
+        text = decoded(content, "this file", most)
     except ModelFileError as mistake:
         yield Given(name, "", _said(mistake))
         return
@@ -156,7 +161,8 @@ def _links_in(lines: Sequence[str], name: str) -> Iterator[Given]:
     """The links in the lines of a list, with the names beside them, or else that of the file and their number."""
     for number, line in enumerate(lines, 1):
         found = _LINK.search(line)
-        around = f"{line[:found.start()]} {line[found.end():]}".strip(_AROUND_NAMES) if found else ""
+        beside = [line[:found.start()].rstrip(_BEHIND_NAMES), line[found.end():]] if found else []
+        around = " ".join(_BEFORE_NAMES.sub("", each, count=1).rstrip(_BEHIND_NAMES) for each in beside).strip()
         yield Given(quotable(around) or (f"{name} {number}" if len(lines) > 1 else name), found.group() if found else line,
                     "" if found else f"There is no link in this line: {quotable(line)}")
 

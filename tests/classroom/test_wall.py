@@ -55,6 +55,16 @@ def test_a_name_may_stand_beside_a_link(line, tmp_path):
         ("Ann Lee", LINK, False), ("all 2", LINK, False), ("all 3", "what is this", True)]
 
 
+@pytest.mark.parametrize("name", ["-1", "=cmd", "+Ann", "@bob", "–5°"])
+def test_a_name_keeps_the_sign_with_which_it_begins(name, tmp_path):
+    assert given(tmp_path, all=f"{name}: {LINK}\n{LINK} {name}\n- {name}, {LINK}") == [(name, LINK, False)] * 3
+
+
+def test_a_byte_that_is_no_text_costs_no_other_link(tmp_path):
+    assert given(tmp_path, all=f"Ann: {LINK}\nBob\0: {LINK}\nCem: {LINK}\0\n\0") == [
+        ("Ann", LINK, False), ("Bob", LINK, False), ("Cem", LINK, False)]
+
+
 def test_a_comment_that_names_a_link_makes_no_list(tmp_path):
     text = f"{PLANT}  # after {LINK}"
     assert given(tmp_path, ann=text) == [("ann", text, False)]
