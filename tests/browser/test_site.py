@@ -156,6 +156,16 @@ def test_no_page_of_a_lesson_is_larger_than_a_photograph(site: Path) -> None:
     assert {name: size for name in LESSONS if (size := (site / name).stat().st_size) > 1_500_000} == {}
 
 
+def test_a_printed_lesson_is_a_worksheet(opened: Callable[..., Page]) -> None:
+    page = opened(LESSONS[1])
+    page.emulate_media(media="print")
+    expect(page.locator(".lsys-side canvas[data-drawn]").first).to_be_visible()
+    assert page.locator("button:visible:not(.lsys-option), input[type=range]:visible, details:not([open]):visible").count() == 0
+    assert page.locator(".lsys-option:visible, td input:visible, .lsys-predict input:visible").count() > 10
+    left, right = (side.bounding_box() for side in page.locator(".lsys-side").all()[:2])
+    assert left and right and left["y"] == right["y"]
+
+
 @pytest.mark.parametrize("name", LESSONS)
 def test_a_lesson_is_worked_through_without_a_kernel(opened, pytestconfig, name: str) -> None:
     page = opened(name)

@@ -131,9 +131,10 @@ def test_code_that_gives_an_answer_away_is_folded() -> None:
 
 def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
     cells = [new_markdown_cell("# Exercises"), ran("from lsys_kit import check"), new_markdown_cell("## 1.1 By hand"),
-             ran('answer = ...\ncheck("1.1", answer)'), ran("draw(system('K5'))")]
+             ran('answer = ...\ncheck("1.1", answer)'), ran("draw(system('K5'))"),
+             new_markdown_cell("## For a class", id="marks"), ran('from lsys_kit import score\n\nscore("1.1")')]
     text = notebook_page(ENTRIES[2], cells, ENTRIES)
-    assert "check(" not in text
+    assert [each for each in ("check(", "score(", "For a class") if each in text] == []
     assert "lsys-kit lab" in text
     assert "draw(" in text
     assert '<a class="also" href="../notebooks/01_all_at_once.html">' in text

@@ -125,12 +125,14 @@ def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
 
 def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
     """The cells of a notebook that its page shows."""
-    return [each for each in cells if not (entry.folder == "exercises" and each.cell_type == "code" and _checks(each.source))]
+    return [each for each in cells if not (entry.folder == "exercises" and _checks(each))]
 
 
-def _checks(source: str) -> bool:
-    """Whether code asks for an answer, or gets ready for that."""
-    return "check" in source or "progress(" in source or not source.strip()
+def _checks(cell: Any) -> bool:
+    """Whether a cell of exercises asks for an answer, gets ready for that, or is there for marks alone."""
+    if cell.cell_type != "code":
+        return bool(cell.get("id") == "marks")
+    return any(called in cell.source for called in ("check", "progress(", "score(")) or not cell.source.strip()
 
 
 def _note(entry: Entry) -> str:
