@@ -17,8 +17,8 @@ pytest_plugins = ["tests.browser.fixtures"]
 EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
 """How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with
 `--thorough`, or where `CI` is set, it is thorough."""
-FEW_VARIANTS = 8
-"""How many variants of a test are tried, spread over all of them, unless the run is thorough."""
+FEW_VARIANTS = 8, 4
+"""How many variants of a quick test and of a slow one are tried, spread over all of them, unless the run is thorough."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
@@ -72,9 +72,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_pycollect_makeitem(collector: pytest.Collector) -> Iterator[object]:
     """Of each test at most a few variants, spread over all of them, unless the run is thorough."""
     made = yield
-    if collector.config.option.thorough or not isinstance(made, list) or len(made) <= FEW_VARIANTS:
+    if collector.config.option.thorough or not isinstance(made, list) or not made:
         return made
-    return [made[place * len(made) // FEW_VARIANTS] for place in range(FEW_VARIANTS)]
+    few = min(FEW_VARIANTS[_is_slow(made[0])], len(made))
+    return [made[place * len(made) // few] for place in range(few)]
+
+
+def _is_slow(item: pytest.Item) -> bool:
+    fixtures = getattr(item, "fixturenames", ())
+    return item.get_closest_marker("slow") is not None or "browser" in fixtures or "benchmark" in fixtures
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
