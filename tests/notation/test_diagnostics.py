@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import pytest
@@ -448,3 +449,27 @@ def test_an_unknown_notation_is_named(notation: str) -> None:
 def test_a_model_is_text() -> None:
     with pytest.raises(ModelValueError, match="A model is read from text, not from int"):
         read(5)  # type: ignore[arg-type]
+
+
+PARENTHESES = [
+    ("abop", "axiom: A(1)\nA(l) : l > 2 -> F(l/2) [/(15) A(l*2) F(3)] A(0.5)"),
+    ("abop", "axiom: A(1)\nA(x) < B(y) > C(z) -> repeat(3, i)<F(i*(x+1)) [+(60) B(max(x, y))]> C(z)"),
+    ("cpfg", "Axiom: A(1)\nA(l) : l > 2 --> F(l/2)[/(15)A(l*2)F(3)]A(0.5)"),
+    ("grogra", "\\axiom a(1),\na(n) # F(n) [RU(50) a(n+1)] F(2*(n+1)) a(0)"),
+]
+"""Rules with many parentheses, each with something behind it."""
+
+
+@pytest.mark.parametrize(("notation", "text"), PARENTHESES)
+def test_whichever_parenthesis_is_forgotten_it_is_what_is_missing(notation: str, text: str) -> None:
+    read(text, notation)
+    for place in (place for place, sign in enumerate(text) if sign == ")"):
+        with pytest.raises(LSystemError) as found:
+            read(text[:place] + text[place + 1:], notation)
+        assert re.match('This "[(<[]" is never closed|I do not know the function', found.value.message), str(found.value)
+
+
+@pytest.mark.parametrize("text", ["axiom: A((1,2))", "axiom: A(1, (x+1,2), 3)", "axiom: A(1)\nA((x,y)) -> A(x)"])
+def test_a_pair_of_values_in_the_place_of_one_is_told_what_to_type(text: str) -> None:
+    assert slip(text).message == "There are several values in the place of one"
+    assert slip(text).hint == 'Each has a place of its own: type "A(1, 2)", not "A((1, 2))".'

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import ModelNameError
 from lsys_kit.notation.dialects.mathematica.dialect import MATHEMATICA
 from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
@@ -298,3 +299,18 @@ def test_what_contexts_pass_over() -> None:
         assert read(f"{text}\nskipPattern = {pattern};").ignored == ignored
     assert [str(derive(read(f"{text}\nskipPattern = {pattern};"), 1)[-1]) for pattern in ("{F}", '{F, "+"}')] \
         == ['a[1] F "+" b', 'a[1] F "+" c']
+
+
+@pytest.mark.parametrize(("test", "condition"), [
+    ("EvenQ[n]", "mod(n, 2) == 0"), ("OddQ[n + 1]", "mod(n + 1, 2) == 1"), ("Positive[n]", "n > 0"), ("Negative[n]", "n < 0"),
+    ("NonNegative[n]", "n >= 0"), ("NonPositive[n] && EvenQ[n]", "n <= 0 && mod(n, 2) == 0")])
+def test_a_test_of_a_number_is_a_condition(test: str, condition: str) -> None:
+    found = read(f"Axiom: a[4]\nRules: a[n_ /; {test}] -> a[n/2]b", "mathematica")
+    assert str(found.productions[0].condition) == condition
+    assert read(write(found, "mathematica"), "mathematica").productions == found.productions
+
+
+def test_tests_that_the_kit_lacks_are_told_what_to_type() -> None:
+    for test, instead in (("IntegerQ[n]", "Floor[x] == x"), ("Divisible[n, 3]", "Mod[n, 3] == 0")):
+        with pytest.raises(ModelNameError, match=re.escape(instead)):
+            read(f"Axiom: a[4]\nRules: a[n_ /; {test}] -> a[n/2]b", "mathematica")

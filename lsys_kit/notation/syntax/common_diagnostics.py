@@ -49,6 +49,9 @@ def parentheses(failure: ParseFailure) -> ModelSyntaxError | None:
     unfinished = ended or (found != "," and "RPAR" in failure.accepted and (closes_nowhere or len(failure.accepted) == 1))
     if opened is not None and unfinished and not failure.accepted >= VALUE_TOKENS:
         return failure.error('This "(" is never closed', 'Every "(" needs a ")" after it.', failure.start + opened, 1)
+    if found.startswith(",") and (pair := re.search(r"[(,]\s*(\([^()]*)$", before)):
+        return failure.error("There are several values in the place of one", 'Each has a place of its own: type "A(1, 2)", not '
+                             '"A((1, 2))".', failure.start + pair.start(1), failure.at + 1 - failure.start - pair.start(1))
     if found.startswith(")") and opened is None:
         branch = before.count("[") > before.count("]")
         return failure.error('This ")" closes nothing', 'A branch that begins with "[" ends with "]".' if branch else

@@ -70,7 +70,8 @@ def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
     if loop:
         return failure.error("The kit has no loops", _OWN_BLOCK, failure.start + loop.start(1), len(loop[1]))
     name, what = re.search(r"\b\w++$", failure.before), _BEHIND_A_NAME.get(failure.found[:1])
-    behind = failure.accepted == {"EQUAL", "LPAR"} or (what == "arrays" and "TIMES" in failure.accepted)
+    element = what == "arrays" and "TIMES" in failure.accepted and unclosed_bracket(failure.statement) is None
+    behind = failure.accepted == {"EQUAL", "LPAR"} or element
     if name is None or what is None or not behind:
         return None
     return failure.error(f"The kit has no {what}", _OWN_BLOCK, failure.start + name.start(), len(name[0]))

@@ -14,6 +14,7 @@ from lsys_kit.notation.dialects.mathematica.expressions import (
     FUNCTIONS,
     INSTEAD,
     INVERSES,
+    TESTS,
     spelling_hint,
 )
 from lsys_kit.notation.model.expressions import Expression, Number
@@ -28,11 +29,20 @@ class MathematicaExpressions(Expressions):
         return super().number(token.update(value=token.replace("*^", "e")))
 
     def call(self, name: Token, *operands: Expression) -> Expression:
+        if name in TESTS:
+            return self._test(name, operands)
         if name not in FUNCTIONS:
             raise ActionError(ModelNameError, f'I do not know the function "{name}"', place_of(name),
                           INSTEAD.get(name) or spelling_hint(name)
-                          or f"Functions are: {', '.join(sorted((*FUNCTIONS, *ANGLES)))}.")
+                          or f"Functions are: {', '.join(sorted((*FUNCTIONS, *TESTS, *ANGLES)))}.")
         return self._of(name, FUNCTIONS[name], operands)
+
+    def _test(self, name: Token, operands: tuple[Expression, ...]) -> Expression:
+        check_arity(name, "abs", operands)
+        modulo, relation, value = TESTS[name]
+        at = place_of(name, *operands)
+        tested = self._applied(modulo, (*operands, Number(2)), at) if modulo else operands[0]
+        return self._applied(relation, (tested, Number(value)), at)
 
     def _of(self, name: Token, operator: str, operands: tuple[Expression, ...]) -> Expression:
         check_arity(name, operator, operands)

@@ -11,6 +11,10 @@ FUNCTIONS: Mapping[str, str] = {
     "Abs": "abs", "Floor": "floor", "Ceiling": "ceil", "Min": "min", "Max": "max", "Mod": "mod", "If": "if", "Sqrt": "sqrt",
     "Exp": "exp", "Log": "log"}
 """The functions of Mathematica that are the kit's under another name."""
+TESTS: Mapping[str, tuple[str | None, str, int]] = {
+    "EvenQ": ("mod", "==", 0), "OddQ": ("mod", "==", 1), "Positive": (None, ">", 0), "Negative": (None, "<", 0),
+    "NonNegative": (None, ">=", 0), "NonPositive": (None, "<=", 0)}
+"""Tests of a number: how it, or what is left of it modulo 2, compares with which number."""
 ANGLES: Mapping[str, str] = {"Sin": "sin", "Cos": "cos", "Tan": "tan"}
 """Those that take an angle, and ..."""
 INVERSES: Mapping[str, str] = {f"Arc{name}": f"a{function}" for name, function in ANGLES.items()}
@@ -25,6 +29,8 @@ _DEGREE = Name("Degree")
 INSTEAD = {
     "RandomInteger": 'A whole number from 1 to 6 is "Floor[RandomReal[{1, 7}]]".',
     "Power": 'A power is typed "t^2".',
+    "IntegerQ": 'Whether x is whole is asked by "Floor[x] == x".',
+    "Divisible": 'Whether n can be divided by 3 is asked by "Mod[n, 3] == 0".',
 }
 """What to type for some functions of Mathematica that the kit lacks."""
 HEADS = ("LEFT", "PRED", "RIGHT", "SUCC", "LRule", "LRULES", "AXIOM", "LSystem", "runKLSystem")
@@ -39,7 +45,7 @@ def spelling_hint(name: str) -> str | None:
     >>> spelling_hint("AXOIM")
     'Did you mean "AXIOM"?'
     """
-    known = {known.upper(): known for known in (*HEADS, *FUNCTIONS, *ANGLES)}
+    known = {known.upper(): known for known in (*HEADS, *FUNCTIONS, *TESTS, *ANGLES)}
     close = get_close_matches(name.upper(), known, 1, 0.78)
     return f'Did you mean "{known[close[0]]}"?' if close else None
 
