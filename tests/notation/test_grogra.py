@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
+from lsys_kit.classroom.catalogue import system
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.grogra.conditions import exclusive
@@ -493,3 +494,9 @@ def test_any_text_is_a_system_or_an_explained_slip(text: str) -> None:
 def test_other_notations_have_none_of_its_marks(text: str) -> None:
     assert dialect_named("grogra").likely(text) == 0
     assert recognise(text).name != "grogra"
+
+
+@pytest.mark.parametrize("id", ["K2", "K3", "K6", "K11"])
+def test_a_listing_may_be_set_as_formulas(id: str) -> None:
+    lines = [line for line in system(id).source.splitlines() if line.strip()]
+    assert read("\n".join(f"${line.strip()}$" for line in lines)).productions == system(id).productions

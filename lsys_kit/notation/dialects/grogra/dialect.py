@@ -24,6 +24,8 @@ from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.text.statements import without_comments
+from lsys_kit.notation.syntax.text.transcript import edited
+from lsys_kit.notation.syntax.text.typesetting import formula_signs
 from lsys_kit.notation.syntax.wording import reporting
 
 _SLIDE_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
@@ -172,4 +174,4 @@ def _lacking(system: LSystem) -> str | None:
 GROGRA = Dialect(
     name="grogra", statements=statements, transformer=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
     joined=joined_word, write=system_text, missing_feature=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)),
-    turtle="grogra", spelling=SPELLING)
+    turtle="grogra", spelling=SPELLING, transcribe=lambda source: edited(source, formula_signs(source)))

@@ -52,11 +52,20 @@ def typesetting(plain: str) -> Iterator[Edit]:
         yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2))
     for match in _FENCE.finditer(plain):
         yield Edit(*match.span(), "")
-    for match in _DOLLARS.finditer(plain):
-        yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2))
+    yield from formula_signs(plain)
     yield from _items(plain)
     if MACRO.search(plain):
         yield from _latex(plain)
+
+
+def formula_signs(plain: str) -> Iterator[Edit]:
+    """The edits that take the signs off lines that are formulas.
+
+    >>> [*formula_signs("$A -> B$")]
+    [Edit(start=0, end=1, text=''), Edit(start=7, end=8, text='')]
+    """
+    for match in _DOLLARS.finditer(plain):
+        yield from (Edit(match.start(group), match.end(group), "") for group in (1, 2))
 
 
 def _items(plain: str) -> Iterator[Edit]:
