@@ -136,8 +136,8 @@ FORMATS: Sequence[ForeignFormat] = (
         _L_PY, signs=["production : $"], early="production",
         beside=_with_line("Axiom :") + _without_line("[Ll]system :") + "(?!(?s:.*?)[^-]->)",
         lacks="Its turtle begins otherwise than that of cpfg, which has such rules, too",
-        advice='Without Python and comments behind #, read(text, "cpfg") reads it (--notation cpfg in a shell): add "angle: 60", '
-               "which L-Py takes where nothing else is said."),
+        advice='Without Python and comments behind #, read(text, "cpfg") reads it (--notation cpfg in a shell): add '
+               '"angle: 60", which L-Py takes where nothing else is said.'),
     ForeignFormat(
         "a model of LParser", [r"\d+(?:\.\d*)? (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
         rf"(?: (?:#[^\n]*)?\n)*+(?: {_NUMBER}){{3}} [^\s=#][^\s=]* (?:#[^\n]*)?\n(?: (?:#[^\n]*)?\n)*+ (?:\S =|@)"),
