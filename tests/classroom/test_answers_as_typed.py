@@ -139,3 +139,9 @@ def test_the_unit_that_is_asked_for_is_named():
 @pytest.mark.parametrize("answer", ["not 21", "more than 21", "20 or 21", "at least 21", "21 or so", "almost 21"])
 def test_a_doubtful_number_is_none(answer):
     assert check("1.2", answer).said == "Not readable yet"
+
+
+def test_a_word_among_the_numbers_of_a_table_is_passed_over_only_where_the_question_has_it():
+    assert check("2.1", "2, cells, 3, 5, 8, 13, 21") == 1
+    for odd in ("banana", "not"):
+        assert check("2.1", f"2, 3, 5, 8, 13, 21, {odd}") == 0
