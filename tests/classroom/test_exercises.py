@@ -187,3 +187,9 @@ def test_an_unknown_exercise_is_an_error_with_a_suggestion():
         check("kinds.wort")
     with pytest.raises(ModelValueError, match="The id of an exercise must be a text"):
         check(1.1)
+
+
+def test_where_nothing_can_be_typed_it_is_said_where_it_can(monkeypatch):
+    assert check("1.1", ...).message.startswith("Replace the ... with your ")
+    monkeypatch.setenv("SERVER_SOFTWARE", "voila/0.5.8")
+    assert check("1.1", ...).message.startswith("Voila has no place for an answer: open this notebook in JupyterLab")

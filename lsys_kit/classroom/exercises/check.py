@@ -8,6 +8,7 @@ the kit's grammars and never run, and its size is bounded.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 
 from lsys_kit.budget import Task, current, limits
@@ -80,6 +81,8 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
     hints = _hints(asked, hint, call)
     if _untouched(asked, answer):
         missing = gettext("Replace the ... with your {answer}.", answer=gettext(ANSWER_KINDS[asked.kind].what))
+        if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):  # which shows no code
+            missing = gettext("Voila has no place for an answer: open this notebook in JupyterLab, by lsys-kit lab.")
         after = gettext("Hints and the solution are shown after a try.") if solution or hints else ""
         return Verdict("Not answered yet", f"{missing} {after}".rstrip())
     _prepare(asked)
