@@ -114,8 +114,8 @@ def panels_of(page: Path) -> Iterator[dict[str, Any]]:
     """What a page knows of each of its panels."""
     data = json.loads(re.search(r'id="lsys-data">(.*?)</script>', page.read_text("utf-8"))[1])
     for part in data["parts"]:
-        sides = {"panel": [part["data"]], "comparison": [*part["data"].values()]}.get(part["kind"], [])
-        yield from (panel for panel in sides if panel["mode"] not in ("map", "tissue"))
+        sides = [part["data"]] if part["kind"] == "panel" else [part["data"].get(side) for side in ("left", "right")]
+        yield from (panel for panel in sides if panel and panel["mode"] not in ("map", "tissue"))
 
 
 def held_by(model: dict[str, Any], fixed: dict[str, str], asked: dict[str, str]) -> bool:
@@ -157,7 +157,7 @@ def test_no_page_of_a_lesson_is_larger_than_a_photograph(site: Path) -> None:
 
 
 def test_a_printed_lesson_is_a_worksheet(opened: Callable[..., Page]) -> None:
-    page = opened(LESSONS[1])
+    page = opened(LESSONS[1], java_script_enabled=True)  # a tab of its own, which goes on as paper
     page.emulate_media(media="print")
     expect(page.locator(".lsys-side canvas[data-drawn]").first).to_be_visible()
     assert page.locator("button:visible:not(.lsys-option), input[type=range]:visible, details:not([open]):visible").count() == 0
