@@ -419,3 +419,8 @@ def test_what_is_repeated_no_times_has_no_arc() -> None:
 def test_unknown_weights_are_shown_as_they_are_written() -> None:
     net = stages(read("k = 1\naxiom: A\nA -> B : k\nA -> C : 1"), k="k")
     assert repr(net) == "A -> B if with weight k\nA -> C if with weight 1"
+
+
+def test_a_transition_that_is_not_there_has_no_line() -> None:
+    with pytest.raises(ModelValueError, match="There are 2 transitions, and none has the number 2"):
+        stages(read("axiom: a\na -> ab\nb -> a")).line(2)

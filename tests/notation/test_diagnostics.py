@@ -473,3 +473,7 @@ def test_whichever_parenthesis_is_forgotten_it_is_what_is_missing(notation: str,
 def test_a_pair_of_values_in_the_place_of_one_is_told_what_to_type(text: str) -> None:
     assert slip(text).message == "There are several values in the place of one"
     assert slip(text).hint == 'Each has a place of its own: type "A(1, 2)", not "A((1, 2))".'
+
+
+def test_a_left_context_behind_a_right_one_is_told_where_it_belongs() -> None:
+    assert slip("axiom: A\nA > B < C -> D").message == "A left context is not possible here"

@@ -61,10 +61,15 @@ def test_the_ends_of_lines_change_nothing() -> None:
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_the_format_is_a_guess(
         notation: str, name: str, text: str, line: int) -> None:
-    found = claim(text, notation)
-    assert "which the kit does not read" not in found.message
-    assert found.hint is not None
-    assert f"Perhaps this is {name}, which the kit does not read." in found.hint
+    with pytest.raises(LSystemError) as found:
+        read(text, notation)
+    assert "which the kit does not read" not in found.value.message
+    assert f"Perhaps this is {name}, which the kit does not read." in str(found.value.hint)
+
+
+def test_a_message_of_a_reader_that_was_named_ends_with_the_guess() -> None:
+    found = claim("#lang lindenmayer racket\n## axiom ##\nF", "abop")
+    assert str(found.hint).endswith("Perhaps this is a model in Racket's language lindenmayer, which the kit does not read.")
 
 
 def test_each_format_has_five_texts() -> None:
