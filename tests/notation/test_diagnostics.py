@@ -477,3 +477,7 @@ def test_a_pair_of_values_in_the_place_of_one_is_told_what_to_type(text: str) ->
 
 def test_a_left_context_behind_a_right_one_is_told_where_it_belongs() -> None:
     assert slip("axiom: A\nA > B < C -> D").message == "A left context is not possible here"
+
+
+def test_a_line_that_begins_with_a_right_context_is_told_what_is_possible() -> None:
+    assert str(slip("axiom: A\n> A -> B")).startswith('I did not expect ">" here (line 2, column 1). Possible here: a name')
