@@ -89,8 +89,8 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)
-    without = frozenset() if sliders is None else (
-        frozenset((*found.values, "angle", "seed")) - chosen_names(sliders, "slider", (*found.values, "angle", "seed")))
+    offered = (*found.values, "angle", "seed")
+    without = frozenset() if sliders is None else frozenset(offered) - chosen_names(sliders, "slider", offered)
     chosen = opened(system, title, constants, without, unfold) if without else found
     return Explorer(chosen, step, angle, seed, without, unfold, None if show is None else chosen_names(show, "view", VIEWS))
 
