@@ -16,7 +16,7 @@ from numbers import Real
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.chance import Chance, choose
 from lsys_kit.derivation.core.words import Word, state_counts
-from lsys_kit.errors import ModelValueError, require, whole_number
+from lsys_kit.errors import ModelValueError, every, require, whole_number
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
@@ -201,8 +201,7 @@ class Stages:
         last = whole_number(steps, "The number of steps")
         self._check_moving()
         found = tuple(self.start if tokens is None else self.in_places(tokens))
-        for each in found:
-            require(each, Real, "A number of tokens")
+        every(found, Real, "A number of tokens")
         with Task("The tokens that are expected were not found"):
             for _ in counted(range(last), 1):
                 found = self._moved(found, [found[way.place] * (1 if way.chance is None else way.chance)
