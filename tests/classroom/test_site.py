@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,7 @@ from lsys_kit.classroom.site.build import build_site
 from lsys_kit.classroom.site.cells import cells_html, title_of
 from lsys_kit.classroom.site.markdown import PLAIN_TAGS, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.pages import Entry, index_page, notebook_page
+from lsys_kit.classroom.site.running import run
 from lsys_kit.classroom.site.showing import PART, part
 from tests.classroom.front_end import joined
 from tests.classroom.test_page import Parts
@@ -251,6 +253,20 @@ def test_a_cell_that_fails_is_said_with_its_lesson(course: Path, tmp_path: Path)
     (course / OTHER).write_text(writes(new_notebook(cells=[new_markdown_cell("# Title"), new_code_cell("1 / 0")])))
     with pytest.raises(LSystemError, match=r"A cell of notebooks/02_more\.ipynb fails: ZeroDivisionError"):
         build_site(tmp_path / "site", course)
+
+
+@pytest.mark.slow
+def test_a_kernel_whose_port_is_taken_is_started_again(course: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    spec = tmp_path / "jupyter" / "kernels" / "python3" / "kernel.json"
+    spec.parent.mkdir(parents=True)
+    once = "import pathlib, runpy, sys; tried = pathlib.Path(sys.argv.pop(1)); tried.exists() or (tried.touch(), sys.exit(1)); " \
+        "runpy.run_module('ipykernel_launcher', run_name='__main__')"
+    spec.write_text(json.dumps({"display_name": "Python 3", "language": "python",
+                                "argv": [sys.executable, "-c", once, str(tmp_path / "tried"), "-f", "{connection_file}"]}))
+    monkeypatch.setenv("JUPYTER_PATH", str(tmp_path / "jupyter"))
+    notebook = run(LESSON, course / LESSON)
+    assert (tmp_path / "tried").exists()
+    assert notebook.cells[1].outputs
 
 
 def test_the_teachers_pages_are_not_on_the_site(course: Path) -> None:

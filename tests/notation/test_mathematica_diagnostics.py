@@ -311,7 +311,8 @@ VALUES = [
      'Type as many numbers as weights, as in "RandomChoice[{1, 2, 1} -> {0, 1, 2}]".'),
     (AXIOM + "LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[gamma[i]]]]",
      'I do not know the function "gamma"', 2, 44,
-     "Functions are: Abs, Ceiling, Cos, Exp, Floor, If, Log, Max, Min, Mod, Sin, Sqrt, Tan."),
+     "Functions are: Abs, Ceiling, Cos, EvenQ, Exp, Floor, If, Log, Max, Min, Mod, Negative, NonNegative, NonPositive, OddQ, "
+     "Positive, Sin, Sqrt, Tan."),
 ]
 """Values and functions."""
 

@@ -47,7 +47,8 @@ def test_a_wording_ends_as_its_part_of_a_message_does(code: str) -> None:
     """A message is a sentence without its full stop, a hint or a note has one."""
     wording: Wording = WORDINGS[code]
     note = code.endswith(("never matches", "never applied", "final sign", "no probability", "number of values", "query",
-                          "several replaced", "passed over", "as modules", "decimal comma", "only in time", "no further"))
+                          "several replaced", "passed over", "as modules", "decimal comma", "only in time", "no further",
+                          "drawn as itself"))
     assert wording.message.endswith(".") == note
     assert wording.hint is None or wording.hint.endswith(".")
 

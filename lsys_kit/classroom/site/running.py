@@ -56,8 +56,14 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     client = nbclient.NotebookClient(
         notebook, timeout=SECONDS, kernel_name="python3", store_widget_state=False, extra_arguments=["--log-level=ERROR"],
         on_cell_start=unless_stopped, resources={"metadata": {"path": str(path.parent)}})
+    environment = {**os.environ, "TQDM_DISABLE": "1"}
     try:
-        client.execute(env={**os.environ, "TQDM_DISABLE": "1"})
+        try:
+            client.execute(env=environment)
+        except nbclient.exceptions.DeadKernelError:
+            raise
+        except RuntimeError:  # the kernel did not start: another program took one of its ports before it could
+            client.execute(env=environment)
     except nbclient.exceptions.CellExecutionError as failed:
         raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}",
                            hint="Run the lesson in JupyterLab to see which: lsys-kit lab.") from None

@@ -44,7 +44,7 @@ KEYWORDS = ("axiom", "angle", "heading", "length", "turtle", "steps", "seed", "d
 _SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
 """What other programs and books call a keyword."""
 _CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("and")}.'),
-            "LOOK": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".'),
+            "SHAPE": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".'),
             "WHICH": ("branches", "kind of branch",
                       'A right context names "any" branch or the "next" one, or reads the word "flat".'),
             "UNIT": ("widths", "unit", 'Widths of strokes are in "pixels" or "units".'),
