@@ -259,8 +259,8 @@ def test_a_cell_that_fails_is_said_with_its_lesson(course: Path, tmp_path: Path)
 def test_a_kernel_whose_port_is_taken_is_started_again(course: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     spec = tmp_path / "jupyter" / "kernels" / "python3" / "kernel.json"
     spec.parent.mkdir(parents=True)
-    once = "import pathlib, runpy, sys; tried = pathlib.Path(sys.argv.pop(1)); tried.exists() or (tried.touch(), sys.exit(1)); " \
-        "runpy.run_module('ipykernel_launcher', run_name='__main__')"
+    once = ("import pathlib, runpy, sys; tried = pathlib.Path(sys.argv.pop(1)); "
+            "tried.exists() or (tried.touch(), sys.exit(1)); runpy.run_module('ipykernel_launcher', run_name='__main__')")
     spec.write_text(json.dumps({"display_name": "Python 3", "language": "python",
                                 "argv": [sys.executable, "-c", once, str(tmp_path / "tried"), "-f", "{connection_file}"]}))
     monkeypatch.setenv("JUPYTER_PATH", str(tmp_path / "jupyter"))
