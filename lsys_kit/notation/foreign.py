@@ -92,6 +92,7 @@ def _without_line(pattern: str) -> str:
 _TURTLE_OF_LPARSER = "The kit's turtle has no random turns (~), and no step and angle that others would multiply (' \" ; :)"
 _FROM_LPARSER = ("Write \"steps:\", \"angle:\" and \"axiom:\" before its numbers and its axiom, a rule as A -> F[+A]A, "
                  "and \\ and / for < and >.")
+_FROM_HOUDINI = 'Put "axiom:" before the first word, "angle:" before the angle in degrees, and write a rule as A -> F[+A]A.'
 _XL = ForeignFormat(
     "a model in XL, the language of GroIMP",
     [r"import\b (?:static\b )?de\.grogra\b", rf"module\b \w+ (?:{_VALUES})? (?:extends\b|==>)",
@@ -105,7 +106,8 @@ _L_PY = ForeignFormat(
      rf"module\b \w+ (?:{_VALUES})? (?:[:#][^;\n]*)?$", r"extern \(", r"context \( \)\.", rf"def\b \w+ {_VALUES} :",
      r"from\b [\w.]+ import\b [\w*]", r"import\b \w"],
     "The kit has no Python code",
-    "Write a rule with its condition before the arrow, A(t) : t < 5 --> F(1)A(t+1), and a constant as #define n 5.",
+    'Leave out all from "INITIALISATION" on, where that word stands; write a rule with its condition before the arrow, '
+    "A(t) : t < 5 --> F(1)A(t+1), and a constant, also one that is set behind that word, as #define n 5.",
     [".lpy"], _with_line("(?:Axiom :|production : $)") + _without_line("[Ll]system :"))
 
 FORMATS: Sequence[ForeignFormat] = (
@@ -140,7 +142,7 @@ FORMATS: Sequence[ForeignFormat] = (
                '"angle: 60", which L-Py takes where nothing else is said.'),
     ForeignFormat(
         "a model of LParser", [r"\d+(?:\.\d*)? (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
-        rf"(?: (?:#[^\n]*)?\n)*+(?: {_NUMBER}){{3}} [^\s=#][^\s=]* (?:#[^\n]*)?\n(?: (?:#[^\n]*)?\n)*+ (?:\S =|@)"),
+        rf"(?: (?:#[^\n]*)?\n)*+(?: {_NUMBER}){{3}} (?![^\n]*->|axiom\b)[^\s\d]"),
     ForeignFormat(
         "a model of LParser", [r"recursion\b \d+ (?:#[^\n]*)?$"], _TURTLE_OF_LPARSER, _FROM_LPARSER, [".ls"],
         _with_line(r"axiom\b [^:=\s][^:=\n]*$") + _with_line(r"(?:rule\b \S =|angle\b \d)")),
@@ -160,8 +162,13 @@ FORMATS: Sequence[ForeignFormat] = (
         "The kit has no drawing options of TikZ",
         'Put the axiom behind "axiom:", and each rule, without \\rule{ }, on a line of its own: F -> F-F++F-F.'),
     ForeignFormat(
-        "an L-system of Houdini", [r"premise [:=] \S", r"rule \d+ [:=] [^\s=][^\n=]*= \S"],
-        "The kit has no premise, and no rules with =", 'Put "axiom:" before the premise, and write a rule as A -> F[+A]A.'),
+        "an L-system of Houdini", [r"premise (?:[:=] |\b)(?!->)[^\s:=]", r"rule \d+ [:=]? [^\s=:][^\n=]*= \S"],
+        "The kit has no premise, and no rules with =", _FROM_HOUDINI),
+    ForeignFormat(
+        "an L-system of Houdini, or of another program that has no word before the axiom", [r"[^\s:=]+ $"],
+        "The first word has no name here, and rules have no =", _FROM_HOUDINI,
+        beside=r"\s*+(?!axiom\b|angle\b)[^\s:=]++ \n\s*+(?:angle (?:[:=] )?[\d.]++\s*+"
+               r"|(?!angle\b)[^\s=(](?:\([^\s()=]*+\))?+ (?::[^\n=]++)?+=(?!=)[^\n]*+\s*+)++\Z"),
     ForeignFormat(
         "a Jupyter notebook", [r'(?:\{ )?"(?:cells|nbformat)" :'], "It is no model itself",
         "Open it in JupyterLab, and copy the model out of its cell.", [".ipynb"]),

@@ -14,6 +14,7 @@ EXPLORER = "a model of the L-system Explorer by Lowclouds"
 VIEW = "a file that goes with a model of cpfg, and says how it is seen or animated"
 PGF = "an L-system of PGF, for TikZ"
 HOUDINI = "an L-system of Houdini"
+UNNAMED = "an L-system of Houdini, or of another program that has no word before the axiom"
 NOTEBOOK = "a Jupyter notebook"
 SVG = "a picture as SVG"
 HTML = "a page as HTML"
@@ -94,6 +95,7 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ("8\n25\n50\nc(12)b:>(60)b:>(60)b\nb=[&(30)F]\n", 1),
         ("# Lparser example file\nrecursion 8\nangle 10\nthickness 80\naxiom FFFF[C]>>>[C]\nrule C = F!^+F[C]C\n", 2),
         ("recursion 3\nshape 1\naxiom F\nrule F = F+F\n", 1),
+        ("# colours\n0\n90\n20\n\nc(1) F c(2) F c(3) F\n", 2), ("1\n90\n10\nc1F\nc2F\n@\n", 1), ("5\n20\n10\nA=B\n@", 1),
     ],
     EXPLORER: [
         ("/* a leaf */\nD=0\nR=2\nstemsize=1.5\nderivation length: 8\naxiom: A(0)\nP1: A(d) : d>0 -> A(d-1)\n", 4),
@@ -119,6 +121,11 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
     HOUDINI: [
         ("Premise: A\nRule 1: A = F[+A]A\n", 1), ("premise = FX\nX = F[+X]\n", 1), ("Angle 30\nrule1: A=\"F[-A][+A]:0.5\n", 2),
         ("Generations: 7\nPremise: F\nRule 1: F = FF\n", 2), ("Rule 1 = A(i) : i<3 = F(i)A(i+1)\n", 1),
+        ("premise FX\nX = F[+X]\n", 1), ("angle 30\nPremise  A\nRule 1   A=F[+A]\n", 2),
+    ],
+    UNNAMED: [
+        ("A\nA=F[+A][-A]\n", 1), ("\nFFFA\nA = [&FFFA]////[&FFFA]\nangle=22.5\n", 2), ("X\nangle 25\nX=F[+X]\nF=FF", 1),
+        ("A\nA:0.5=F[+A]\nA:0.5=F[-A]\n", 1), ("A(1)\nA(i):i<4=F(i)A(i+1)", 1),
     ],
     NOTEBOOK: [
         ('{\n "cells": [\n  {\n   "cell_type": "code"\n  }\n ]\n}', 2), ('{"cells": [], "nbformat": 4}', 1),

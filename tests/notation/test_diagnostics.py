@@ -153,7 +153,8 @@ UNREADABLE = [
     ('axiom: "A"',
      "Quotation marks are not needed here", 1, 8, "Words are typed without quotation marks."),
     ("axiom: 2",
-     "A number is not a module", 1, 8, 'Values are written in parentheses after a symbol, as in "A(2)".'),
+     "A number is not a module", 1, 8, 'Values are written in parentheses after a symbol, as in "A(2)"; for three turns type '
+     '"+++", for the colour 2, ";(2)". Where a digit is a symbol, "alphabet: 2" says so.'),
     ("axiom: A\n-> B",
      "There is nothing before the arrow", 2, 1, PRODUCTION),
     ("axiom: A\n(A) -> B",

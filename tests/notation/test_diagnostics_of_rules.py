@@ -10,6 +10,8 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, Mode
 from lsys_kit.notation.read import read
 from tests.notation.test_diagnostics import NO_NAMES, PRODUCTION
 
+BEHIND_AN_ARROW = ('A context is written before the arrow; after it "<" and ">" go with "repeat(3)". For rolls type "\\" and '
+                   '"/"; for longer steps, give F a length: A(x) -> F(x) A(x*2).')
 SIDES = 'A left context ends with "<", a right context begins with ">", as in "A < B > C -> D".'
 REPEAT = 'A repetition reads "repeat(3) <F>", or, with a name that counts from 0, "repeat(3, i) <F(i)>".'
 CONDITION = 'A condition is written between ":" and the arrow, as in "A(t) : t < 5 -> B".'
@@ -77,9 +79,11 @@ UNREADABLE = [
     ("axiom: A\nA -> repeat(3) <[F> ]",
      'This "[" is never closed', 2, 17, 'Every branch ends with "]".'),
     ("axiom: A\nA -> B > C",
-     'I did not expect ">" here', 2, 8, 'A context is written before the arrow; after it "<" and ">" go with "repeat(3)".'),
+     'I did not expect ">" here', 2, 8,
+     BEHIND_AN_ARROW),
     ("axiom: A\nA -> B < C",
-     'I did not expect "<" here', 2, 8, 'A context is written before the arrow; after it "<" and ">" go with "repeat(3)".'),
+     'I did not expect "<" here', 2, 8,
+     BEHIND_AN_ARROW),
     ("axiom: A\nignore:",
      'There is nothing after "ignore:"', 2, 1, "Possible here: a name or a symbol."),
     ("axiom: A\nignore: A,B",

@@ -102,6 +102,8 @@ def check_constants(constants: Iterable[Constant]) -> None:
         if constant.name in SETTINGS:
             raise problem("setting as constant", constant.at, name=constant.name, keyword=constant.name.lower(),
                         value=constant.value)
+        if not isinstance(constant.value, Name) and constant.name in names_in(constant.value):
+            raise problem("constant of itself", constant.at, name=constant.name)
         if isinstance(constant.value, Name) and constant.value.name not in values:
             raise problem("name as constant", constant.value.at, closest(constant.value.name, values), name=constant.value,
                         constant=constant.name)

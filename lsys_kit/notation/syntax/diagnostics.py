@@ -50,6 +50,8 @@ _CHOICES = {"TRADITION": ("turtle", "turtle", f'Turtles are {quoted_dialects("an
             "UNIT": ("widths", "unit", 'Widths of strokes are in "pixels" or "units".'),
             "SOURCE": ("colours", "kind of colours", 'Colours of strokes are "natural" or those of "symbols".')}
 """The keywords that take one of a few words, by the token of that word; what it is called, and which there are."""
+_NUMBER = ('Values are written in parentheses after a symbol, as in "A(2)"; for three turns type "+++", for the colour 2, '
+           '";(2)". Where a digit is a symbol, "alphabet: 2" says so.')
 _BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
 
 
@@ -157,6 +159,18 @@ def _constant_declaration(failure: ParseFailure) -> ModelSyntaxError | None:
                          f'A constant reads "dt = 0.5", or "dt = 0.5 in 0.1 .. 2 by 0.1"{production}.')
 
 
+def _production_with_equals(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A production as other programs write it, with "=" for its arrow."""
+    rule = re.fullmatch(r"([^\W\d_])\s*=(?!=)\s*((?:[^\s\d(].*)?)", failure.statement)
+    if not rule or ARROW.search(failure.statement) or (rule[2] and not re.search(r"[\[\]]|[+\-]$", rule[2])):
+        return None
+    arrow, at = failure.spelling.arrow, failure.start + failure.statement.index("=")
+    if rule[2]:
+        return failure.error("This is not an arrow", f'Type "{rule[1]} {arrow} {excerpt(rule[2])}".', at, 1)
+    return failure.error('There is nothing after the "="', f'A constant reads "{rule[1]} = 0.5"; to erase {rule[1]}, '
+                         f'type "{rule[1]} {arrow} *".', at, 1)
+
+
 def _in_a_word(failure: ParseFailure) -> ModelSyntaxError | None:
     """Something in a word that is not a module."""
     empty = failure.found if failure.found in ("ε", "*") else failure.before[-1:]
@@ -168,7 +182,7 @@ def _in_a_word(failure: ParseFailure) -> ModelSyntaxError | None:
     if not {"SYMBOL", "NAME"} & failure.accepted or failure.accepted >= VALUE_TOKENS:
         return None
     if failure.found[:1].isdigit():
-        hint = 'Values are written in parentheses after a symbol, as in "A(2)".' if "NAME" in failure.accepted \
+        hint = _NUMBER if "NAME" in failure.accepted \
             else 'A plant string has no values: "(" and ")" are branches.'
         return failure.error("A number is not a module", hint)
     if failure.found.startswith(","):
@@ -183,6 +197,6 @@ def _anything_else(failure: ParseFailure) -> ModelSyntaxError:
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
     foreign_comment, _repeat, repetition, _choice, _keyword, _braces, parentheses, second_arrow, _arrows, misspelling,
-    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _equals, value_in_parentheses,
-    _constant_declaration)
+    unreadable_character, diagnose_predecessor, second_comparison, _in_a_word, _production_with_equals, _equals,
+    value_in_parentheses, _constant_declaration)
 """The diagnostics of the kit's own notation and of plant strings, the most specific first."""

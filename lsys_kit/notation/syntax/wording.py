@@ -39,6 +39,8 @@ WORDINGS: Mapping[str, Wording] = {
     # constants and settings
     "constant twice": Wording('The constant "{name}" is declared twice', "Keep one of the two lines.", ModelNameError),
     "setting as constant": Wording('"{name}" is a setting, not a constant', 'Type "{keyword}: {value}".', ModelNameError),
+    "constant of itself": Wording('The constant "{name}" cannot be calculated from itself', 'A production reads '
+                                  '"{name} {arrow} ...", with an arrow in place of "=".', ModelNameError),
     "name as constant": Wording('I do not know the name "{name}"', 'A production reads "{constant} {arrow} {name}".',
                                 ModelNameError),
     "range upside down": Wording('The range of "{name}" is upside down', 'Write the smaller end first: "in {high} .. {low}".',
@@ -71,7 +73,8 @@ WORDINGS: Mapping[str, Wording] = {
     "no axiom": Wording("There is no axiom", 'Give the first word on a line of its own, as in "{axiom}".'),
     "second axiom": Wording("This is a second axiom", "A system has one axiom."),
     "number in word": Wording("A number is not a module",
-                              'Values are written in parentheses after a symbol, as in "A(2)".'),
+                              'Values are written in parentheses after a symbol, as in "A(2)"; for three turns type "+++", for '
+                              'the colour 2, ";(2)". Where a digit is a symbol, "alphabet: 2" says so.'),
     "too many parameters": Wording('"{symbol}" has more than {most} parameters'),
     "too many brackets": Wording("More than {most} brackets are open at once"),
     "bracket closes nothing": Wording('This "{bracket}" closes nothing', 'Every branch begins with "{other}".'),

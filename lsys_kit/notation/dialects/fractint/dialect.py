@@ -9,6 +9,7 @@ be missed: a system may stand there without its name and its braces, and blanks 
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 from itertools import chain, islice
 
 from lsys_kit.errors import ModelSyntaxError
@@ -41,8 +42,17 @@ def _finish(draft: Draft) -> LSystem:
         draft.axiom = said["axiom"][0]
     _check(draft, {*said})
     draft.settings |= {"angle": said["angle"][0], "heading": Number(0)}
+    _note_angle(draft, said["angle"][0])
     draft.sections["productions"] = _joined(draft)
     return build_system(draft)
+
+
+def _note_angle(draft: Draft, angle: Number) -> None:
+    """Say what the angle means where nothing but the reader says that a text is one of Fractint's: it has no braces."""
+    if "{" not in uncommented(draft.source):
+        parts = Fraction(360) / Fraction(angle.value)
+        draft.notes.append(f'"Angle {parts}" is a turn of {float(angle.value):.4g} degrees: 360 divided by {parts}. '
+                           f'For {parts} degrees write "angle: {parts}" and "axiom: ...", and each rule with "->".')
 
 
 def _check(draft: Draft, said: set[str]) -> None:
