@@ -103,6 +103,18 @@ def all_parts_open(page: Page) -> None:
     expect(page.locator("[data-part]:not([data-open]):not([data-answer] *)")).to_have_count(0)
 
 
+def test_every_picture_is_shown_in_its_place(opened: Callable[..., Page]) -> None:
+    """First those that are in view: a place has its size from the beginning, so that nothing moves."""
+    page = opened("notebooks/gallery.html")
+    pictures = page.locator("img[data-part]")
+    sizes = pictures.evaluate_all("(all) => all.map((each) => [each.width, each.height])")
+    all_parts_open(page)
+    assert pictures.count() > 50
+    page.evaluate("Promise.all([...document.images].map((each) => each.decode()))")
+    assert pictures.evaluate_all("(all) => all.map((each) => [each.width, each.height])") == sizes
+    assert all(src.startswith("blob:") for src in pictures.evaluate_all("(all) => all.map((each) => each.src)"))
+
+
 def shot(page: Page, name: str, config: pytest.Config) -> None:
     folder = config.getoption("screenshots")
     if folder:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import base64
 import itertools
 import json
 import re
 import sys
+import zlib
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output, writes
 from playwright.sync_api import Browser
 
-from lsys_kit import LSystemError, ModelFileError, compare, explore, predict, vote, worksheet
+from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, predict, system, vote, worksheet
 from lsys_kit.classroom.lessons.declared import declared, names
 from lsys_kit.classroom.lessons.worksheet import marked, summary
 from lsys_kit.classroom.site.build import build_site
-from lsys_kit.classroom.site.cells import cells_html, title_of
+from lsys_kit.classroom.site.cells import cells_html, data_html, title_of
 from lsys_kit.classroom.site.markdown import PLAIN_TAGS, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.pages import Entry, index_page, notebook_page
 from lsys_kit.classroom.site.running import run
@@ -129,6 +132,17 @@ def test_code_that_gives_an_answer_away_is_folded() -> None:
     shown = cells_html([ran("predict('Why?', 'Because.')", predict("Why?", "Because."))], lambda each: each, [])
     assert shown.index("Code of this cell") < shown.index("Because.&#x27;")
     assert shown.index("<summary>Why?") < shown.index("Because.")
+
+
+def test_a_picture_is_kept_deflated_and_its_place_has_its_size() -> None:
+    data, parts = draw(system("K5"), 4)._repr_mimebundle_(), []
+    shown, svg = data_html(data, parts), data["image/svg+xml"]
+    assert zlib.decompress(base64.b64decode(parts[0]["data"]["drawing"])).decode() == svg
+    place = Parts(shown).attributes
+    assert ("data-part", "0") in place
+    empty = unquote(next(value for name, value in place if name == "src"))
+    assert empty.startswith("data:image/svg+xml,")
+    assert re.search(r' width="\d+" height="\d+"', empty)[0] in svg
 
 
 def test_exercises_are_shown_without_the_cells_that_check_them() -> None:

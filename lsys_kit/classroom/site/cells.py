@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import base64
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
+from urllib.parse import quote
 
 from lsys_kit.classroom.lessons.displayed import escaped_lines, html
 from lsys_kit.classroom.lessons.widget import prose_html
+from lsys_kit.classroom.panel.document import deflated_text
 from lsys_kit.classroom.site.markdown import Links, markdown_html, mathml
 from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.style.labels import escaped
 
 Parts = list[dict[str, Any]]
-"""What the script of a page has to know of each of its panels, votes, predictions and tables, in their order."""
+"""What the script of a page has to know of each of its panels, votes, predictions, tables and pictures, in their order."""
+_PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"')
+_SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 QUESTIONS = ("vote", "prediction", "worksheet")
 """Kinds of parts whose code would give away what they ask, and is folded."""
 
@@ -56,7 +62,17 @@ def data_html(data: Mapping[str, Any], parts: Parts) -> str:
         return _part_html(data[PART], data["text/plain"], parts)
     if "text/latex" in data and "text/html" not in data:
         return _block(mathml(data["text/latex"], "block"))
-    return _block(html(data))
+    return _block(_PICTURE.sub(lambda found: _kept_picture(found[1], parts), html(data)))
+
+
+def _kept_picture(packed: str, parts: Parts) -> str:
+    """The place of a picture: an empty one of its size, which the script of the page fills before it comes into view."""
+    drawing = base64.b64decode(packed).decode()
+    size = _SIZE.search(drawing)
+    empty = f'<svg xmlns="http://www.w3.org/2000/svg"{size[1] if size else ""}/>'
+    number = len(parts)
+    parts.append({"kind": "picture", "data": {"drawing": deflated_text(drawing)}})
+    return f'data-part="{number}" src="data:image/svg+xml,{quote(empty)}"'
 
 
 def _part_html(part: Mapping[str, Any], words: str, parts: Parts) -> str:

@@ -35,6 +35,10 @@ try.</p></div>
 """
 
 
+_PANELS = frozenset({"panel", "compare"})
+"""The scripts that only a page with panels calls, and those that they call."""
+
+
 @dataclass(frozen=True)
 class Entry:
     """A notebook on the site.
@@ -172,7 +176,7 @@ def _program(parts: Parts) -> Program | None:
         return None
     modes = [data["mode"] for part in parts for data in (part["data"], *part["data"].values())
              if isinstance(data, dict) and "mode" in data]
-    script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else frozenset())}\nopenCoursePage();\n'
+    script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
     return Program(script, style() + style("lessons"), _with_books_once(parts))
 
 

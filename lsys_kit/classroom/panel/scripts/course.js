@@ -1,6 +1,7 @@
-// A page of the course without a kernel: its panels, votes, predictions, tables and rules, each where its data belong.
+// A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures, each where its data belong.
 
 import { hostWith, cannot } from "./page.js";
+import { bytesOf, inflated } from "./books/link.js";
 import { openComparison } from "./panels/compare.js";
 import { openPanel } from "./panels/panel.js";
 import { askForEntries } from "./lessons/filling.js";
@@ -9,12 +10,29 @@ import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
 import { checked } from "./lessons/checking.js";
 
-const KINDS = { panel, comparison, vote, prediction, worksheet, rules };
+const KINDS = { panel, comparison, vote, prediction, worksheet, rules, picture };
+const NEAR = "50%"; // of a window's height: so near to it something is opened at once
+const MOST_BYTES = 100_000_000; // of a picture
 
-export function openCoursePage() {
+// What comes into view is opened first; then all the rest, one after another, so that a page can be printed and searched.
+export async function openCoursePage() {
   const { parts, books } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, books, ballots: new Map() };
-  for (const place of document.querySelectorAll("[data-part]")) if (!place.parentElement.closest("[data-part]")) open(place, page);
+  const places = [...document.querySelectorAll("[data-part]")].filter((place) => !place.parentElement.closest("[data-part]"));
+  const closed = new Set(places);
+  const openOnce = async (place) => { if (closed.delete(place)) await open(place, page); };
+  const watcher = new IntersectionObserver((seen) => {
+    for (const { isIntersecting, target } of seen) if (isIntersecting) openOnce(target);
+  }, { rootMargin: NEAR });
+  for (const place of places) watcher.observe(place);
+  for (const place of places) {
+    if (closed.has(place)) await idle();
+    await openOnce(place);
+  }
+  watcher.disconnect();
 }
+
+// When the browser has nothing else to do; one that does not tell is given a moment.
+const idle = () => new Promise((done) => ("requestIdleCallback" in window ? requestIdleCallback(done) : setTimeout(done, 50)));
 
 // Put a part in its place, instead of what stands there for readers without scripts.
 async function open(place, page) {
@@ -34,6 +52,12 @@ async function panel(place, data, page) {
   const host = await hostOf(data, page);
   place.replaceChildren();
   openPanel(place, host);
+}
+
+// The file of a picture, which the page keeps deflated.
+async function picture(place, { drawing }) {
+  const text = await inflated(bytesOf(drawing), "deflate", MOST_BYTES);
+  place.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }));
 }
 
 async function comparison(place, { left, right, shared }, page) {
