@@ -14,6 +14,8 @@ STROKES = (2.4, 1.7, 1.3, 1.0)
 """Stroke widths by branch order, in pixels; deeper branches have the last."""
 CONSTANT_ORDER = 1
 """The branch order whose width all strokes have where that is constant."""
+LEAST = (15, 11, 8, 7)
+"""The least widths by branch order where the turtle chooses none, in tenths of a pixel: finer lines are too pale to be seen."""
 THINNEST, BROADEST = 3, 4_000
 """The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
 SAMPLE = 20_000
@@ -36,7 +38,8 @@ def widths_by_order(usual: Sequence[float]) -> list[float]:
 def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
     """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
     branch order, and are made finer by a factor."""
-    by_order = np.array([round(10 * width * thin) for width in widths_by_order(STROKES)])
+    by_order = np.array([max(round(least), round(10 * width * thin))
+                         for width, least in zip(widths_by_order(STROKES), widths_by_order(LEAST), strict=True)])
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
     if (segments.widths != OWN).any():
         given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)

@@ -32,7 +32,7 @@ from lsys_kit.pictures.style.themes import line, theme
 
 FILLED = 0.7
 """The strength of the colour inside a surface in the plane."""
-LEAST_CASING, CASING, BROADEST_CASING = 4, 0.8, 24
+LEAST_CASING, CASING, BROADEST_CASING = 4, 0.4, 10
 """How much broader than a stroke its casing is: so many tenths of a pixel and this part of its width; and at most."""
 
 

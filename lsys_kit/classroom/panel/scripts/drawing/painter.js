@@ -11,7 +11,7 @@ const FILLED = 0.7; // the strength of the colour inside a surface in the plane
 const FACE_EDGE = 0.6, RING = 1, MARKED_EDGE = 3, SMALLEST_RADIUS = 0.8; // pixels
 const LABEL_FONT = "12px sans-serif", LABEL_GAP = 5, LABEL_HALO = 3; // pixels
 const TONED = 16; // tenths of a pixel from which on one sees light and shade on a stroke
-const LEAST_CASING = 4, CASING = 0.8, BROADEST_CASING = 24; // tenths of a pixel that a casing is broader, the part of its stroke, the most
+const LEAST_CASING = 4, CASING = 0.4, BROADEST_CASING = 10; // tenths of a pixel that a casing is broader, the part of its stroke, the most
 
 // What surrounds a shape that is traced: bands of so many pixels more than the shape, in the colour of what is lit or of the
 // paper, broken by dashes or not. They are told apart without their colour.

@@ -3,6 +3,7 @@
 import { halfToEven } from "./turtle_actions.js";
 
 const ORDER_WIDTHS = [2.4, 1.7, 1.3, 1.0]; // of strokes, in pixels, by branch order
+const LEAST_WIDTHS = [15, 11, 8, 7]; // in tenths of a pixel, however short strokes are: finer lines are too pale to be seen
 const SLIMMEST = 3, BROADEST = 4000; // the least and the greatest width that a turtle sets, in tenths of a pixel
 const DEPTH_LEVELS = 2 ** 15; // over the extent of a drawing in space, so that rounding errors bring nothing forward
 const MOST_NUMBERED = 2 ** 31; // more shapes there cannot be
@@ -10,7 +11,8 @@ const LAST_RANK = 2 ** 21;
 
 // The width of each stroke, in tenths of a pixel: as the turtle has set it, or by its branch order.
 export function strokeWidths({ n, orders, widths }, scale, thin) {
-  const found = new Int32Array(n), own = ORDER_WIDTHS.map((width) => halfToEven(10 * width * thin));
+  const own = ORDER_WIDTHS.map((width, order) => Math.max(LEAST_WIDTHS[order], halfToEven(10 * width * thin)));
+  const found = new Int32Array(n);
   for (let i = 0; i < n; i++)
     found[i] = widths[i] < 0 ? own[Math.min(orders[i], own.length - 1)]
       : Math.max(SLIMMEST, Math.min(BROADEST, halfToEven(widths[i] * scale * 10)));
