@@ -90,7 +90,9 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
         with limits(**_budget()), Task(gettext("It was not checked")):
             verdict, tried = _judged(asked, answer)
     except ModelLimitError as grown:
-        return Verdict("Not yet", gettext("Your answer is too large. {reason}.", reason=grown.message))
+        advice = f" {grown.hint}" if grown.hint and "limits(" not in grown.hint else ""
+        said = gettext("Your answer cannot be followed to its end. {reason}.", reason=grown.message)
+        return Verdict("Not yet", said + advice)
     except LSystemError as mistake:
         return Verdict("Not readable yet", str(mistake))
     if (hints or solution) and not tried:

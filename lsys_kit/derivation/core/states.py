@@ -213,10 +213,12 @@ class States(RuleApplication):
                 found.append(self.number(part.symbol, part.arguments))
             elif depth == deepest:
                 start, end = rule.production.at or (None, None)
-                raise ModelLimitError(f"{part} is decomposed more than {deepest} times, last by "
+                raise ModelLimitError(f"{module} is decomposed more than {deepest} times, last by "
                                       f"{as_written(self.system, rule.production)}",
                                       limit=deepest, source=self.system.source or None, start=start, end=end,
-                                      hint="A condition before the arrow can bring it to an end.")
+                                      hint="A condition before the arrow can bring it to an end."
+                                      if rule.production.condition is None else
+                                      "What is made must come nearer to where the condition ends.")
             else:
                 todo += [(Module(*made), depth + 1) for made in reversed([*self._made(rule, part, None, chance)])]
             if len(found) + len(todo) > most:
