@@ -42,9 +42,18 @@ def test_what_is_read_is_a_record() -> None:
 @pytest.mark.parametrize("text", [
     "ω: ABC\np_1 : A → B[-A][+A]B", "\\omega = ABC\nA \\rightarrow B[−A][+A]B,", "Startwort ABC,\nA ::= B [- A] [+ A] B",
     "axiom: A B C\nA --> B[-A]\n    [+A]B", "P = {\n  A -> B[-A][+A]B\n}\nmap: ABC", "map:ABC\np1: A->B[-A][+A]B",
+    "$\\omega : ABC$\n$A \\to B[-A][+A]B$", "```\n**map:** ABC\n1. A -> B[-A][+A]B\n```",
+    "$$\\begin{aligned}\n\\omega &: ABC \\\\\np_1 &: A \\rightarrow B[-A][+A]B\n\\end{aligned}$$",
+    "\\[\n\\omega: ABC\n\\]\n\\[ A \\longmapsto B[-A][+A]B \\quad (1) \\]",
 ])
 def test_print_has_many_forms(text: str) -> None:
     assert read_map(text) == read_map("map: ABC\nA -> B[-A][+A]B")
+
+
+def test_a_mistake_in_a_formula_is_shown_where_it_was_typed() -> None:
+    with pytest.raises(ModelSyntaxError) as found:
+        read_map("$\\omega : ABAB$\n$p_1 : A \\to B[-A+A]B$")
+    assert (found.value.message, found.value.line, found.value.column) == ('This "+" is outside of a marker', 2, 18)
 
 
 @pytest.mark.parametrize(("right", "left"), [("\\overrightarrow{A}", "\\overleftarrow{A}"), ("\\vec A", "\\overleftarrow A"),

@@ -113,6 +113,7 @@ def test_a_mistake_in_print_is_shown_where_it_was_typed(text: str, line: int, co
     ("• axiom: F\n• F → F+F", "axiom: F\nF -> F+F"), ("- axiom: F\n- F -> F+F", "axiom: F\nF -> F+F"),
     ("- A < B -> C\naxiom: - A B", "axiom: - A B\n- A < B -> C"),
     ("axiom: a\n       r\na -> a b\n r    l r", "axiom: a_r\na_r -> a_l b_r"),
+    ("$\\omega: X$\n$X \\to F[+X]$\n$F \\mapsto FF$", "axiom: X\nX -> F[+X]\nF -> F F"),
     ("axiom: A\nA -> F[&F\\]B$", "axiom: A\nA -> F [& F \\ ] B $"),  # rolls, no macro
 ])
 def test_other_prints_are_read_as_they_are_meant(text: str, expected: str) -> None:

@@ -38,7 +38,7 @@ def warnings(system: LSystem) -> list[Problem]:
     return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
             *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
             *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system),
-            *_unanswered(system, reachable), *_passed_over(system), *_timed(system),
+            *_in_quotation_marks(system), *_unanswered(system, reachable), *_passed_over(system), *_timed(system),
             *_drawn_no_further(system, reachable), *_drawn_as_itself(system), *slips(system)]
 
 
@@ -127,6 +127,16 @@ def _final_signs(system: LSystem) -> Iterator[Problem]:
         last = modules[-1].symbol if modules and not modules[-1].arguments else ""
         if last not in meant and (last == ";" or (last == "." and all(module.symbol != "{" for module in modules))):
             yield Problem("final sign", rule.at, {"sign": last, "rule": rule})
+
+
+def _in_quotation_marks(system: LSystem) -> Iterator[Problem]:
+    """A word between apostrophes that has no others: the turtle takes them for changes of its colour."""
+    words = [system.axiom, *(rule.successor for rule in system.rules)] if system.turtle == "abop" else []
+    for word in words:
+        signs = [module.symbol for module in flat(word)]
+        if len(signs) > 2 and signs.count("'") == 2 and signs[0] == signs[-1] == "'":
+            yield Problem("in quotation marks", None, {"word": "".join(signs[1:-1])})
+            return
 
 
 def _unanswered(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem]:

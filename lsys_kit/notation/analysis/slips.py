@@ -19,6 +19,8 @@ _SENTENCE = _DOUBLED | frozenset(".!',")
 """Signs that stand in sentences, too."""
 _ONE_VALUE = frozenset("Ffg+-&^\\/!#;',")
 """Symbols that take one value in the commands of most turtles."""
+_ANGLES = frozenset(("delta", "theta", "angle", "angle_increment", "turn"))
+"""What the angle of the turns is called elsewhere."""
 _DECIMAL_COMMA = re.compile(r"\(\s*(\d+)\s*,\s*(\d+)\s*\)$")
 
 
@@ -31,6 +33,16 @@ def slips(system: LSystem) -> Iterator[Problem]:
     """
     yield from _comments(system)
     yield from _decimal_commas(system)
+    yield from _unused_constants(system)
+
+
+def _unused_constants(system: LSystem) -> Iterator[Problem]:
+    """The constants whose names stand nowhere else in the text."""
+    for constant in system.constants:
+        if len([*islice(re.finditer(rf"\b{constant.name}\b", system.source), 2)]) == 1:
+            angle = constant.name.lower() in _ANGLES and "angle" not in system.source
+            yield Problem("angle never used" if angle else "constant never used", constant.at,
+                          {"name": constant.name, "value": constant.value})
 
 
 def _comments(system: LSystem) -> Iterator[Problem]:

@@ -21,8 +21,8 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 _NAME, _ROW = re.compile(r"[A-Za-z_]\w+"), re.compile(r"[A-Za-z][a-z]*+[A-Z][A-Za-z]*+")
 """A name of several signs; and one that is a row of letters rather than a word."""
-_SEGMENT = re.compile(r"[Ff]\d+")
-"""The turtle's own letter with digits behind it: elsewhere a length, or a count of turns."""
+_NUMBERED = re.compile(r"(?:[Ff](\d+)|[A-Za-z](\d+)[A-Za-z]\w*)")
+"""The turtle's own letter with digits behind it, or any letter with digits and more: elsewhere a length, a colour, a count."""
 _ALWAYS = frozenset("Ff")
 """The turtle's own letters: symbols of every system (ABOP, section 1.3)."""
 
@@ -71,8 +71,8 @@ def segment_with_notes(system: LSystem) -> LSystem:
     notes = [f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items()]
     notes += [f'"{name}" is read as one symbol; for several put blanks between them: {" ".join(pieces)}.'
               for name, pieces in _words(segmented)]
-    notes += [f'"{name}" is read as one symbol, which draws nothing; {name[0]} with a value is typed {name[0]}({name[1:]}), '
-              f"and a turn that is repeated is written out, as in {name[0]}+++." for name in _numbered_segments(segmented)]
+    notes += [f'"{name}" is read as one symbol, which draws nothing. {name[0]} with a value is typed {name[0]}({digits}); '
+              'what is repeated is written out, as in "+++".' for name, digits in _numbered(segmented)]
     return replace(segmented, notes=(*system.notes, *notes)) if notes else system
 
 
@@ -87,12 +87,13 @@ def _words(system: LSystem) -> Iterator[tuple[str, list[str]]]:
                 yield name, list(name)
 
 
-def _numbered_segments(system: LSystem) -> Iterator[str]:
-    """The names made of F or f and digits, in a system whose other symbols are single letters."""
+def _numbered(system: LSystem) -> Iterator[tuple[str, str]]:
+    """The names with digits in them that may be meant otherwise, in a system whose other symbols are single letters."""
     known = _known(system)
     if known.letters:
-        names = dict.fromkeys(module.symbol for module in _divisible_modules(system))
-        yield from (name for name in names if name not in known.whole and _SEGMENT.fullmatch(name))
+        for name in dict.fromkeys(module.symbol for module in _divisible_modules(system)):
+            if name not in known.whole and (found := _NUMBERED.fullmatch(name)):
+                yield name, found[1] or found[2]
 
 
 def check_digits(word: Iterable[Pattern], alphabet: Collection[str]) -> None:

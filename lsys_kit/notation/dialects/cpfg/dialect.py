@@ -25,13 +25,16 @@ from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symb
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
-from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, without_comments
-from lsys_kit.notation.syntax.text.transcript import Transcript
+from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
     re.MULTILINE | re.IGNORECASE)
+_NUMBERED = re.compile(r"^[ \t]*Lsystem[ \t]*:", re.MULTILINE | re.IGNORECASE)
+_LABEL = re.compile(rf"^[ \t]*+{LABEL}[ \t]*+:[ \t]*+(?=[^\n]*-->)", re.MULTILINE)
 _AXIOM_MARK = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
+_TURNS = frozenset("+-&^\\/")
 _DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
 _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*|(?://|(?<=[ \t])#)[ \t]*(?P<word>[a-z]{3,})[^\n]*")
 """What reads like a comment: two rolls and words, or a word of small letters after two rolls or a #."""
@@ -158,6 +161,10 @@ def _notes(draft: Draft) -> Iterator[str]:
             yield (f'The surface "~{record[0]}" is in the file "{record[1]}", which a model does not open: '
                    f'with_surface(system, "{record[0]}", text) takes it out of its text.')
     yield from _split_symbols(draft)
+    words = chain(draft.axiom or (), *(flat(rule.successor) for rules in draft.sections.values() for rule in rules))
+    if "angle" not in draft.settings and any(module.symbol in _TURNS and not module.arguments for module in words):
+        yield ('cpfg keeps the angle by which + turns in a file of the view. It is 90 degrees here; for 22.5 put the line '
+               '"/* angle: 22.5 */" above the axiom.')
     productions = [production for rules in draft.sections.values() for production in rules]
     rewritten = {module.symbol for production in productions for module in production.predecessors}
     for production in productions:
@@ -194,18 +201,20 @@ def _enclosed(value: str) -> bool:
 
 
 def _likely(text: str) -> int:
-    """Ten for each mark that only cpfg has; two for a capital "Axiom:" and long arrows after single letters."""
+    """Ten for each mark that only cpfg has, more for its own name; two for a capital "Axiom:" and long arrows after letters."""
     marks = len(_MARKS.findall(text))
     if not marks and _AXIOM_MARK.search(text):
         heads = [line[:arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"]
         single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", blank_parentheses(head).split(":")[0]))
         return 2 * (bool(heads) and single)
-    return 10 * marks
+    return 10 * marks + 200 * bool(_NUMBERED.search(text))
 
 
 def _transcribe(source: str) -> Transcript:
-    """A text after the preprocessor of C, but for the macros that are numbers."""
-    return preprocessed(source, lambda rule, text: parse(CPFG, rule, text, 0, len(text)))
+    """A text after the preprocessor of C, but for the macros that are numbers, and without the labels of productions."""
+    transcript = preprocessed(source, lambda rule, text: parse(CPFG, rule, text, 0, len(text)))
+    labels = [Edit(*label.span(), "") for label in _LABEL.finditer(transcript.text)]
+    return edited(transcript, labels) if labels else transcript
 
 
 CPFG = Dialect(

@@ -14,7 +14,7 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.notation.analysis.map_checks import check_map, unused_parts
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.map.diagnostics import DIAGNOSTICS
@@ -24,7 +24,9 @@ from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.printed import printed_statements
-from lsys_kit.notation.syntax.text.statements import bounded, check_text
+from lsys_kit.notation.syntax.text.statements import bounded, check_text, without_comments
+from lsys_kit.notation.syntax.text.transcript import edited
+from lsys_kit.notation.syntax.text.typesetting import typesetting
 from lsys_kit.notation.syntax.wording import notes, reporting
 
 _LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")
@@ -36,7 +38,8 @@ def read_map(text: str) -> MapSystem:
     Parameters
     ----------
     text
-        The walls of the first cell, clockwise, or of a sphere, and productions, one a line, in ASCII or as print has them.
+        The walls of the first cell, clockwise, or of a sphere, and productions, one a line, in ASCII, as print has them, or
+        as LaTeX sets them.
         `/* ... */` is a comment. Or a link with a map system in it.
 
     Raises
@@ -67,9 +70,13 @@ def read_map(text: str) -> MapSystem:
             raise ModelValueError("This is the link of an L-system, not of a map system",
                                   hint="L-systems are read by read(link).")
         text = content.text
-    with reporting(text, MAP.spelling):
-        system = _system(text)
-        check_map(system)
+    transcript = edited(text, typesetting(without_comments(text)))
+    try:
+        with reporting(transcript.text, MAP.spelling):
+            system = _system(transcript.text)
+            check_map(system)
+    except LSystemError as error:
+        raise transcript.relocated(error) from None
     return replace(system, notes=notes(unused_parts(system), MAP.spelling))
 
 

@@ -9,7 +9,7 @@ from itertools import islice
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 
-ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:long)?rightarrow|\\xrightarrow")
+ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:(?:long)?(?:rightarrow|mapsto)|to)(?![A-Za-z])|\\xrightarrow")
 _STARTS = re.compile(
     rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?(?:surface[ \t]+\w+|[A-Za-zωδ]+)\s*:(?!.*[<>=])")
 _CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)

@@ -33,6 +33,10 @@ _LABELLED = re.compile(rf"^(?:{_LABEL.pattern}|{_OMEGA.pattern})", re.MULTILINE)
 _DELTA = re.compile(r"(?:δ|\\delta)[ \t]*+=")
 _ASSIGNED = r"(?:[A-Za-z]\w*|δ|\\delta)[ \t]*+=[ \t]*+[\d.]+[ \t]*+(?:°|\^?\{?\\circ\}?)?"
 _ASSIGNMENTS = re.compile(rf"[ \t]*+{_ASSIGNED}(?:[ \t]*+[,;][ \t]*+{_ASSIGNED})*[ \t]*+[,;.]?[ \t]*+$")
+_SETTING_NAME = r"(?i:axiom|angle|heading|steps|alphabet)"
+_SETTINGS = re.compile(rf"(?:^|[,;])[ \t]*+{_SETTING_NAME}[ \t]*+(=)(?!=)")
+"""Settings with the sign of a constant, as many pages on the web have them."""
+_DEGREES = re.compile(r"[ \t]*+(?i:angle|heading)[ \t]*+[:=][ \t]*+[\d./]++([ \t]*+(?:°|degrees?\b|deg\b))[ \t]*+$")
 _STEPS = re.compile(r"\bn[ \t]*+=")
 _N = re.compile(r"\bn\b")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
@@ -67,6 +71,7 @@ _SIGNS_OF_PRINT = (
     re.compile(r">[ \t]*+\*"),
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
     re.compile(rf"\.\d++[ \t]*+(?:{_ARROW})"),
+    re.compile(rf"\n[ \t]*+{_SETTING_NAME}[ \t]*+(?:=(?!=)|:[^\n]*deg)"),
     re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"))
 """A text with none of these and nothing typographic is written as the kit writes it, and is not looked at line by line.
 Each begins with one character, which is quickly found."""
@@ -139,6 +144,11 @@ class _Listing:
     def settings(self) -> Iterator[Edit]:
         """Numbers on one line, constants and inclusions as cpfg has them, and an axiom that is not called so."""
         for line in self.lines:
+            if not line.arrow:
+                for setting in _SETTINGS.finditer(line.text):
+                    yield Edit(line.start + setting.start(1), line.start + setting.end(1), ":")
+                if degrees := _DEGREES.match(line.text):
+                    yield Edit(line.start + degrees.start(1), line.start + degrees.end(1), "")
             if _ASSIGNMENTS.match(line.text):
                 yield from self._assignments(line)
             elif self.labelled and _DIRECTIVE.match(line.text):

@@ -15,7 +15,8 @@ from typing import NamedTuple
 from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA
 from lsys_kit.notation.syntax.text.transcript import Edit
 
-MACRO = re.compile(r"\\(?:(?:long)?rightarrow|xrightarrow|omega|vec|overleftarrow|overrightarrow|begin[ \t]*+\{)")
+MACRO = re.compile(r"\\(?:(?:long)?(?:rightarrow|mapsto)|to(?![A-Za-z])|xrightarrow|omega|vec|overleftarrow|overrightarrow|"
+                   r"begin[ \t]*+\{)")
 _DOLLARS = re.compile(r"^[ \t]*+(\$)(?![\s<$])[^$\n]*+(\$)[,.;]?[ \t]*+$", re.MULTILINE)
 """What begins and ends a formula. A single "$" is a command of the turtle, unless the line begins and ends with one."""
 _DISPLAY = re.compile(r"^[ \t]*+(?:(\\[\[(])(?:.*(\\[\])]))?|(\\[\])]))[ \t]*+$|(\$\$)", re.MULTILINE)
