@@ -36,11 +36,17 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
-    """The whole suite is run by a process for each core, unless another number is asked for."""
+    """The whole suite is run by several processes, unless another number is asked for."""
     alone = hasattr(config, "workerinput") or any(map(config.getoption, ("collectonly", "benchmark_only", "usepdb")))
     if config.args_source is pytest.Config.ArgsSource.TESTPATHS and config.option.numprocesses is None and not alone:
         config.option.numprocesses = "auto"
     return (yield)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """A process for each core and one more: while some wait for a browser or a kernel, the others have something to do."""
+    return (os.cpu_count() or 1) + 1
 
 
 @pytest.hookimpl(tryfirst=True)
