@@ -17,7 +17,7 @@ pytest_plugins = ["tests.browser.fixtures"]
 EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
 """How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with
 `--thorough`, or where `CI` is set, it is thorough."""
-FEW_VARIANTS = 8, 4
+FEW_VARIANTS = 8, 2
 """How many variants of a quick test and of a slow one are tried, spread over all of them, unless the run is thorough."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
@@ -36,17 +36,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
-    """The whole suite is run by several processes, unless another number is asked for."""
+    """The whole suite is run by a process for each core, unless another number is asked for."""
     alone = hasattr(config, "workerinput") or any(map(config.getoption, ("collectonly", "benchmark_only", "usepdb")))
     if config.args_source is pytest.Config.ArgsSource.TESTPATHS and config.option.numprocesses is None and not alone:
         config.option.numprocesses = "auto"
     return (yield)
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_auto_num_workers() -> int:
-    """A process for each core and one more: while some wait for a browser or a kernel, the others have something to do."""
-    return (os.cpu_count() or 1) + 1
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -101,7 +101,7 @@ def test_a_cellwork_is_seen_from_all_sides_as_the_kit_draws_it(page, cells):
 @given(system=cellwork_systems(), data=st.data())
 def test_random_cellworks_are_seen_so_too(page, system, data):
     try:
-        with limits(modules=120):
+        with limits(modules=120, seconds=5):
             rest = tissue_at_rest(system, SPACE_FORCES)
     except LSystemError:
         return

@@ -70,10 +70,10 @@ def test_apostrophes_around_a_word_are_no_quotation_marks() -> None:
         assert read(meant).notes == ()
 
 
-def test_a_constant_that_is_never_used_is_noted() -> None:
-    assert read("k = 2\naxiom: F\nF -> F[+F]").notes == ('The constant "k" is never used.',)
+def test_a_constant_that_is_used_nowhere_is_noted() -> None:
+    assert read("k = 2\naxiom: F\nF -> F[+F]").notes == ('The constant "k" is used nowhere.',)
     assert read("delta = 22.5\naxiom: F\nF -> F[+F]").notes == (
-        'The constant "delta" is never used. For the angle of the turns type "angle: 22.5".',)
+        'The constant "delta" is used nowhere. For the angle of the turns type "angle: 22.5".',)
     assert read("k = 2\nm = k\nangle: 9\naxiom: F\nF -> F(m)").notes == ()
 
 

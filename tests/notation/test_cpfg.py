@@ -120,7 +120,7 @@ def test_two_rolls_begin_a_comment_behind_a_blank_and_before_a_word(line: str, r
 
 
 def test_prose_that_may_be_symbols_is_pointed_out() -> None:
-    assert read("Lsystem: 1\nAxiom: F\nF --> FF // FF", "cpfg").notes == (
+    assert read("Lsystem: 1\n/* angle: 90 */\nAxiom: F\nF --> FF // FF", "cpfg").notes == (
         '"// FF" is read as symbols, two rolls first; a comment is written between "/*" and "*/".',)
 
 

@@ -107,7 +107,7 @@ def test_a_production_that_another_always_precedes_is_told(rules: str, note: str
     "A -> B(1)\nB(1) -> A\nB(t) -> C", "A -> B(1)\nB(k) -> A\nB(t) -> C", "A -> B\nB -> A\ndecomposition:\nB -> C",
     "A -> B(1)\nB(t) -> B\nB -> A"])
 def test_productions_that_have_their_turn_are_not_told(rules: str) -> None:
-    assert read(f"k = 1\naxiom: A\n{rules}").notes == ()
+    assert read(f"k = 1\nalphabet: k\naxiom: A\n{rules}").notes == ()
 
 
 def test_no_certain_production_is_told_behind_chance() -> None:

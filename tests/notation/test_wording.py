@@ -48,7 +48,7 @@ def test_a_wording_ends_as_its_part_of_a_message_does(code: str) -> None:
     wording: Wording = WORDINGS[code]
     note = code.endswith(("never matches", "never applied", "final sign", "no probability", "number of values", "query",
                           "several replaced", "passed over", "as modules", "decimal comma", "only in time", "no further",
-                          "drawn as itself", "in quotation marks", "never used"))
+                          "drawn as itself", "in quotation marks", "used nowhere"))
     assert wording.message.endswith(".") == note
     assert wording.hint is None or wording.hint.endswith(".")
 

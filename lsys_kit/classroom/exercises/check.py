@@ -90,7 +90,7 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
         with limits(**_budget()), Task(gettext("It was not checked")):
             verdict, tried = _judged(asked, answer)
     except ModelLimitError as grown:
-        advice = f" {grown.hint}" if grown.hint and "limits(" not in grown.hint else ""
+        advice = "" if "limits(" in (grown.hint or "") else f' {(grown.hint or "").split("kept. ")[-1]}'.rstrip()
         said = gettext("Your answer cannot be followed to its end. {reason}.", reason=grown.message)
         return Verdict("Not yet", said + advice)
     except LSystemError as mistake:

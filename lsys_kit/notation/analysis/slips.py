@@ -37,11 +37,11 @@ def slips(system: LSystem) -> Iterator[Problem]:
 
 
 def _unused_constants(system: LSystem) -> Iterator[Problem]:
-    """The constants whose names stand nowhere else in the text."""
-    for constant in system.constants:
+    """The constants whose names stand nowhere else in the text; files beside a model of cpfg may use its macros."""
+    for constant in system.constants if system.notation not in ("cpfg", "mathematica") else ():
         if len([*islice(re.finditer(rf"\b{constant.name}\b", system.source), 2)]) == 1:
             angle = constant.name.lower() in _ANGLES and "angle" not in system.source
-            yield Problem("angle never used" if angle else "constant never used", constant.at,
+            yield Problem("angle used nowhere" if angle else "constant used nowhere", constant.at,
                           {"name": constant.name, "value": constant.value})
 
 

@@ -122,8 +122,8 @@ WORDINGS: Mapping[str, Wording] = {
     "other number of values": Wording("No production matches {symbol} with {count} values: that for {symbol} has {others}."),
     "final sign": Wording('The "{sign}" after the production for {rule} is read as a command of the turtle; a line needs no '
                           "sign at its end."),
-    "constant never used": Wording('The constant "{name}" is never used.'),
-    "angle never used": Wording('The constant "{name}" is never used. For the angle of the turns type "angle: {value}".'),
+    "constant used nowhere": Wording('The constant "{name}" is used nowhere.'),
+    "angle used nowhere": Wording('The constant "{name}" is used nowhere. For the angle of the turns type "angle: {value}".'),
     "in quotation marks": Wording("The two ' around {word} are read as commands of the turtle, not as quotation marks: words "
                                   "are typed without any."),
     "context passed over": Wording("The production {rule} can never match: contexts pass over {symbol}."),

@@ -118,7 +118,7 @@ def casing_widths(widths: Integers) -> Integers:
     """The widths of the casings of strokes, in tenths of a pixel.
 
     >>> casing_widths(np.array([10, 24, 100])).tolist()
-    [22, 47, 124]
+    [18, 34, 110]
     """
     more = np.minimum(LEAST_CASING + np.rint(CASING * widths).astype(np.int64), BROADEST_CASING)
     found: Integers = widths + more
