@@ -161,7 +161,7 @@ def _constant_declaration(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _production_with_equals(failure: ParseFailure) -> ModelSyntaxError | None:
     """A production as other programs write it, with "=" for its arrow."""
-    rule = re.fullmatch(r"([^\W\d_])\s*=(?!=)\s*((?:[^\s\d(].*)?)", failure.statement)
+    rule = re.fullmatch(r"((?!δ)[^\W\d_])\s*=(?!=)\s*((?:[^\s\d(].*)?)", failure.statement)
     if not rule or ARROW.search(failure.statement) or (rule[2] and not re.search(r"[\[\]]|[+\-]$", rule[2])):
         return None
     arrow, at = failure.spelling.arrow, failure.start + failure.statement.index("=")
