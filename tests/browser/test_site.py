@@ -126,6 +126,7 @@ def panels_of(page: Path) -> Iterator[dict[str, Any]]:
     """What a page knows of each of its panels."""
     data = json.loads(re.search(r'id="lsys-data">(.*?)</script>', page.read_text("utf-8"))[1])
     for part in data["parts"]:
+        part = part["data"]["panel"] if part["kind"] == "beside" else part
         sides = [part["data"]] if part["kind"] == "panel" else [part["data"].get(side) for side in ("left", "right")]
         yield from (panel for panel in sides if panel and panel["mode"] not in ("map", "tissue"))
 

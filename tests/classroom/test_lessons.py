@@ -411,6 +411,22 @@ A title
     assert "<caption>A <code>title</code></caption>" in bundle["text/html"]
 
 
+def test_a_table_may_stand_beside_what_it_is_filled_in_from() -> None:
+    panel = explore("K17b", 24, sliders="v", show="drawing")
+    both = worksheet("10", "speeds", panel)
+    assert both.children == (panel, both.sheet)
+    bundle = both._repr_mimebundle_()
+    assert bundle["application/vnd.jupyter.widget-view+json"]["model_id"] == both.model_id
+    assert bundle["text/html"].startswith("<img ")
+    assert "at the top of the stem" in bundle["text/html"]
+    assert repr(both) == bundle["text/plain"] == f"{panel!r}\n{both.sheet!r}"
+    both.close()
+    assert panel.comm is both.sheet.comm is None
+    with pytest.raises(ModelValueError, match=r"A panel of explore or compare is needed, not Worksheet\."):
+        worksheet("10", "speeds", worksheet("10", "speeds"))
+
+
+
 @given(st.text(alphabet="ab`*<&", max_size=12))
 def test_prose_has_no_markup_but_its_own(text):
     assert prose_html(text).count("<") == prose_html(text).count(">")

@@ -56,7 +56,7 @@ def lesson_page() -> str:
     cells = [new_markdown_cell("# All at once\n\n[try](../exercises/01_all_at_once.ipynb), [gone](99.ipynb)"),
              ran('vote("01")', vote("01")), ran("explore('J4')", explore("J4")), ran_prediction("Why?", explore("K5", 2)),
              ran("compare('P2', 'P3')", compare("P2", "P3")), ran("w", worksheet("01", "counts")),
-             ran('vote("01", again=True)', vote("01", again=True))]
+             ran("b", worksheet("01", "counts", explore("J4", 5))), ran('vote("01", again=True)', vote("01", again=True))]
     return notebook_page(ENTRIES[0], cells, ENTRIES)
 
 
@@ -125,7 +125,7 @@ def test_each_part_has_its_place_and_its_data() -> None:
     places = re.findall(r'data-part="(\d+)"', text)
     kinds = [each["kind"] for each in json.loads(Parts(text).inside["script"][0])["parts"]]
     assert sorted(map(int, places)) == list(range(len(kinds)))
-    assert kinds == ["vote", "panel", "prediction", "panel", "comparison", "worksheet", "vote"]
+    assert kinds == ["vote", "panel", "prediction", "panel", "comparison", "worksheet", "beside", "vote"]
 
 
 def test_code_that_gives_an_answer_away_is_folded() -> None:

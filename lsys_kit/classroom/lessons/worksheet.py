@@ -4,22 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import islice
-from typing import Any
+from typing import Any, overload
 
 import traitlets
+from ipywidgets import HBox, Layout
 
 from lsys_kit.classroom.lessons.answers import MOST_CHARACTERS, is_right
 from lsys_kit.classroom.lessons.declared import table
+from lsys_kit.classroom.lessons.displayed import html
 from lsys_kit.classroom.lessons.lesson import Blank, Table
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.comparison import Comparison
+from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.widget import Unfinalized
+from lsys_kit.errors import require
 from lsys_kit.translation import gettext, ngettext
 
 RIGHT, NOT_YET, MISSING = "right", "not yet", "not filled in yet"
 """What is said of a cell."""
 
 
-def worksheet(number: str, id: str) -> Worksheet:
+@overload
+def worksheet(number: str, id: str) -> Worksheet: ...
+@overload
+def worksheet(number: str, id: str, beside: Explorer | Comparison) -> PanelWithWorksheet: ...
+def worksheet(number: str, id: str, beside: Explorer | Comparison | None = None) -> Worksheet | PanelWithWorksheet:
     """A table of a lesson, to be filled in and checked cell by cell.
 
     Parameters
@@ -28,11 +38,16 @@ def worksheet(number: str, id: str) -> Worksheet:
         The number of the lesson, such as "01".
     id
         The id of the table.
+    beside
+        What the table is filled in from: the panel of `explore` or `compare`, which is shown to the left of it where there is
+        room, and above it elsewhere.
 
     Raises
     ------
     ModelNameError
         There is no such lesson, or it has no such table.
+    ModelValueError
+        What it shall stand beside is no panel.
 
     Examples
     --------
@@ -45,7 +60,9 @@ def worksheet(number: str, id: str) -> Worksheet:
       3     ____         ____
       4     ____         ____
     """
-    return Worksheet(table(number, id))
+    require(beside, (Explorer, Comparison, type(None)), "A panel of explore or compare")
+    sheet = Worksheet(table(number, id))
+    return sheet if beside is None else PanelWithWorksheet(beside, sheet)
 
 
 class Worksheet(LessonWidget):
@@ -89,8 +106,8 @@ class Worksheet(LessonWidget):
         head = "".join(f"<th>{prose_html(each)}</th>" for each in self._table.columns)
         rows = "".join("<tr>" + "".join(f"<td>{_cell_html(cell)}</td>" for cell in row) + "</tr>" for row in self._table.rows)
         title = f"<caption>{prose_html(self._table.title)}</caption>"
-        html = boxed_html(f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>")
-        return {"text/html": html, "text/plain": repr(self)}
+        shown = boxed_html(f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>")
+        return {"text/html": shown, "text/plain": repr(self)}
 
     def __repr__(self) -> str:
         cells = [self._table.columns, *([_cell_text(cell) for cell in row] for row in self._table.rows)]
@@ -98,6 +115,39 @@ class Worksheet(LessonWidget):
         widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
         lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in texts)
         return "\n".join([prose_text(self._table.title), *(f"  {line}" for line in lines)])
+
+
+class PanelWithWorksheet(Unfinalized, HBox):  # type: ignore[misc]
+    """A panel, and beside it a table that is filled in from what it shows.
+
+    Attributes
+    ----------
+    panel
+        The panel, as `explore` or `compare` makes it.
+    sheet
+        The table.
+    """
+
+    def __init__(self, panel: Explorer | Comparison, sheet: Worksheet) -> None:
+        self.panel, self.sheet = panel, sheet
+        for each, share in ((panel, "1 1 620px"), (sheet, "0 1 400px")):
+            each.layout.flex, each.layout.min_width = share, "0"
+        super().__init__([panel, sheet], layout=Layout(flex_flow="row wrap", align_items="flex-start", grid_gap="0 12px"))
+
+    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+        """The live widgets, and what a page without a kernel shows of both."""
+        panel, sheet = self.panel._stored(), self.sheet._stored()
+        return {**dict(super()._repr_mimebundle_(**options) or {}), "text/html": html(panel) + sheet["text/html"],
+                "text/plain": repr(self)}
+
+    def close(self) -> None:
+        """Close the panel and the table, and what the browser keeps of them."""
+        for each in (self.panel, self.sheet):
+            each.close()
+        super().close()
+
+    def __repr__(self) -> str:
+        return f"{self.panel!r}\n{self.sheet!r}"
 
 
 def marked(table: Table, entries: Sequence[str]) -> list[str]:

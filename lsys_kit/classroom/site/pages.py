@@ -174,10 +174,18 @@ def _program(parts: Parts) -> Program | None:
     """What runs in a page with these parts; nothing, where it has none."""
     if not parts:
         return None
-    modes = [data["mode"] for part in parts for data in (part["data"], *part["data"].values())
-             if isinstance(data, dict) and "mode" in data]
+    modes = {*_modes(parts)}
     script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
     return Program(script, style() + style("lessons"), _with_books_once(parts))
+
+
+def _modes(data: Any) -> Iterator[str]:
+    """In which ways panels draw, somewhere in the data of parts."""
+    if isinstance(data, list):
+        for each in data:
+            yield from _modes(each)
+    elif isinstance(data, dict):
+        yield from [data["mode"]] if "mode" in data else (mode for each in data.values() for mode in _modes(each))
 
 
 def _with_books_once(parts: Parts) -> dict[str, Any]:

@@ -13,14 +13,14 @@ from lsys_kit.classroom.lessons.predict import Prediction
 from lsys_kit.classroom.lessons.rule_finder import RuleFinder
 from lsys_kit.classroom.lessons.settings import asked_settings
 from lsys_kit.classroom.lessons.vote import VoteBox
-from lsys_kit.classroom.lessons.worksheet import Worksheet
+from lsys_kit.classroom.lessons.worksheet import PanelWithWorksheet, Worksheet
 from lsys_kit.classroom.panel.comparison import Comparison
 from lsys_kit.classroom.panel.explorer import Explorer
 
 PART = "application/vnd.lsys-kit.page-part+json"
 """The media type of what a page has to know of a panel, a question or a table to open it: its kind, its data, its words."""
 KINDS: Mapping[type, str] = {Explorer: "panel", Comparison: "comparison", VoteBox: "vote", Prediction: "prediction",
-                             Worksheet: "worksheet", RuleFinder: "rules"}
+                             Worksheet: "worksheet", PanelWithWorksheet: "beside", RuleFinder: "rules"}
 """What the script of a page calls the widgets of the kit."""
 
 
@@ -41,14 +41,21 @@ def part(widget: Any, include: object = None, exclude: object = None, lesson: Le
     >>> part(worksheet("01", "counts"))[PART]["kind"]
     'worksheet'
     """
-    found = {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
+    found = _seen(widget, lesson)
     if isinstance(widget, Prediction):
         found["answer"] = dict(widget.answer)
     return {PART: found, "text/html": html({"text/plain": repr(widget)}), "text/plain": repr(widget)}
 
 
+def _seen(widget: Any, lesson: Lesson | None) -> dict[str, Any]:
+    """The kind and the data of a widget."""
+    return {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
+
+
 def _data(widget: Any, lesson: Lesson | None) -> Any:
     """The data of a widget; a panel's hold the settings that the lesson asks for."""
+    if isinstance(widget, PanelWithWorksheet):
+        return {"panel": _seen(widget.panel, lesson), "sheet": _data(widget.sheet, lesson)}
     if not isinstance(widget, Explorer | Comparison):
         return widget.page_data
     panels = [widget] if isinstance(widget, Explorer) else [widget.left, widget.right]

@@ -10,7 +10,7 @@ import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
 import { checked } from "./lessons/checking.js";
 
-const KINDS = { panel, comparison, vote, prediction, worksheet, rules, picture };
+const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules, picture };
 const NEAR = "50%"; // of a window's height: so near to it something is opened at once
 const MOST_BYTES = 100_000_000; // of a picture
 
@@ -97,6 +97,14 @@ function worksheet(place, data) {
   });
   place.replaceChildren();
   askForEntries({ model, el: place });
+}
+
+// A panel, and the table that is filled in from what it shows.
+async function beside(place, { panel: seen, sheet }, page) {
+  const [left, right] = [0, 1].map(() => document.createElement("div"));
+  place.replaceChildren(left, right);
+  worksheet(right, sheet);
+  await KINDS[seen.kind](left, seen.data, page);
 }
 
 function rules(place, found) {
