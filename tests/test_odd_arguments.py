@@ -75,6 +75,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "progress": lambda: (1,), "pnml": lambda: (stages(GROWING), None), "predict": lambda: ("How many?", "21"),
     "read": lambda: ("axiom: a", "abop", "x"), "read_map": lambda: ("map: A>A>",),
     "vote": lambda: ("01", False), "worksheet": lambda: ("01", "counts"),
+    "worksheet beside a panel": lambda: ("01", "counts", lsys_kit.explore(GROWING, 1)),
     "stages": lambda: (GROWING,), "system": lambda: ("J1",), "systems": tuple, "timed": lambda: (AGEING,),
     "ensemble": lambda: (GROWING, 2, "b"), "sweep": lambda: (GROWING, {"c": [1, 2]}, "b"), "plot": lambda: (GROWING, 2, "b"),
     "plot over time": lambda: (timed(AGEING), 2, "modules"), "plot a table": lambda: (ensemble(GROWING, 2),),

@@ -385,7 +385,7 @@ def _nothing_grows(*names: str) -> Mapping[str, str]:
 LEFT_OUT: Mapping[str, str] = {
     **_nothing_grows("book_systems", "cellwork_systems", "map_systems", "systems", "lsys-kit list", "ExerciseList.__repr__",
                      "lsys-kit site", "VoteBox.close", "VoteBox.page_data", "VoteBox.__repr__", "Worksheet.close",
-                     "Worksheet.entries",
+                     "Worksheet.entries", "PanelWithWorksheet.close", "PanelWithWorksheet.__repr__",
                      "Worksheet.page_data", "Worksheet.__repr__", "Progress.count", "Progress.state", "Progress.__repr__",
                      "Verdict.__repr__", "Practice.next", "Practice.__repr__", "Comparison.left", "Comparison.right",
                      "Comparison.shared"),
