@@ -172,6 +172,7 @@ def test_no_page_of_a_lesson_is_larger_than_a_photograph(site: Path) -> None:
 def test_a_printed_lesson_is_a_worksheet(opened: Callable[..., Page]) -> None:
     page = opened(LESSONS[1], reduced_motion="reduce")  # a tab of its own, which stays paper
     page.emulate_media(media="print")
+    all_parts_open(page)
     expect(page.locator(".lsys-side canvas[data-drawn]").first).to_be_visible()
     assert page.locator("button:visible:not(.lsys-option), input[type=range]:visible, details:not([open]):visible").count() == 0
     assert page.locator(".lsys-option:visible, td input:visible, .lsys-predict input:visible").count() > 10
