@@ -29,8 +29,8 @@ SYSTEMS: Mapping[str, tuple[tuple[str, str], ...]] = {
     "K34": (("L> -> D>[+e]x>[-e]D>", "L> -> D>[-e]x>[+e]D>"), ("steps: 4", "steps: 3"), ("D>D>D>D>", "D>D>")),
 }
 """Systems of every kind, each with slips and changes: what stands in its text, and what is typed in its place."""
-ACTS = {"K33": 5}
-"""How much is done in a panel whose cells take long to come to rest; in all others a dozen things are."""
+ACTS = {"K28": 7, "K33": 5}
+"""How much is done in panels whose cells take long to come to rest; in all others a dozen things are."""
 LONGEST = 0.4
 """Seconds between one action and the next."""
 SETTLED = """() => asked.filter((kind) => kind !== "save").length === answered.length"""

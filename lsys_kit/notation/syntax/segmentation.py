@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 from lsys_kit.notation.analysis.problems import problem
@@ -79,7 +80,7 @@ def segment_with_notes(system: LSystem) -> LSystem:
 def _words(system: LSystem) -> Iterator[tuple[str, list[str]]]:
     """The names that stay whole and may be meant otherwise, each with the symbols that it would be."""
     known = _known(system)
-    for name in dict.fromkeys(module.symbol for module in _divisible_modules(system)):
+    for name in _names(system):
         if name not in known.whole and len(name) > 1 and name.isascii() and name.isalpha():
             if ways := _ways(name, known.parts):
                 yield name, ways[0]
@@ -87,11 +88,17 @@ def _words(system: LSystem) -> Iterator[tuple[str, list[str]]]:
                 yield name, list(name)
 
 
+def _names(system: LSystem) -> Iterator[str]:
+    """The symbols that may be glued; behind "~" stands the name of a surface, which is none."""
+    modules = [Pattern(""), *_divisible_modules(system)]
+    yield from dict.fromkeys(module.symbol for before, module in pairwise(modules) if before.symbol != "~")
+
+
 def _numbered(system: LSystem) -> Iterator[tuple[str, str]]:
     """The names with digits in them that may be meant otherwise, in a system whose other symbols are single letters."""
     known = _known(system)
     if known.letters:
-        for name in dict.fromkeys(module.symbol for module in _divisible_modules(system)):
+        for name in _names(system):
             if name not in known.whole and (found := _NUMBERED.fullmatch(name)):
                 yield name, found[1] or found[2]
 
