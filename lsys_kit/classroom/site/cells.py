@@ -17,10 +17,11 @@ from lsys_kit.pictures.style.labels import escaped
 
 Parts = list[dict[str, Any]]
 """What the script of a page has to know of each of its panels, votes, predictions, tables and pictures, in their order."""
-_PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"')
-_SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 QUESTIONS = ("vote", "prediction", "worksheet", "beside")
 """Kinds of parts whose code would give away what they ask, and is folded."""
+_PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"')
+"""A picture that is worth being kept apart, and how large it is."""
+_SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 
 
 def cells_html(cells: list[Any], links: Links, parts: Parts) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import groupby, islice, pairwise
 
@@ -38,8 +39,10 @@ def slips(system: LSystem) -> Iterator[Problem]:
 
 def _unused_constants(system: LSystem) -> Iterator[Problem]:
     """The constants whose names stand nowhere else in the text; files beside a model of cpfg may use its macros."""
-    for constant in system.constants if system.notation not in ("cpfg", "mathematica") else ():
-        if len([*islice(re.finditer(rf"\b{constant.name}\b", system.source), 2)]) == 1:
+    constants = system.constants if system.notation not in ("cpfg", "mathematica") else ()
+    words = Counter(re.findall(r"\w+", system.source)) if constants else Counter()
+    for constant in constants:
+        if words[constant.name] == 1:
             angle = constant.name.lower() in _ANGLES and "angle" not in system.source
             yield Problem("angle used nowhere" if angle else "constant used nowhere", constant.at,
                           {"name": constant.name, "value": constant.value})
