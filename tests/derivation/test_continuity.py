@@ -142,12 +142,12 @@ def test_anabaena_with_linear_growth_has_a_jump_or_a_bend() -> None:
     """Two daughters that both grow as fast as their mother grow twice as fast together."""
     jumping = continuity(ANABAENA, {"ar al br bl": "1 + t"})
     assert jumps(jumping) == [0, 0, 1, 1]
-    assert str(jumping.divisions[2]) == "br(1) -> ar(0): 2 before, 1 after, a jump by -1"
+    assert str(jumping.divisions[2]) == "br(1) -> ar(0): 2 before, 1 after, a jump of -1"
     bent = continuity(ANABAENA, {"ar al": "2 + t", "br bl": "1 + t"}, 1)
     assert continuity(ANABAENA, {"ar al": "2 + t", "br bl": "1 + t"}).continuous
     assert not bent.continuous
     assert jumps(bent) == [0, 0, 0, 0, -1, -1, 0, 0]
-    assert str(bent.divisions[4]) == "ar(1) -> al(0)br(0): derivative 1: 1 before, 2 after, a jump by 1"
+    assert str(bent.divisions[4]) == "ar(1) -> al(0)br(0): derivative 1: 1 before, 2 after, a jump of 1"
 
 
 @pytest.mark.slow
@@ -369,7 +369,7 @@ ONE_OR_TWO = read("axiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 def test_a_letter_that_lives_for_ever_never_jumps() -> None:
     found = continuity(read("axiom: M(0)\nM(t) -> M(t+1)\nN(t) -> N(t+1)\ndecomposition:\nM(t) : t >= 3 -> N(t-3) N(t-2)"),
                        {"M N": "t + 1"})
-    assert str(found) == "M(t) : t >= 3 -> N(t - 3)N(t - 2): 4 before, 3 after, a jump by -1"
+    assert str(found) == "M(t) : t >= 3 -> N(t - 3)N(t - 2): 4 before, 3 after, a jump of -1"
 
 
 def test_each_division_says_whether_it_is_continuous() -> None:

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 MOST_CHARACTERS = 200
 """Longer entries are not looked at."""
-_NUMBER = re.compile(r"([+-]?\d{1,30}(?:\.\d{1,30})?)(?:/(\d{1,30}))?(%?)")
+_NUMBER = re.compile(r"([+-]?(?=\.?\d)\d{0,30}(?:\.\d{1,30})?)(?:/(\d{1,30}))?(%?)")
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d+)?")
-_DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 
 
 def number_of(text: str) -> Fraction | None:
@@ -34,6 +34,8 @@ def is_right(entry: str, right: Sequence[str], within: str = "0") -> bool:
     (True, True, True, True)
     >>> is_right("1.62", ["1.618"]), is_right("1.62", ["1.618"], within="0.01"), is_right("21 cells", ["21"])
     (False, True, False)
+    >>> is_right(".9", ["0.9"]), is_right(",9", ["0.9"])
+    (True, True)
     """
     if len(entry) > MOST_CHARACTERS:
         return False

@@ -200,8 +200,8 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     >>> round(float(found.solve("a")), 9)
     2.167303978
     >>> continuity(cells, {"L R": "1 + t"})
-    L(1) -> L(0)R(1/5): 2 before, 2.2 after, a jump by 0.2
-    R(1) -> L(1/5)R(0): 2 before, 2.2 after, a jump by 0.2
+    L(1) -> L(0)R(1/5): 2 before, 2.2 after, a jump of 0.2
+    R(1) -> L(1/5)R(0): 2 before, 2.2 after, a jump of 0.2
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MOST_ORDER:
         raise ModelValueError(f"The order of continuity is a whole number from 0 to {MOST_ORDER}, not {shown(order)}")

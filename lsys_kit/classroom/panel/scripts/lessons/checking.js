@@ -4,8 +4,8 @@
 import { plain } from "./prose.js";
 
 const MOST_CHARACTERS = 200; // longer entries are not looked at
-const NUMBER = /^([+-]?)(\d{1,30})(?:\.(\d{1,30}))?(?:\/(\d{1,30}))?(%?)$/;
-const THOUSANDS = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/, DECIMAL_COMMA = /^[+-]?\d+,\d+$/;
+const NUMBER = /^([+-]?)(?=\.?\d)(\d{0,30})(?:\.(\d{1,30}))?(?:\/(\d{1,30}))?(%?)$/;
+const THOUSANDS = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/, DECIMAL_COMMA = /^[+-]?\d*,\d+$/;
 const RIGHT = "right", NOT_YET = "not yet", MISSING = "not filled in yet";
 
 // What is said of each cell of a table, and of the whole.

@@ -56,12 +56,19 @@ export function differences({ book: one, step }, { book: other }) {
   for (let i = 0; i < Math.max(a.length, b.length); i++) if (textAt(one, a, i) !== textAt(other, b, i)) positions.add(i);
   const [first] = positions, { noun } = one.data, lengths = a.length === b.length ? `both words have ${counted(a.length, noun)}`
     : `the words have ${a.length.toLocaleString("en")} and ${counted(b.length, other.data.noun)}`;
-  const where = positions.size ? `they differ first at ${noun} ${first + 1}: ${textAt(one, a, first) ?? "none"} and ${textAt(other, b, first) ?? "none"}` : "they are equal";
+  const where = positions.size ? `they differ first at ${noun} ${first + 1}: ${shownAt([one, other], [a, b], first).join(" and ")}` : "they are equal";
   const drawings = positions.size && sameCells(one, other, a, b) ? "; cell by cell they are drawn alike" : "";
   return { positions, text: `Step ${step}: ${lengths}; ${where}${drawings}.` };
 }
 
 const textAt = (book, word, position) => (position < word.length ? book.label(word[position]).text : undefined);
+
+// Both modules at a place as the words show them; exactly, where those look alike.
+function shownAt(books, words, position) {
+  const labels = books.map((book, side) => (position < words[side].length ? book.label(words[side][position]) : null));
+  const shown = labels.map((label) => (label ? `${label.letter}${label.subscript}${label.values}` : "none"));
+  return shown[0] === shown[1] ? labels.map((label) => label?.text ?? "none") : shown;
+}
 
 function sameCells(one, other, a, b) {
   if (one.data.mode !== "filament" || other.data.mode !== "filament") return false;
