@@ -21,12 +21,11 @@ LABELS = (
     "page", "link", "code", "the line of Python that makes this panel as it stands", "copied", "copy it from here:",
     "kept as {name}", "rules of the model", "back to the first rules",
     "put back the rules with which the panel was opened",
-    "Plus and minus zoom, after a click the wheel too; arrows move it, Home puts it back.",
-    "Drag or arrow keys turn it. Plus and minus zoom, after a click the wheel too; Shift and arrows move it, Home puts it "
-    "back.",
-    "Point at a part or click it to trace it; N and P go to the next and the previous one.",
-    "Point at a wall or click it to trace it; N and P go to the next and the previous one.",
-    "Point at a cell or click it to trace it; N and P go to the next and the previous one.")
+    "+, − or, after a click, the wheel zooms; arrows move it, Home puts it back.",
+    "Drag or arrow keys turn it. +, − or, after a click, the wheel zooms; Shift and arrows move it, Home puts it back.",
+    "Point at a part or click it to trace it; N and P go to the next and previous one.",
+    "Point at a wall or click it to trace it; N and P go to the next and previous one.",
+    "Point at a cell or click it to trace it; N and P go to the next and previous one.")
 """What the scripts of the panel show by themselves."""
 
 

@@ -13,12 +13,12 @@ import { LONGEST_ARROW, paintForces } from "./tension.js";
 import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
 
-const IN_THE_PLANE = "Plus and minus zoom, after a click the wheel too; arrows move it, Home puts it back.";
-const IN_SPACE = "Drag or arrow keys turn it. Plus and minus zoom, after a click the wheel too; Shift and arrows move it, Home puts it back.";
-const CELL = "Point at a cell or click it to trace it; N and P go to the next and the previous one.";
+const IN_THE_PLANE = "+, − or, after a click, the wheel zooms; arrows move it, Home puts it back.";
+const IN_SPACE = "Drag or arrow keys turn it. +, − or, after a click, the wheel zooms; Shift and arrows move it, Home puts it back.";
+const CELL = "Point at a cell or click it to trace it; N and P go to the next and previous one.";
 const TRACED = {
-  plane: "Point at a part or click it to trace it; N and P go to the next and the previous one.",
-  map: "Point at a wall or click it to trace it; N and P go to the next and the previous one.", filament: CELL, tissue: CELL,
+  plane: "Point at a part or click it to trace it; N and P go to the next and previous one.",
+  map: "Point at a wall or click it to trace it; N and P go to the next and previous one.", filament: CELL, tissue: CELL,
 };
 
 const ROWS = 24; // of a developmental sequence
