@@ -132,6 +132,7 @@ def test_sliders_of_both_sides_are_chosen_at_once():
     assert [*both.left.settings] == [*both.right.settings] == ["dt"]
 
 
+@pytest.mark.slow
 def test_a_slider_of_both_sides_moves_both():
     both = compare("P5", "P6", step=4, sliders=["dt", "t_l"], shared="dt")
     both.left.settings = {"dt": "0.2"}
