@@ -201,6 +201,7 @@ def questions() -> Iterator[tuple[str, str, str]]:
                 yield from ((kind, name, each) for each in inspect.signature(getattr(result, name)).parameters)
 
 
+@pytest.mark.slow
 def test_every_result_is_asked() -> None:
     assert results().keys() - found_results().keys() <= {"Observation", "Sight"}, "those are what others are told by"
 
